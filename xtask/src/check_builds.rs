@@ -1,7 +1,7 @@
 //! `cargo xtask check-builds`: builds that `cargo test --workspace` does not try.
 //!
-//! In a build of the whole workspace, a crate has the features that any other crate asks for. It may therefore rest on a
-//! feature that its own manifest does not name. This command checks
+//! In a build of the whole workspace, a crate has the features that any other crate asks for. It may therefore rest
+//! on a feature that its own manifest does not name. This command checks
 //!
 //! - each crate alone: its library as another project gets it, and all its targets; with and without its features;
 //! - the code of the fuzz target, which is a workspace of its own;

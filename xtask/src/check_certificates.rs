@@ -1,7 +1,7 @@
 //! `cargo xtask check-certificates`: proves some theorems, and has a second program check their certificates.
 //!
-//! The second program is `generators/check_certificate.py`. It needs Python and python-flint from its package index. If they cannot be had,
-//! a line that begins with SKIPPED is printed.
+//! The second program is `generators/check_certificate.py`. It needs Python and python-flint from its package
+//! index. If they cannot be had, a line that begins with SKIPPED is printed.
 
 use crate::error::Error;
 use crate::python_environment::{environment_python, first_python, no_python};

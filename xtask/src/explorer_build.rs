@@ -15,9 +15,10 @@ pub(crate) const INSTALL: &str = "rustup target add wasm32-unknown-unknown";
 
 /// Flags of the compiler for the page's core.
 ///
-/// - simd128: two doubles at a time, for which a tile takes four fifths of the time. All browsers have had it since 2023.
-/// - inline-threshold: at the level of the profile the compiler inlines next to nothing. With 40 a tile takes four fifths of the time.
-///   With 30 it takes as long as with 40, and the core has 1 kB less.
+/// - simd128: two doubles at a time, for which a tile takes four fifths of the time. All browsers have had it since
+///   2023.
+/// - inline-threshold: at the level of the profile the compiler inlines next to nothing. With 40 a tile takes four
+///   fifths of the time. With 30 it takes as long as with 40, and the core has 1 kB less.
 /// - compress-relocations: numbers of functions as short as they are, 2 % of the bytes.
 const FLAGS: (&str, &str) = (
     "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS",

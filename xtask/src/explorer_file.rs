@@ -1,13 +1,15 @@
 //! The explorer as one file, which a browser opens without a server.
 //!
-//! A browser loads no modules and no WebAssembly from `file://`. So the file holds the texts of all modules and the core in base 64, and a
-//! small script makes addresses of them, each with the addresses of the modules that it imports in the place of their names.
+//! A browser loads no modules and no WebAssembly from `file://`. So the file holds the texts of all modules and the
+//! core in base 64, and a small script makes addresses of them, each with the addresses of the modules that it
+//! imports in the place of their names.
 
 use crate::error::Error;
 use std::fmt::Write;
 use std::path::Path;
 
-/// Makes a module of each text, then runs the first one. A worker of a file can be no module: it gets its two texts as one script.
+/// Makes a module of each text, then runs the first one. A worker of a file can be no module: it gets its two texts
+/// as one script.
 const LOADER: &str = r#"<script type="module">
 const texts = new Map([...document.querySelectorAll("script[data-name]")].map((part) => [part.dataset.name, part.textContent]));
 const plain = (name) => texts.get(name).replace(/^import .*$/gm, "").replace(/^export /gm, "");

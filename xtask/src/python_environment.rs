@@ -11,7 +11,8 @@ pub(crate) fn first_python() -> PathBuf {
     std::env::var_os("PYTHON").map_or_else(|| usual.into(), PathBuf::from)
 }
 
-/// The interpreter of the environment in `folder` with the packages of `list`, which is made unless an earlier run has made it.
+/// The interpreter of the environment in `folder` with the packages of `list`, which is made unless an earlier run
+/// has made it.
 ///
 /// A copy of the list of packages stands in the environment. It is written last: an installation that broke off has
 /// none, and a changed list makes a new environment.

@@ -53,7 +53,8 @@ fn letters_and_digits(text: &str) -> String {
     text.chars().filter_map(plain).collect()
 }
 
-/// The names before years, each with its place. The year is in parentheses, or a bracket, a comma or a semicolon follows.
+/// The names before years, each with its place. The year is in parentheses, or a bracket, a comma or a semicolon
+/// follows.
 fn citations(text: &str) -> Vec<(usize, &str, &str)> {
     let mut found = Vec::new();
     for (at, _) in text.match_indices(' ') {

@@ -1,8 +1,8 @@
 //! The links of the documentation lead to files and headings that exist.
 //!
-//! A link is `[text](target)` or `![text](target)`; a definition is `[name]: target`. A target is a path from the folder of
-//! its page, a heading as `#its-words`, or both. Targets outside the repository are checked for their form only. Paths of
-//! Rust items, such as `crate::Error`, are checked by rustdoc.
+//! A link is `[text](target)` or `![text](target)`; a definition is `[name]: target`. A target is a path from the
+//! folder of its page, a heading as `#its-words`, or both. Targets outside the repository are checked for their
+//! form only. Paths of Rust items, such as `crate::Error`, are checked by rustdoc.
 
 use super::breach::Breach;
 use super::sources::Source;
@@ -111,8 +111,8 @@ fn targets(line: &str) -> Vec<&str> {
     found
 }
 
-/// The anchors of a page's headings, as GitHub makes them: small letters, hyphens for spaces, no other signs than hyphens
-/// and underscores. A repeated heading gets a number.
+/// The anchors of a page's headings, as GitHub makes them: small letters, hyphens for spaces, no other signs than
+/// hyphens and underscores. A repeated heading gets a number.
 fn anchors(text: &str) -> Vec<String> {
     let mut fenced = false;
     let mut found: Vec<String> = Vec::new();

@@ -1,7 +1,7 @@
 //! Citations of `docs/theory.md` name statements that exist there.
 //!
-//! A citation is `theory.md, Lemma 5`, or a list such as `theory.md, Lemma 5, Theorem 7 and Corollary 9`. It may go on over
-//! the lines of a comment. A statement begins a line with `**Lemma 5`.
+//! A citation is `theory.md, Lemma 5`, or a list such as `theory.md, Lemma 5, Theorem 7 and Corollary 9`. It may go
+//! on over the lines of a comment. A statement begins a line with `**Lemma 5`.
 
 use super::breach::Breach;
 use super::one_line::OneLine;

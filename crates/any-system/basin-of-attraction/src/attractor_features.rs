@@ -1,9 +1,10 @@
 //! Attractors of maps and flows of several variables, found by features of their orbits.
 //!
-//! The idea is that of `AttractorsViaFeaturizing` of Attractors.jl (G. Datseris, A. Wagemakers, Chaos 32, 023104, 2022; M. Stender,
-//! N. Hoffmann, Nonlinear Dyn. 107, 671, 2022): a caller who knows what distinguishes the attractors makes numbers of a stretch of an orbit,
-//! and orbits with similar numbers have one attractor. Here no orbit is given to the nearest group: it belongs to a group if several
-//! successive stretches do, and a group is an attractor only if orbits beside it come to it.
+//! The idea is that of `AttractorsViaFeaturizing` of Attractors.jl (G. Datseris, A. Wagemakers, Chaos 32, 023104,
+//! 2022; M. Stender, N. Hoffmann, Nonlinear Dyn. 107, 671, 2022): a caller who knows what distinguishes the
+//! attractors makes numbers of a stretch of an orbit, and orbits with similar numbers have one attractor. Here no
+//! orbit is given to the nearest group: it belongs to a group if several successive stretches do, and a group is an
+//! attractor only if orbits beside it come to it.
 
 use crate::error::Error;
 use crate::feature_groups::{FeatureGroups, check_feature_count};
@@ -35,10 +36,12 @@ pub struct FeatureLimits {
 }
 
 impl FeatureLimits {
-    /// With a transient of 1000 steps, 3 successive stretches of 1000 steps out of 30 at most, groups of 4 orbits and 100 tests.
+    /// With a transient of 1000 steps, 3 successive stretches of 1000 steps out of 30 at most, groups of 4 orbits
+    /// and 100 tests.
     ///
-    /// Longer stretches narrow the features of chaotic attractors, so that a smaller radius separates them from others. `beside` is the
-    /// scale on which attractors are traps: an attractor whose basin ends within this distance is refused.
+    /// Longer stretches narrow the features of chaotic attractors, so that a smaller radius separates them from
+    /// others. `beside` is the scale on which attractors are traps: an attractor whose basin ends within this
+    /// distance is refused.
     pub fn new(radius: f64, beside: f64) -> Self {
         FeatureLimits {
             transient: 1000,
@@ -123,16 +126,18 @@ struct Beginning {
 impl FeatureAttractors {
     /// Searches attractors by the orbits of `starts`.
     ///
-    /// `map` is a step: a map, a return map, or a flow over some time; `None` if it has no value. `feature` makes numbers of the points of
-    /// a stretch, such as their mean: all attractors must differ in them by more than the radius, and on one of them they must vary in steps smaller than it.
+    /// `map` is a step: a map, a return map, or a flow over some time; `None` if it has no value. `feature` makes
+    /// numbers of the points of a stretch, such as their mean: all attractors must differ in them by more than the
+    /// radius, and on one of them they must vary in steps smaller than it.
     ///
-    /// 1. Every start is followed through the transient and [`agree`](FeatureLimits::agree) stretches. All features are grouped: see
-    ///    [`FeatureGroups`].
-    /// 2. A group is tested by orbits that start beside its states, at random. All must come to the group. So a slow passage that is left
-    ///    within the budget is no attractor, nor is the state between two basins. A part of the neighbourhood from which orbits leave is missed with
-    ///    n tests if it is smaller than 3/n, in 5 of 100 cases.
-    /// 3. A start belongs to the group in which its features are in `agree` successive stretches. A start that finds none within the budget is
-    ///    listed.
+    /// 1. Every start is followed through the transient and [`agree`](FeatureLimits::agree) stretches. All features
+    ///    are grouped: see [`FeatureGroups`].
+    /// 2. A group is tested by orbits that start beside its states, at random. All must come to the group. So a
+    ///    slow passage that is left within the budget is no attractor, nor is the state between two basins. A part
+    ///    of the neighbourhood from which orbits leave is missed with n tests if it is smaller than 3/n, in 5 of
+    ///    100 cases.
+    /// 3. A start belongs to the group in which its features are in `agree` successive stretches. A start that
+    ///    finds none within the budget is listed.
     ///
     /// A transient with the features of an attractor, for three stretches, is taken for it.
     ///
@@ -152,8 +157,9 @@ impl FeatureAttractors {
     ///
     /// # Errors
     /// [`Error::BadSearch`] for a radius or a distance that is not positive and finite, stretches without steps, and a budget that is too
-    /// small; [`Error::WrongDimension`] and [`Error::NoDimension`] for features of different lengths or none; [`Error::TooManySamples`] for more than 20 000 features, as many as starts times `agree`,
-    /// stretches of more than 10⁷ steps, a transient and a budget of more than 10⁹ steps together, and more than 10⁶ tests;
+    /// small; [`Error::WrongDimension`] and [`Error::NoDimension`] for features of different lengths or none;
+    /// [`Error::TooManySamples`] for more than 20 000 features, as many as starts times `agree`, stretches of more
+    /// than 10⁷ steps, a transient and a budget of more than 10⁹ steps together, and more than 10⁶ tests;
     /// [`Error::TooManyAttractors`] beyond 65 000.
     pub fn search(
         map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
@@ -250,7 +256,8 @@ impl FeatureAttractors {
         &self.unmatched
     }
 
-    /// The label of the attractor to which the orbit of a point comes; undecided if it comes to none of them within the budget.
+    /// The label of the attractor to which the orbit of a point comes; undecided if it comes to none of them within
+    /// the budget.
     ///
     /// No attractor is added, so that points can be labelled in parallel.
     pub fn label(

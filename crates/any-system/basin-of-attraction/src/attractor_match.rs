@@ -16,10 +16,10 @@ pub struct AttractorMatch {
 
 /// Matches attractors, given by some of their points, one to one.
 ///
-/// The distance of two attractors is that of Hausdorff: the largest distance from a point of either one to the nearest point of the
-/// other. The closest two attractors are matched first, then the closest two of the others, and so on, as far as they are not
-/// farther apart than `within`. The rest is reported. (`MatchBySSSetDistance` of Attractors.jl does the same; G. Datseris, K. Luiz
-/// Rossi, A. Wagemakers, Chaos 33, 073151, 2023.)
+/// The distance of two attractors is that of Hausdorff: the largest distance from a point of either one to the
+/// nearest point of the other. The closest two attractors are matched first, then the closest two of the others,
+/// and so on, as far as they are not farther apart than `within`. The rest is reported. (`MatchBySSSetDistance` of
+/// Attractors.jl does the same; G. Datseris, K. Luiz Rossi, A. Wagemakers, Chaos 33, 073151, 2023.)
 ///
 /// Attractors without points, of different dimensions, or with points that are not finite match none.
 ///

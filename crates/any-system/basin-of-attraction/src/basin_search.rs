@@ -13,13 +13,15 @@ use rayon::prelude::*;
 
 /// The basins of `traps` in `window`: the traps, their preimages, the preimages of these, and so on.
 ///
-/// A trap is an interval that no orbit leaves. An interval on which the map has no value may be given as a trap too,
-/// with a label of its own. [`check_trap`](crate::check_trap) tests every trap: see [`trap_grounds`](IntervalBasins::trap_grounds).
+/// A trap is an interval that no orbit leaves. An interval on which the map has no value may be given as a trap
+/// too, with a label of its own. [`check_trap`](crate::check_trap) tests every trap: see
+/// [`trap_grounds`](IntervalBasins::trap_grounds).
 ///
-/// `branches` must contain all monotone branches of the map in the window outside the traps. Where orbits leave
-/// the window and return, `branches` must also contain the branches outside it. [`check_branches`](crate::check_branches) tests those in the window at
-/// 1000 random points. The caller guarantees the rest. The ends of the intervals are located to one ulp of the computed map. An orbit enters a
-/// trap once, so that intervals of different levels are disjoint.
+/// `branches` must contain all monotone branches of the map in the window outside the traps. Where orbits leave the
+/// window and return, `branches` must also contain the branches outside it.
+/// [`check_branches`](crate::check_branches) tests those in the window at 1000 random points. The caller guarantees
+/// the rest. The ends of the intervals are located to one ulp of the computed map. An orbit enters a trap once, so
+/// that intervals of different levels are disjoint.
 ///
 /// ```
 /// use basin_of_attraction::{Branch, Interval, Label, Refinement, interval_basins};
@@ -53,8 +55,8 @@ pub fn interval_basins(
 
 /// The points that reach intervals of known label, as [`interval_basins`] finds them, without any test.
 ///
-/// The caller knows that all points of a `known` interval have its label, whatever their orbits do later, and that the branches
-/// are complete. A point has the label of the first known interval that its orbit enters.
+/// The caller knows that all points of a `known` interval have its label, whatever their orbits do later, and that
+/// the branches are complete. A point has the label of the first known interval that its orbit enters.
 ///
 /// ```
 /// use basin_of_attraction::{Branch, Interval, Label, Refinement, interval_basins_from_known};
@@ -155,8 +157,8 @@ pub fn interval_basins_from_known(
     Ok(IntervalBasins { window, parts, stop_reason, grounds: Vec::new() }.without_undecided())
 }
 
-/// Ulps of the window by which an end of a part may be wrong, with the rounding of sums of lengths: four ends of two neighbours, and
-/// as many sums. With fewer ulps long lists of parts could contradict one another by rounding.
+/// Ulps of the window by which an end of a part may be wrong, with the rounding of sums of lengths: four ends of
+/// two neighbours, and as many sums. With fewer ulps long lists of parts could contradict one another by rounding.
 const END_ULPS: f64 = 8.0;
 
 /// The parts from left to right, made disjoint.
@@ -231,7 +233,8 @@ mod tests {
             (Interval { left: 0.25f64.next_up(), right: 0.3 }, Label::from(2)),
         ];
         let window = Interval { left: -1.0, right: 1.0 };
-        // The second interval is no trap: orbits pass through it into the first. Its label is that of the orbits that enter it.
+        // The second interval is no trap: orbits pass through it into the first. Its label is that of the orbits
+        // that enter it.
         let limits = Refinement::default();
         assert!(matches!(
             interval_basins(&map, &traps, &branches, window, limits),

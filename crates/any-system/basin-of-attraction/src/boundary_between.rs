@@ -10,8 +10,9 @@ pub struct BoundaryBracket {
     pub first: (Vec<f64>, Label),
     /// A state of another basin, with its label.
     pub second: (Vec<f64>, Label),
-    /// A state between the two that belongs to no known basin, with its label. There the search ended: the boundary is in a part
-    /// that the labelling leaves undecided, and the two states are farther apart than was asked for. `None` as a rule.
+    /// A state between the two that belongs to no known basin, with its label. There the search ended: the boundary
+    /// is in a part that the labelling leaves undecided, and the two states are farther apart than was asked for.
+    /// `None` as a rule.
     pub undecided: Option<(Vec<f64>, Label)>,
 }
 
@@ -21,7 +22,8 @@ impl BoundaryBracket {
         distance(&self.first.0, &self.second.0)
     }
 
-    /// The middle of both states. A point of the boundary is on the line between them, at most half their distance from the middle.
+    /// The middle of both states. A point of the boundary is on the line between them, at most half their distance
+    /// from the middle.
     pub fn middle(&self) -> Vec<f64> {
         middle(&self.first.0, &self.second.0)
     }
@@ -43,9 +45,9 @@ pub(crate) fn check_point(point: &[f64]) -> Result<(), Error> {
 
 /// Two states of different basins, at most `precision` apart, on the line between two given states.
 ///
-/// The line is halved. If its middle belongs to a third basin, the half with the first state is kept, so that the second label changes.
-/// If the middle is undecided, or outside the region of interest, the search ends, and says so: nothing is guessed. Where
-/// `f64` has no number between the two states, they remain farther apart.
+/// The line is halved. If its middle belongs to a third basin, the half with the first state is kept, so that the
+/// second label changes. If the middle is undecided, or outside the region of interest, the search ends, and says
+/// so: nothing is guessed. Where `f64` has no number between the two states, they remain farther apart.
 ///
 /// ```
 /// use basin_of_attraction::{Label, boundary_between};
@@ -57,7 +59,8 @@ pub(crate) fn check_point(point: &[f64]) -> Result<(), Error> {
 ///
 /// # Errors
 /// [`Error::NotTwoBasins`] unless both states have the labels of two basins; [`Error::WrongDimension`] for states of different
-/// dimensions; [`Error::BadPoint`] for a coordinate that is not finite; [`Error::BadSearch`] unless `precision` is positive and finite.
+/// dimensions; [`Error::BadPoint`] for a coordinate that is not finite; [`Error::BadSearch`] unless `precision` is
+/// positive and finite.
 pub fn boundary_between(
     first: &[f64],
     second: &[f64],

@@ -56,12 +56,12 @@ pub struct BoundaryDistances {
 impl IntervalBasins {
     /// The distances of a state from the boundary of its basin; `None` if the state is undecided or outside the window.
     ///
-    /// Lower bounds count every undecided gap as boundary, and the ends of the window too. Upper bounds go to the next interval of
-    /// another basin. A gap of at most `resolution` between two intervals of the same basin is no boundary: it comes from
-    /// rounding.
+    /// Lower bounds count every undecided gap as boundary, and the ends of the window too. Upper bounds go to the
+    /// next interval of another basin. A gap of at most `resolution` between two intervals of the same basin is no
+    /// boundary: it comes from rounding.
     ///
-    /// A shock that is smaller than the nearest distance leaves the state in its basin (minimal fatal shock: L. Halekotte,
-    /// U. Feudel, Sci. Rep. 10, 11783, 2020).
+    /// A shock that is smaller than the nearest distance leaves the state in its basin (minimal fatal shock: L.
+    /// Halekotte, U. Feudel, Sci. Rep. 10, 11783, 2020).
     pub fn distance_to_boundary(&self, x: f64, resolution: f64) -> Option<BoundaryDistance> {
         let stretches = stretches(self, resolution);
         let at = stretches.partition_point(|stretch| stretch.interval.right < x);
@@ -69,7 +69,8 @@ impl IntervalBasins {
         own.map(|stretch| stretch.distance(x))
     }
 
-    /// The distances of all states of a basin from its boundary, as [`distance_to_boundary`](Self::distance_to_boundary) gives them for one.
+    /// The distances of all states of a basin from its boundary, as
+    /// [`distance_to_boundary`](Self::distance_to_boundary) gives them for one.
     ///
     /// ```
     /// use basin_of_attraction::{Branch, Interval, Label, Refinement, interval_basins_from_known};
@@ -128,8 +129,8 @@ impl BoundaryDistances {
         self.length
     }
 
-    /// The fraction of the basin within a distance of its boundary; `None` for a basin without an interval, and for a distance that is
-    /// negative or NaN.
+    /// The fraction of the basin within a distance of its boundary; `None` for a basin without an interval, and for
+    /// a distance that is negative or NaN.
     ///
     /// This is the fraction of states that some shock of this size takes out of the basin. The bounds are those of the
     /// distances, for the part of the basin that is known.
@@ -155,12 +156,13 @@ impl BoundaryDistances {
         })
     }
 
-    /// The state with the largest lower bound of the distance, and bounds on the largest distance in the basin; `None` for a basin
-    /// without an interval.
+    /// The state with the largest lower bound of the distance, and bounds on the largest distance in the basin;
+    /// `None` for a basin without an interval.
     pub fn largest(&self) -> Option<(f64, Bounds)> {
         let lower = |stretch: &Stretch| 0.5 * stretch.interval.length();
         let longest = self.stretches.iter().max_by(|a, b| lower(a).total_cmp(&lower(b)))?;
-        // The largest distance in a stretch is taken where both sides are equally far, or at the end that is nearer to this point.
+        // The largest distance in a stretch is taken where both sides are equally far, or at the end that is nearer
+        // to this point.
         let upper = |stretch: &Stretch| {
             let middle = 0.5 * stretch.other_below + 0.5 * stretch.other_above;
             let Interval { left, right } = stretch.interval;

@@ -19,8 +19,8 @@ pub struct BoxCount {
     pub mixed: u64,
     /// Number of boxes with at most one basin and an undecided part: they may be mixed.
     pub open: u64,
-    /// Number of the open boxes that contain one basin. If the undecided points are known to belong to no basin, as those of an
-    /// escape set do, these boxes contain a boundary: see [`with_rest`](Self::with_rest).
+    /// Number of the open boxes that contain one basin. If the undecided points are known to belong to no basin, as
+    /// those of an escape set do, these boxes contain a boundary: see [`with_rest`](Self::with_rest).
     pub half_open: u64,
     /// Sum of the entropies −Σ p ln p of the mixed boxes. The fractions p are of the decided part of the box.
     pub entropy: f64,
@@ -47,8 +47,8 @@ impl BoxCount {
 
     /// The number of boxes on a boundary between basins, or between a basin and the undecided rest.
     ///
-    /// For an escape set the rest is the set of the orbits that never escape. Where the rest has no area, its boxes at scale ε are
-    /// found by basins that are resolved to less than ε.
+    /// For an escape set the rest is the set of the orbits that never escape. Where the rest has no area, its boxes
+    /// at scale ε are found by basins that are resolved to less than ε.
     pub fn with_rest(&self) -> u64 {
         self.mixed + self.half_open
     }
@@ -60,8 +60,8 @@ impl BoxCount {
 
     /// The boundary entropy: the mean entropy over mixed boxes; `None` if no box is mixed.
     ///
-    /// If it exceeds ln 2, the boundary is fractal, provided that boxes of this size meet a smooth boundary in at most two
-    /// basins. The converse does not hold.
+    /// If it exceeds ln 2, the boundary is fractal, provided that boxes of this size meet a smooth boundary in at
+    /// most two basins. The converse does not hold.
     pub fn boundary_entropy(&self) -> Option<f64> {
         (self.mixed > 0).then(|| self.entropy / self.mixed as f64)
     }
@@ -166,12 +166,12 @@ impl LabelImage {
     /// Counts square boxes of `side` pixels, from the lower left corner. Boxes that reach beyond the image are left
     /// out. An image of one row or one column is a line: its boxes have `side` pixels.
     ///
-    /// Undecided pixels belong to no basin: a box with one basin and undecided pixels is open. Pixels outside the region of
-    /// interest do not count. A box without any other pixels is no box.
+    /// Undecided pixels belong to no basin: a box with one basin and undecided pixels is open. Pixels outside the
+    /// region of interest do not count. A box without any other pixels is no box.
     ///
     /// The slope of ln `mixed` against ln 1/`size` estimates the box dimension of the boundary. Some programs call
-    /// the dimension of the image less this slope the uncertainty exponent; [`uncertain_fraction`](crate::uncertain_fraction)
-    /// measures that exponent by perturbed starts.
+    /// the dimension of the image less this slope the uncertainty exponent;
+    /// [`uncertain_fraction`](crate::uncertain_fraction) measures that exponent by perturbed starts.
     ///
     /// # Errors
     /// [`Error::BadBoxSize`] for a side of 0, and for a side that exceeds the image; [`Error::BadImage`] as for

@@ -201,8 +201,8 @@ const SUSPECT_STEP: f64 = 4.0;
 /// smaller fraction would find lower jumps; it would also cut a branch where rounding is a larger part of a low step.
 const JUMP_FRACTION: f64 = 0.25;
 
-/// Most samples of a search for branches: 1.6 gigabytes of values. A count far above this is a mistake, and would end in a
-/// lack of memory.
+/// Most samples of a search for branches: 1.6 gigabytes of values. A count far above this is a mistake, and would
+/// end in a lack of memory.
 const MOST_SAMPLES: usize = 100_000_000;
 
 /// The monotone branches of `map` on `window`, as far as `samples` equally spaced points show them.

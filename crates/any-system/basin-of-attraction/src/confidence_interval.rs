@@ -5,9 +5,9 @@ use crate::error::Error;
 
 /// An estimate from a random sample, with an interval that is meant to contain the true number in 95 of 100 samples.
 ///
-/// The constructor states the assumptions, and how often the interval contains the number: counts are whole numbers, so that an
-/// interval of a proportion cannot do so in exactly 95 % of the samples. `docs/basins.md` has the measured share for every interval
-/// of this crate.
+/// The constructor states the assumptions, and how often the interval contains the number: counts are whole
+/// numbers, so that an interval of a proportion cannot do so in exactly 95 % of the samples. `docs/basins.md` has
+/// the measured share for every interval of this crate.
 ///
 /// For bounds that need no probability see [`Bounds`](crate::Bounds).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,8 +37,8 @@ pub(crate) const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// The proportion p of successes in independent trials, with Wilson's interval (1927).
 ///
-/// The interval stays inside [0, 1]. It contains p in about 95 % of the samples if about ten successes and ten failures or more are
-/// expected. For rarer successes it does so less often, at worst in 84 %, near p = 0.18/n:
+/// The interval stays inside [0, 1]. It contains p in about 95 % of the samples if about ten successes and ten
+/// failures or more are expected. For rarer successes it does so less often, at worst in 84 %, near p = 0.18/n:
 /// [`proportion_interval`] does not have this gap.
 ///
 /// ```
@@ -66,24 +66,25 @@ pub fn wilson_interval(successes: usize, trials: usize) -> Result<ConfidenceInte
     Ok(ConfidenceInterval { value: fraction, lower, upper })
 }
 
-/// From this number of trials on [`proportion_interval`] is no longer than Wilson's, and still contains p in at least 93 % of the
-/// samples, for every p. With fewer trials and that length it would be down to 92 %.
+/// From this number of trials on [`proportion_interval`] is no longer than Wilson's, and still contains p in at
+/// least 93 % of the samples, for every p. With fewer trials and that length it would be down to 92 %.
 pub(crate) const ENOUGH_TRIALS: usize = 100;
 
-/// The probability with which the number of successes may be at least the one found, if p is the lower end. 0.035 was chosen: from
-/// 0.025 to 0.05 the smallest coverage over p, for 100 to 800 trials, is largest with it.
+/// The probability with which the number of successes may be at least the one found, if p is the lower end. 0.035
+/// was chosen: from 0.025 to 0.05 the smallest coverage over p, for 100 to 800 trials, is largest with it.
 const RARE: f64 = 0.035;
 
 /// The proportion p of successes in independent trials, with an interval for rare successes too.
 ///
-/// This is Wilson's interval, moved towards fewer successes where its lower end is too high. Wilson's lower end for one success in n
-/// trials is 0.18/n; but for p just below it one success has the probability 0.16. Here the lower end is at most the p for which
-/// as many successes, or more, have the probability 0.035. For few failures it is the reverse. From 100 trials on the upper end
-/// moves as well, so that the interval is as long as Wilson's. For every p and every number of trials that was tried the interval
-/// contains p in at least 93 % of the samples: the tests sum the binomial distribution.
+/// This is Wilson's interval, moved towards fewer successes where its lower end is too high. Wilson's lower end for
+/// one success in n trials is 0.18/n; but for p just below it one success has the probability 0.16. Here the lower
+/// end is at most the p for which as many successes, or more, have the probability 0.035. For few failures it is
+/// the reverse. From 100 trials on the upper end moves as well, so that the interval is as long as Wilson's. For
+/// every p and every number of trials that was tried the interval contains p in at least 93 % of the samples: the
+/// tests sum the binomial distribution.
 ///
-/// The interval holds too if the trials have different probabilities with the mean p, as those of stratified points have (Hoeffding
-/// 1956: their number of successes lies farther from its mean less often).
+/// The interval holds too if the trials have different probabilities with the mean p, as those of stratified points
+/// have (Hoeffding 1956: their number of successes lies farther from its mean less often).
 ///
 /// ```
 /// let fraction = basin_of_attraction::proportion_interval(1, 1000)?;
@@ -107,11 +108,12 @@ pub fn proportion_interval(successes: usize, trials: usize) -> Result<Confidence
     })
 }
 
-/// From this number of successes on Wilson's lower end is below the other one, by a margin: the two meet at about 20. Beyond it the sum
-/// of the binomial distribution is not needed.
+/// From this number of successes on Wilson's lower end is below the other one, by a margin: the two meet at about
+/// 20. Beyond it the sum of the binomial distribution is not needed.
 const MANY_SUCCESSES: usize = 40;
 
-/// The smaller one of `wilson` and of the p for which at least `successes` of the trials succeed with the probability [`RARE`].
+/// The smaller one of `wilson` and of the p for which at least `successes` of the trials succeed with the
+/// probability [`RARE`].
 fn rare_end(successes: usize, trials: usize, wilson: f64) -> f64 {
     if successes == 0 || successes >= MANY_SUCCESSES || at_least(successes, trials, wilson) <= RARE
     {
@@ -151,7 +153,8 @@ pub fn student_interval(replicates: &[f64]) -> Result<ConfidenceInterval, Error>
     }
     check_point(replicates)?;
     let n = count as f64;
-    // In units of a power of two, so that no square that counts overflows or vanishes. The change of units rounds subnormal numbers alone.
+    // In units of a power of two, so that no square that counts overflows or vanishes. The change of units rounds
+    // subnormal numbers alone.
     let unit = power_of_two(replicates.iter().fold(0.0, |largest: f64, x| largest.max(x.abs())));
     let mean = replicates.iter().map(|x| x / unit).sum::<f64>() / n;
     let squares: f64 = replicates.iter().map(|x| (x / unit - mean) * (x / unit - mean)).sum();
@@ -219,8 +222,8 @@ mod tests {
         assert_eq!((opposite.lower, opposite.upper), (f64::NEG_INFINITY, f64::INFINITY));
     }
 
-    /// The smallest probability with which the interval contains p, over all p: it changes at the ends of intervals only, so that
-    /// both sides of each end are tried.
+    /// The smallest probability with which the interval contains p, over all p: it changes at the ends of intervals
+    /// only, so that both sides of each end are tried.
     fn smallest_coverage(
         interval: &dyn Fn(usize, usize) -> ConfidenceInterval,
         trials: usize,

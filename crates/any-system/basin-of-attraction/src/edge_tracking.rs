@@ -1,9 +1,9 @@
 //! Edge tracking: an orbit on the boundary between two basins, followed by pairs of states on its two sides.
 //!
-//! An orbit that starts beside the boundary leaves it. A pair of states, one in each basin, follows the boundary until its distance
-//! has grown; then it is bisected again, and so on. The pair approaches the attractor inside the boundary, the *edge state*,
-//! which is a saddle of the whole system (J. D. Skufca, J. A. Yorke, B. Eckhardt, Phys. Rev. Lett. 96, 174101, 2006; `edgetracking` of
-//! Attractors.jl).
+//! An orbit that starts beside the boundary leaves it. A pair of states, one in each basin, follows the boundary
+//! until its distance has grown; then it is bisected again, and so on. The pair approaches the attractor inside the
+//! boundary, the *edge state*, which is a saddle of the whole system (J. D. Skufca, J. A. Yorke, B. Eckhardt, Phys.
+//! Rev. Lett. 96, 174101, 2006; `edgetracking` of Attractors.jl).
 
 use crate::boundary_between::{BoundaryBracket, boundary_between, distance};
 use crate::error::Error;
@@ -16,7 +16,8 @@ pub struct EdgeLimits {
     pub bisect: f64,
     /// Distance at which the pair is bisected again.
     pub separate: f64,
-    /// Most steps between two bisections. More are needed where the boundary repels slowly, in proportion to ln(`separate`/`bisect`).
+    /// Most steps between two bisections. More are needed where the boundary repels slowly, in proportion to
+    /// ln(`separate`/`bisect`).
     pub steps: usize,
     /// Most bisections.
     pub rounds: usize,
@@ -25,9 +26,11 @@ pub struct EdgeLimits {
 }
 
 impl Default for EdgeLimits {
-    /// Bisects to 10⁻⁹ and again at 10⁻⁷, up to 10⁴ steps later and a thousand times, until the pair moves by less than 10⁻⁸.
+    /// Bisects to 10⁻⁹ and again at 10⁻⁷, up to 10⁴ steps later and a thousand times, until the pair moves by less
+    /// than 10⁻⁸.
     ///
-    /// The edge state is then right to about 10⁻⁷. Smaller distances come closer to it, down to the rounding of the map.
+    /// The edge state is then right to about 10⁻⁷. Smaller distances come closer to it, down to the rounding of the
+    /// map.
     fn default() -> Self {
         EdgeLimits { bisect: 1e-9, separate: 1e-7, steps: 10_000, rounds: 1000, still: 1e-8 }
     }
@@ -38,7 +41,8 @@ impl Default for EdgeLimits {
 pub enum EdgeEnd {
     /// The pair moves by less than [`EdgeLimits::still`]: it is at a fixed point of the steps.
     Settled,
-    /// All rounds were made, and the pair still moves: the edge state is a cycle or a chaotic set, or is approached slowly.
+    /// All rounds were made, and the pair still moves: the edge state is a cycle or a chaotic set, or is approached
+    /// slowly.
     Rounds,
     /// The pair did not separate in [`EdgeLimits::steps`] steps.
     Together,
@@ -77,8 +81,8 @@ pub struct EdgeTrack {
 /// ```
 ///
 /// # Errors
-/// Those of [`boundary_between`] for the two states; [`Error::BadSearch`] unless `bisect`, `separate` and `still` are positive and finite,
-/// and `separate` is larger than `bisect`.
+/// Those of [`boundary_between`] for the two states; [`Error::BadSearch`] unless `bisect`, `separate` and `still`
+/// are positive and finite, and `separate` is larger than `bisect`.
 pub fn track_edge(
     first: &[f64],
     second: &[f64],

@@ -1,16 +1,16 @@
-//! The minimal fatal shock of a state: the smallest displacement that takes it to another basin (L. Halekotte, U. Feudel, Sci. Rep.
-//! 10, 11783, 2020).
+//! The minimal fatal shock of a state: the smallest displacement that takes it to another basin (L. Halekotte, U.
+//! Feudel, Sci. Rep. 10, 11783, 2020).
 //!
 //! # The search
-//! Rays leave the state in many directions. On each the first state of another basin, among equally spaced ones, is bisected
-//! against the state before it. The shortest shocks are then improved: the direction is changed at random, and a shock in
-//! the new direction that is just shorter than the old one is tried. If it is fatal, it is shortened by bisection, and the changes
-//! become larger; else they become smaller. Half of all changes succeed far from a minimum, and fewer close to it, so that the
-//! changes shrink with the distance from it.
+//! Rays leave the state in many directions. On each the first state of another basin, among equally spaced ones, is
+//! bisected against the state before it. The shortest shocks are then improved: the direction is changed at random,
+//! and a shock in the new direction that is just shorter than the old one is tried. If it is fatal, it is shortened
+//! by bisection, and the changes become larger; else they become smaller. Half of all changes succeed far from a
+//! minimum, and fewer close to it, so that the changes shrink with the distance from it.
 //!
 //! # What the result is
-//! Every shock found is fatal: its end is a witness, and its size an upper bound. No number of labels gives a lower bound: between the
-//! rays, and in basins thinner than the spacing, a smaller one may be missed. On the line
+//! Every shock found is fatal: its end is a witness, and its size an upper bound. No number of labels gives a lower
+//! bound: between the rays, and in basins thinner than the spacing, a smaller one may be missed. On the line
 //! [`IntervalBasins::distance_to_boundary`](crate::IntervalBasins::distance_to_boundary) has both bounds.
 
 use crate::boundary_between::check_point;
@@ -40,8 +40,8 @@ pub struct ShockSearch {
 }
 
 impl ShockSearch {
-    /// 360 directions with 200 states each, up to shocks of size `farthest`; the 20 shortest shocks are improved by up to 2000 changes
-    /// each, to 10⁻¹⁰ of their size.
+    /// 360 directions with 200 states each, up to shocks of size `farthest`; the 20 shortest shocks are improved by
+    /// up to 2000 changes each, to 10⁻¹⁰ of their size.
     ///
     /// More directions and states find thinner parts of other basins. More changes come closer to the minimum of each.
     pub fn up_to(farthest: f64) -> ShockSearch {
@@ -87,9 +87,8 @@ struct Ray {
 ///
 /// # Errors
 /// [`Error::NoBasin`] for a state that is undecided or outside; [`Error::NoDimension`] and [`Error::BadPoint`] for a state without, or
-/// with bad coordinates; [`Error::BadSearch`] unless `farthest`, `directions`, `along` and `precision` are positive and finite;
-/// [`Error::TooManySamples`] for more than a billion states on the rays, or changes of all
-/// shocks.
+/// with bad coordinates; [`Error::BadSearch`] unless `farthest`, `directions`, `along` and `precision` are positive
+/// and finite; [`Error::TooManySamples`] for more than a billion states on the rays, or changes of all shocks.
 pub fn minimal_fatal_shock(
     state: &[f64],
     search: ShockSearch,
@@ -234,8 +233,9 @@ impl<L: Fn(&[f64]) -> Label> Probe<'_, L> {
 
     /// The shock after random changes of its direction, of the size `angle` at first.
     fn improved(&self, mut ray: Ray, angle: f64, changes: usize, random: &SplitMix64) -> Ray {
-        /// After a success the changes grow by this factor, and after four failures they are as large as before: so about one in
-        /// five succeeds (I. Rechenberg, Evolutionsstrategie, 1973). A factor closer to 1 would adapt more slowly.
+        /// After a success the changes grow by this factor, and after four failures they are as large as before: so
+        /// about one in five succeeds (I. Rechenberg, Evolutionsstrategie, 1973). A factor closer to 1 would adapt
+        /// more slowly.
         const GROWTH: f64 = 1.5;
         let shrink = pxfm::f_pow(GROWTH, -0.25);
         let mut step = angle;

@@ -20,7 +20,8 @@ pub struct TrapSet {
 }
 
 impl TrapSet {
-    /// Traps with their labels. The caller guarantees that orbits stay in them; [`check_trap`](crate::check_trap) tests it.
+    /// Traps with their labels. The caller guarantees that orbits stay in them; [`check_trap`](crate::check_trap)
+    /// tests it.
     ///
     /// # Errors
     /// [`Error::OverlappingTraps`] if two have a point in common; [`Error::BadInterval`] as for [`Interval::new`].

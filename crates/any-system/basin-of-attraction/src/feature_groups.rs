@@ -57,9 +57,10 @@ impl FeatureGroups {
 
     /// Groups dense vectors. Vector k comes from `orbits[k].0`.
     ///
-    /// A vector is dense if vectors of `fewest` orbits are within the radius of it, its own among them. Dense vectors within the radius of
-    /// one another are of one group. (DBSCAN of M. Ester et al., KDD 1996, without its other vectors, whose group may depend on their order.)
-    /// Groups are numbered from 1 in the order of their first orbits.
+    /// A vector is dense if vectors of `fewest` orbits are within the radius of it, its own among them. Dense
+    /// vectors within the radius of one another are of one group. (DBSCAN of M. Ester et al., KDD 1996, without its
+    /// other vectors, whose group may depend on their order.) Groups are numbered from 1 in the order of their
+    /// first orbits.
     pub(crate) fn by_density(
         vectors: &[(usize, Vec<f64>)],
         radius: f64,
@@ -131,8 +132,9 @@ impl FeatureGroups {
 
     /// The smallest distance of two vectors of different groups; `None` for fewer than two groups.
     ///
-    /// With groups by density it is larger than the radius. If it is less than twice the radius, there are features that are undecided because
-    /// they lie beside two groups; far more than that says that the radius is not what decides the groups.
+    /// With groups by density it is larger than the radius. If it is less than twice the radius, there are features
+    /// that are undecided because they lie beside two groups; far more than that says that the radius is not what
+    /// decides the groups.
     pub fn separation(&self) -> Option<f64> {
         let from = |(k, (label, vector)): (usize, &(Label, Vec<f64>))| {
             let others = self.vectors[k..].iter().filter(|other| other.0 != *label);

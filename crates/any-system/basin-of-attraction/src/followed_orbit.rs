@@ -1,30 +1,30 @@
 //! Where does an orbit end: at a known attractor, at a candidate for a new one, or nowhere?
 //!
-//! An orbit that visits only cells that it visited before has come to an attractor, or passes slowly. The difference shows itself
-//! later:
+//! An orbit that visits only cells that it visited before has come to an attractor, or passes slowly. The
+//! difference shows itself later:
 //!
 //! ```text
 //!   0 ──────────── pace ─────────────────────────── 6 · pace ─────────── 8.5 · pace ────────── 11 · pace
 //!     until it recurs        approach                    one quarter               another quarter
 //! ```
 //!
-//! It is followed ten times as long as it took to be found. It has settled if the cells of the last two quarters are the same. If
-//! not, it was a transient, and the search goes on from its end.
+//! It is followed ten times as long as it took to be found. It has settled if the cells of the last two quarters
+//! are the same. If not, it was a transient, and the search goes on from its end.
 
 use crate::known_cells::KnownCells;
 use crate::recurrence_limits::RecurrenceLimits;
 use crate::unmatched::{Border, UnmatchedReason};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// An orbit is followed so many times as long as it took to be found. A point that is
-/// approached by a factor of 1 − 10⁻⁴ a step has then come closer by e^−10. A larger number takes longer for each candidate.
+/// An orbit is followed so many times as long as it took to be found. A point that is approached by a factor of 1 −
+/// 10⁻⁴ a step has then come closer by e^−10. A larger number takes longer for each candidate.
 const CONFIRMED: usize = 10;
 
 /// Windows of these steps, to see a trend.
 const WINDOWS: usize = 8;
 
-/// The part of the steps of a quarter that must lie in cells of the other quarter. A chaotic attractor on a fine grid has cells that
-/// are visited once; of a transient hardly any cell is visited again.
+/// The part of the steps of a quarter that must lie in cells of the other quarter. A chaotic attractor on a fine
+/// grid has cells that are visited once; of a transient hardly any cell is visited again.
 const SHARED: f64 = 0.9;
 
 /// An orbit, with the steps since its start.
@@ -196,8 +196,8 @@ impl Orbit {
     }
 }
 
-/// How fast an orbit moves on from a point, a step: the mean change of the ends of stretches of so many steps, in the largest
-/// coordinate. NaN if it stops.
+/// How fast an orbit moves on from a point, a step: the mean change of the ends of stretches of so many steps, in
+/// the largest coordinate. NaN if it stops.
 pub(crate) fn drift(
     map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
     from: &[f64],

@@ -8,12 +8,14 @@ use crate::raster::LabelImage;
 use std::collections::BTreeMap;
 
 impl LabelImage {
-    /// The fraction of each basin, with a 95 % interval, as if the middles of the pixels were independent random points.
+    /// The fraction of each basin, with a 95 % interval, as if the middles of the pixels were independent random
+    /// points.
     ///
-    /// The fractions are of the pixels inside the region of interest. An undecided pixel may belong to any basin: the interval
-    /// begins at the lower end of [`proportion_interval`] without the undecided pixels, and ends at the upper end with all of them.
-    /// Pixels on a grid have smaller errors than random points where the basins are wider than pixels; the interval is then
-    /// wider than it need be. A basin that repeats with the period of the grid breaks the model.
+    /// The fractions are of the pixels inside the region of interest. An undecided pixel may belong to any basin:
+    /// the interval begins at the lower end of [`proportion_interval`] without the undecided pixels, and ends at
+    /// the upper end with all of them. Pixels on a grid have smaller errors than random points where the basins are
+    /// wider than pixels; the interval is then wider than it need be. A basin that repeats with the period of the
+    /// grid breaks the model.
     ///
     /// # Errors
     /// [`Error::BadImage`] as for [`check`](Self::check); [`Error::NothingInside`] if all pixels are outside the region of
@@ -28,13 +30,13 @@ impl LabelImage {
         counts.into_iter().map(fraction).collect()
     }
 
-    /// Bounds on the fraction of each basin, which hold if a square between the middles of four neighbouring pixels belongs
-    /// to one basin whenever these four do.
+    /// Bounds on the fraction of each basin, which hold if a square between the middles of four neighbouring pixels
+    /// belongs to one basin whenever these four do.
     ///
-    /// So the bounds are certain but for parts of basins that are thinner than a pixel. A square whose corners differ, or are
-    /// undecided, may belong to any basin, and so may the half pixels at the border of the image. The fractions are of the area
-    /// whose pixels are inside the region of interest; beside its border all is open. An image of one row or column has pairs of
-    /// neighbours in place of squares.
+    /// So the bounds are certain but for parts of basins that are thinner than a pixel. A square whose corners
+    /// differ, or are undecided, may belong to any basin, and so may the half pixels at the border of the image.
+    /// The fractions are of the area whose pixels are inside the region of interest; beside its border all is open.
+    /// An image of one row or column has pairs of neighbours in place of squares.
     ///
     /// ```
     /// use basin_of_attraction::{Grid, Interval, Label, raster};

@@ -16,7 +16,8 @@ pub struct LabelledInterval {
     pub interval: Interval,
     /// The label of the trap that its orbits enter.
     pub label: Label,
-    /// The number of steps after which the orbits enter the trap; `None` if it is not counted, or not the same for all of them.
+    /// The number of steps after which the orbits enter the trap; `None` if it is not counted, or not the same for
+    /// all of them.
     pub level: Option<usize>,
 }
 
@@ -37,8 +38,9 @@ pub(crate) fn total_length(parts: &[LabelledInterval]) -> f64 {
 }
 
 impl IntervalBasins {
-    /// Intervals that are known from elsewhere, without levels: disjoint, from left to right. Their parts outside the window are left
-    /// out, and so are intervals whose label is no basin. The reason tells why no more is known.
+    /// Intervals that are known from elsewhere, without levels: disjoint, from left to right. Their parts outside
+    /// the window are left out, and so are intervals whose label is no basin. The reason tells why no more is
+    /// known.
     ///
     /// ```
     /// use basin_of_attraction::{Interval, IntervalBasins, StopReason};
@@ -110,8 +112,8 @@ impl IntervalBasins {
         })
     }
 
-    /// The same intervals with other labels, such as their levels or the union of several basins. An interval whose new label is no
-    /// basin is undecided.
+    /// The same intervals with other labels, such as their levels or the union of several basins. An interval whose
+    /// new label is no basin is undecided.
     ///
     /// ```
     /// use basin_of_attraction::{Branch, Interval, Label, Refinement, interval_basins};
@@ -133,8 +135,8 @@ impl IntervalBasins {
         self.without_undecided()
     }
 
-    /// The result of the same search with these intervals, for a caller who knows more about them: narrower ones, some left out, or
-    /// with other levels.
+    /// The result of the same search with these intervals, for a caller who knows more about them: narrower ones,
+    /// some left out, or with other levels.
     ///
     /// # Errors
     /// [`Error::BadInterval`] for an interval that is reversed, not finite, outside the window, or not above the one before.
@@ -162,8 +164,8 @@ impl IntervalBasins {
     /// The same basins with another reason, for a caller who knows more about the branches than the search did.
     ///
     /// A search over sampled branches that is [`Resolved`](StopReason::Resolved) is
-    /// [`SampledBranches`](StopReason::SampledBranches) in truth; if points have other fates than their intervals, it is a
-    /// [`Contradiction`](StopReason::Contradiction).
+    /// [`SampledBranches`](StopReason::SampledBranches) in truth; if points have other fates than their intervals,
+    /// it is a [`Contradiction`](StopReason::Contradiction).
     #[must_use]
     pub fn with_stop_reason(self, stop_reason: StopReason) -> IntervalBasins {
         IntervalBasins { stop_reason, ..self }
@@ -239,8 +241,8 @@ impl IntervalBasins {
         Bounds { lower: (resolved - rounding).max(0.0), upper }
     }
 
-    /// Bound on the rounding of a length of intervals: one ulp of the window's larger end for each of the two ends of every interval, and one for
-    /// the sum.
+    /// Bound on the rounding of a length of intervals: one ulp of the window's larger end for each of the two ends
+    /// of every interval, and one for the sum.
     pub fn rounding(&self) -> f64 {
         let ulp = f64::EPSILON * self.window.left.abs().max(self.window.right.abs());
         3.0 * self.parts.len().max(1) as f64 * ulp

@@ -6,15 +6,16 @@ use crate::state_grid::StateGrid;
 use crate::unmatched::Border;
 use std::collections::BTreeMap;
 
-/// Finer grids than that of the caller. An attractor that comes within a cell or two of the boundary of its basin is no trap at the
-/// scale of the first grid, and is one at the scale of a finer one. With four of them, up to 16 times as many cells, Hénon's
-/// attractor is found from 20 cells a side on. Each costs the tests of a candidate that is refused on all coarser ones.
+/// Finer grids than that of the caller. An attractor that comes within a cell or two of the boundary of its basin
+/// is no trap at the scale of the first grid, and is one at the scale of a finer one. With four of them, up to 16
+/// times as many cells, Hénon's attractor is found from 20 cells a side on. Each costs the tests of a candidate
+/// that is refused on all coarser ones.
 const FINER: u32 = 4;
 
 /// Grids of n, 2n + 1, 4n + 3, … cells a side, and for each the attractors that own cells.
 ///
-/// The odd numbers matter: cells of n and of 2n share their corners, and a fixed point on a corner belongs to one of four cells,
-/// which orbits in the others never enter.
+/// The odd numbers matter: cells of n and of 2n share their corners, and a fixed point on a corner belongs to one
+/// of four cells, which orbits in the others never enter.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct KnownCells {
     grids: Vec<StateGrid>,

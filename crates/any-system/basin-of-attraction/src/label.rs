@@ -12,8 +12,9 @@ use std::fmt;
 ///   outside       the point is outside the region of interest; no tool of this crate counts it at all
 /// ```
 ///
-/// A label takes two bytes. In files it is its [`code`](Self::code): basin n has the code n; 65535, 65533 and 65532 are undecided,
-/// for three reasons; 65530 is outside, and 65529 escaped. The other codes above 65529 are free for basins.
+/// A label takes two bytes. In files it is its [`code`](Self::code): basin n has the code n; 65535, 65533 and 65532
+/// are undecided, for three reasons; 65530 is outside, and 65529 escaped. The other codes above 65529 are free for
+/// basins.
 ///
 /// ```
 /// use basin_of_attraction::Label;
@@ -36,13 +37,14 @@ impl Label {
     /// The point is outside the region of interest.
     pub const OUTSIDE: Label = Label(u16::MAX - 5);
 
-    /// The orbit leaves for good. Boundaries, fractions and entropies count it as a fate of its own; it has no number of a basin.
+    /// The orbit leaves for good. Boundaries, fractions and entropies count it as a fate of its own; it has no
+    /// number of a basin.
     pub const ESCAPED: Label = Label(u16::MAX - 6);
 
     /// Basin `number`; `None` for the five codes that are no basins: 65529, 65530, 65532, 65533 and 65535.
     ///
-    /// Numbers up to 255 need no `Option`: `Label::from(3)`, and `Label::from(x > 0.0)` for 0 and 1. For larger constants
-    /// see [`numbered`](Self::numbered).
+    /// Numbers up to 255 need no `Option`: `Label::from(3)`, and `Label::from(x > 0.0)` for 0 and 1. For larger
+    /// constants see [`numbered`](Self::numbered).
     pub const fn basin(number: u16) -> Option<Label> {
         let label = Label(number);
         if label.basin_number().is_some() { Some(label) } else { None }

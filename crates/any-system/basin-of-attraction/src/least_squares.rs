@@ -17,11 +17,11 @@ pub(crate) fn fit_line(points: &[(f64, f64)]) -> FittedLine {
     FittedLine { slope, squared_residuals: points.iter().map(|p| residual(p) * residual(p)).sum() }
 }
 
-/// The coefficients c of the slope Σ c y of the line with the least Σ w (y − a − bx)²: c = w (x − x̄)/Σ w (x − x̄)², where x̄ is the
-/// weighted mean.
+/// The coefficients c of the slope Σ c y of the line with the least Σ w (y − a − bx)²: c = w (x − x̄)/Σ w (x −
+/// x̄)², where x̄ is the weighted mean.
 ///
-/// Σ c = 0 and Σ c x = 1, so that a straight line has its own slope for every choice of weights. At least two different x must
-/// have a weight above 0, or the coefficients are NaN.
+/// Σ c = 0 and Σ c x = 1, so that a straight line has its own slope for every choice of weights. At least two
+/// different x must have a weight above 0, or the coefficients are NaN.
 pub(crate) fn slope_coefficients(places: &[f64], weights: &[f64]) -> Vec<f64> {
     let points = || places.iter().zip(weights);
     let mean = points().map(|(x, w)| w * x).sum::<f64>() / weights.iter().sum::<f64>();

@@ -57,8 +57,9 @@
 //! ```
 //!
 //! # Accuracy
-//! Intervals given as traps, and branches, are tested by images or at random points; what the points miss is the caller's. The ends of preimages are located to
-//! one ulp of the computed map. The same input gives the same labels with any number of threads.
+//! Intervals given as traps, and branches, are tested by images or at random points; what the points miss is the
+//! caller's. The ends of preimages are located to one ulp of the computed map. The same input gives the same labels
+//! with any number of threads.
 //!
 //! A slope between two scales is not a dimension. [`PowerLaw`] has all local slopes, and no interval if they drift.
 //!
@@ -68,18 +69,18 @@
 //! - Lower bounds on distances from a boundary in more than one dimension.
 //!
 //! # References
-//! C. Grebogi, S. W. McDonald, E. Ott, J. A. Yorke, Phys. Lett. A 99, 415 (1983), uncertainty exponent;
-//! A. Daza et al., Sci. Rep. 6, 31416 (2016), basin entropy; A. Puy, A. Daza, A. Wagemakers, M. A. F. Sanjuán, Commun. Nonlinear
-//! Sci. Numer. Simul. 95, 105588 (2021), entropy of balls on a smooth boundary; A. Daza, A. Wagemakers, M. A. F. Sanjuán,
-//! Sci. Rep. 8, 9954 (2018), Wada by merging; E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927), intervals of
-//! proportions; W. Hoeffding, Ann. Math. Stat. 27, 713 (1956), successes with different probabilities; T. Gasser,
-//! L. Sroka, C. Jennen-Steinmetz, Biometrika 73, 625 (1986), variance from differences; G. L. Steele, D. Lea, C. H. Flood,
-//! OOPSLA 2014, SplitMix64; G. Datseris, A. Wagemakers, Chaos 32, 023104 (2022), attractors by recurrences and by features;
-//! M. Ester, H.-P. Kriegel, J. Sander, X. Xu, KDD 1996, 226, groups by density; G. Datseris, K. Luiz
-//! Rossi, A. Wagemakers, Chaos 33, 073151 (2023), fractions along a parameter; B. Kaszás, U. Feudel, T. Tél, Sci. Rep. 9, 8654
-//! (2019), tipping; L. Halekotte, U. Feudel, Sci. Rep. 10, 11783 (2020), minimal fatal shocks; J. D. Skufca, J. A. Yorke,
-//! B. Eckhardt, Phys. Rev. Lett. 96, 174101 (2006), edge tracking; P. J. Menck, J. Heitzig, N. Marwan, J. Kurths, Nat. Phys. 9, 89
-//! (2013), basin stability.
+//! C. Grebogi, S. W. McDonald, E. Ott, J. A. Yorke, Phys. Lett. A 99, 415 (1983), uncertainty exponent; A. Daza et
+//! al., Sci. Rep. 6, 31416 (2016), basin entropy; A. Puy, A. Daza, A. Wagemakers, M. A. F. Sanjuán, Commun.
+//! Nonlinear Sci. Numer. Simul. 95, 105588 (2021), entropy of balls on a smooth boundary; A. Daza, A. Wagemakers,
+//! M. A. F. Sanjuán, Sci. Rep. 8, 9954 (2018), Wada by merging; E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927),
+//! intervals of proportions; W. Hoeffding, Ann. Math. Stat. 27, 713 (1956), successes with different probabilities;
+//! T. Gasser, L. Sroka, C. Jennen-Steinmetz, Biometrika 73, 625 (1986), variance from differences; G. L. Steele, D.
+//! Lea, C. H. Flood, OOPSLA 2014, SplitMix64; G. Datseris, A. Wagemakers, Chaos 32, 023104 (2022), attractors by
+//! recurrences and by features; M. Ester, H.-P. Kriegel, J. Sander, X. Xu, KDD 1996, 226, groups by density; G.
+//! Datseris, K. Luiz Rossi, A. Wagemakers, Chaos 33, 073151 (2023), fractions along a parameter; B. Kaszás, U.
+//! Feudel, T. Tél, Sci. Rep. 9, 8654 (2019), tipping; L. Halekotte, U. Feudel, Sci. Rep. 10, 11783 (2020), minimal
+//! fatal shocks; J. D. Skufca, J. A. Yorke, B. Eckhardt, Phys. Rev. Lett. 96, 174101 (2006), edge tracking; P. J.
+//! Menck, J. Heitzig, N. Marwan, J. Kurths, Nat. Phys. 9, 89 (2013), basin stability.
 
 mod attractor_features;
 mod attractor_match;

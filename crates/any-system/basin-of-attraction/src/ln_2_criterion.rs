@@ -1,15 +1,16 @@
 //! The ln 2 criterion of fractal boundaries, with its condition.
 //!
-//! A. Daza et al. (2016): if each box on a smooth boundary meets at most two basins, its entropy is at most ln 2, and so is the boundary
-//! entropy. Boxes with three basins lie at points where three basins meet. On a smooth boundary in the plane there are finitely many
-//! such points, while the number of boxes on the boundary grows like 1/ε: for small boxes the mean stays below ln 2. A boundary entropy
-//! above ln 2 shows a fractal boundary *for boxes so small that this condition holds*. One size of boxes does not tell whether
-//! it does: smooth stripes of four labels, two pixels wide, have the entropy ln 4 in all boxes that are a multiple of eight pixels.
+//! A. Daza et al. (2016): if each box on a smooth boundary meets at most two basins, its entropy is at most ln 2,
+//! and so is the boundary entropy. Boxes with three basins lie at points where three basins meet. On a smooth
+//! boundary in the plane there are finitely many such points, while the number of boxes on the boundary grows like
+//! 1/ε: for small boxes the mean stays below ln 2. A boundary entropy above ln 2 shows a fractal boundary *for
+//! boxes so small that this condition holds*. One size of boxes does not tell whether it does: smooth stripes of
+//! four labels, two pixels wide, have the entropy ln 4 in all boxes that are a multiple of eight pixels.
 //!
-//! On an image the condition can be tested down to the pixels. If the boundary is smooth at any resolved scale, boxes at this scale have two
-//! basins, and their entropy is at most ln 2. So the criterion asks for more than ln 2 at every size from two pixels on. Few fractal
-//! boundaries reach this, because boxes of two pixels have four points only:
-//! [`ball_entropy`](crate::ball_entropy) is the more sensitive test.
+//! On an image the condition can be tested down to the pixels. If the boundary is smooth at any resolved scale,
+//! boxes at this scale have two basins, and their entropy is at most ln 2. So the criterion asks for more than ln 2
+//! at every size from two pixels on. Few fractal boundaries reach this, because boxes of two pixels have four
+//! points only: [`ball_entropy`](crate::ball_entropy) is the more sensitive test.
 
 use crate::error::Error;
 use crate::raster::LabelImage;
@@ -17,16 +18,16 @@ use crate::raster::LabelImage;
 /// The answer of the ln 2 criterion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ln2Criterion {
-    /// The boundary entropy exceeds ln 2 at every size of boxes from two pixels to `largest` pixels: at these scales the boundary is
-    /// fractal.
+    /// The boundary entropy exceeds ln 2 at every size of boxes from two pixels to `largest` pixels: at these
+    /// scales the boundary is fractal.
     Fractal {
         /// The smallest boundary entropy.
         smallest_entropy: f64,
         /// The largest side of a box, in pixels.
         largest: usize,
     },
-    /// The boundary entropy is at most ln 2 at this size. The boundary may be smooth at the scale of these boxes; it may be fractal
-    /// all the same, because the criterion is sufficient, not necessary.
+    /// The boundary entropy is at most ln 2 at this size. The boundary may be smooth at the scale of these boxes;
+    /// it may be fractal all the same, because the criterion is sufficient, not necessary.
     NotShown {
         /// The smallest such side, in pixels.
         side: usize,
@@ -35,8 +36,8 @@ pub enum Ln2Criterion {
     },
 }
 
-/// Boxes are doubled as long as this number of them fits along the shorter side of the image: 64 boxes or more, so that their mean
-/// is not one of a few.
+/// Boxes are doubled as long as this number of them fits along the shorter side of the image: 64 boxes or more, so
+/// that their mean is not one of a few.
 const BOXES_ALONG_SIDE: usize = 8;
 
 /// An entropy above ln 2 by less than this may be the rounding of the sum over up to 2³² boxes.

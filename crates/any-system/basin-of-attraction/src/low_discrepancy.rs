@@ -1,9 +1,10 @@
 //! Basin fractions from one random point in each of equal parts of the window.
 //!
 //! # The points
-//! The window is divided into N equal cells, and each cell gets one uniform point. The star discrepancy of these points is at most
-//! 1/N. Let p_i be the fraction of cell i that belongs to a basin, and x_i = 1 if its point does, else 0. Then Σ x_i has the mean
-//! N p and the variance V = Σ p_i (1 − p_i): only cells with a boundary contribute, at most ¼ each.
+//! The window is divided into N equal cells, and each cell gets one uniform point. The star discrepancy of these
+//! points is at most 1/N. Let p_i be the fraction of cell i that belongs to a basin, and x_i = 1 if its point does,
+//! else 0. Then Σ x_i has the mean N p and the variance V = Σ p_i (1 − p_i): only cells with a boundary contribute,
+//! at most ¼ each.
 //!
 //! # The variance
 //! It is estimated from second differences along the window (Gasser, Sroka, Jennen-Steinmetz 1986),
@@ -12,25 +13,25 @@
 //!   V̂ = ⅔ Σ (x_i − ½ x_{i−1} − ½ x_{i+1})²      mean: V + ⅔ Σ (p_i − ½ p_{i−1} − ½ p_{i+1})² ≥ V
 //! ```
 //!
-//! where the first and the last cell are neighbours. So V̂ is never too small in the mean, for any basin: a single boundary adds ⅓,
-//! and its true variance is at most ¼; a structure finer than the cells adds what it has.
+//! where the first and the last cell are neighbours. So V̂ is never too small in the mean, for any basin: a single
+//! boundary adds ⅓, and its true variance is at most ¼; a structure finer than the cells adds what it has.
 //!
 //! # The interval
-//! V̂ may miss parts of a basin that no point has met. A part of measure δ/N, in units of cells δ, adds at most δ to V. So the true
-//! N p is at a distance d from Σ x_i with d² ≤ z² (V̂ + d), that is
+//! V̂ may miss parts of a basin that no point has met. A part of measure δ/N, in units of cells δ, adds at most δ
+//! to V. So the true N p is at a distance d from Σ x_i with d² ≤ z² (V̂ + d), that is
 //!
 //! ```text
 //!   d = z²/2 + z √(V̂ + z²/4)          z = 1.96
 //! ```
 //!
 //! This is Wilson's argument with V̂ in place of N p (1 − p). The interval is cut to that of
-//! [`proportion_interval`](crate::proportion_interval), which holds too: Σ x_i is closer to its mean than a binomial number is
-//! (Hoeffding 1956).
+//! [`proportion_interval`](crate::proportion_interval), which holds too: Σ x_i is closer to its mean than a
+//! binomial number is (Hoeffding 1956).
 //!
 //! # What was tried
-//! A golden rotation with random starts, and Student's interval over the rotations. The number of its points in an interval takes
-//! three values at most, so that replicates agree by chance: for 610 × 8 points the interval covered in 77 % of the trials, for 500 × 2
-//! in 55 %.
+//! A golden rotation with random starts, and Student's interval over the rotations. The number of its points in an
+//! interval takes three values at most, so that replicates agree by chance: for 610 × 8 points the interval covered
+//! in 77 % of the trials, for 500 × 2 in 55 %.
 
 use crate::confidence_interval::{
     ConfidenceInterval, ENOUGH_TRIALS, NORMAL_QUANTILE, proportion_interval,
@@ -42,14 +43,16 @@ use crate::sampling::{check_count, check_window, labels, tally};
 use crate::split_mix::SplitMix64;
 use std::collections::BTreeMap;
 
-/// The basin fractions among `count` points, one at random in each of `count` equal parts of the window, with 95 % intervals.
+/// The basin fractions among `count` points, one at random in each of `count` equal parts of the window, with 95 %
+/// intervals.
 ///
-/// For basins of K intervals the error is about √(K/6)/`count`; that of independent points falls like 1/√`count`. The intervals
-/// contain the fraction in at least 93 % of the samples, for basins of any structure, and in nearly all samples for basins of few
-/// intervals. No interval is longer than Wilson's for as many points, and none has length 0.
+/// For basins of K intervals the error is about √(K/6)/`count`; that of independent points falls like 1/√`count`.
+/// The intervals contain the fraction in at least 93 % of the samples, for basins of any structure, and in nearly
+/// all samples for basins of few intervals. No interval is longer than Wilson's for as many points, and none has
+/// length 0.
 ///
-/// The same seed gives the same points, with any number of threads. A label without points is not in the result: its fraction is
-/// [`proportion_interval`]`(0, count)`.
+/// The same seed gives the same points, with any number of threads. A label without points is not in the result:
+/// its fraction is [`proportion_interval`]`(0, count)`.
 ///
 /// ```
 /// use basin_of_attraction::{Interval, Label, low_discrepancy_fractions};
@@ -71,7 +74,8 @@ pub fn low_discrepancy_fractions(
     stratified_fractions(&labels(count, |k| points[k], label))
 }
 
-/// One random point in each of `count` equal parts of the window, from left to right: those of [`low_discrepancy_fractions`].
+/// One random point in each of `count` equal parts of the window, from left to right: those of
+/// [`low_discrepancy_fractions`].
 ///
 /// For labels that are found faster together than one by one.
 ///
@@ -91,7 +95,8 @@ pub fn stratified_points(window: Interval, count: usize, seed: u64) -> Result<Ve
     Ok((0..count).map(at).collect())
 }
 
-/// The basin fractions from the labels of [`stratified_points`], in their order, as [`low_discrepancy_fractions`] gives them.
+/// The basin fractions from the labels of [`stratified_points`], in their order, as [`low_discrepancy_fractions`]
+/// gives them.
 ///
 /// Undecided points may belong to any basin: they raise the upper end of each.
 ///
@@ -117,8 +122,8 @@ pub fn stratified_fractions(
         if undecided == 0 || !label.is_basin() {
             return Ok((label, own));
         }
-        // A sum of n squared differences of sums of m numbers is at most m times the sum of their squares: here two kinds of undecided
-        // labels beside the own one are three at most, and four with the third kind.
+        // A sum of n squared differences of sums of m numbers is at most m times the sum of their squares: here two
+        // kinds of undecided labels beside the own one are three at most, and four with the third kind.
         let all = interval(found + undecided, count, 4.0 * (variance + their_variance))?;
         Ok((label, ConfidenceInterval { upper: all.upper, ..own }))
     };

@@ -8,11 +8,12 @@ use crate::label::Label;
 
 /// The share of every basin in each pixel of a line, with bounds.
 ///
-/// A window of the line is divided into pixels of equal length. The share of a basin in a pixel is the length of the basin there over
-/// the length of the pixel. So a basin thinner than a pixel is seen as what it is, and a pixel is no sample of one point.
+/// A window of the line is divided into pixels of equal length. The share of a basin in a pixel is the length of
+/// the basin there over the length of the pixel. So a basin thinner than a pixel is seen as what it is, and a pixel
+/// is no sample of one point.
 ///
-/// A point that lies in none of the given intervals is undecided. The lower bound of a share counts the intervals of the basin; the
-/// upper bound adds all that is undecided in the pixel. The bounds hold as the intervals do.
+/// A point that lies in none of the given intervals is undecided. The lower bound of a share counts the intervals
+/// of the basin; the upper bound adds all that is undecided in the pixel. The bounds hold as the intervals do.
 ///
 /// ```
 /// use basin_of_attraction::{Interval, Label, PixelShares};
@@ -36,8 +37,8 @@ pub struct PixelShares {
 }
 
 impl PixelShares {
-    /// The shares in `pixels` equal parts of `window`, from disjoint intervals in increasing order. What lies outside the window does
-    /// not count; an interval whose label is no basin is undecided.
+    /// The shares in `pixels` equal parts of `window`, from disjoint intervals in increasing order. What lies
+    /// outside the window does not count; an interval whose label is no basin is undecided.
     ///
     /// # Errors
     /// [`Error::BadPixels`] as for [`edges`](Self::edges); [`Error::UnsortedIntervals`] for intervals that overlap, or are not in
@@ -84,7 +85,8 @@ impl PixelShares {
         Ok(PixelShares { labels, certain, undecided })
     }
 
-    /// The ends of the pixels: one number more than pixels, increasing. The first and the last are the ends of the window.
+    /// The ends of the pixels: one number more than pixels, increasing. The first and the last are the ends of the
+    /// window.
     ///
     /// # Errors
     /// [`Error::BadPixels`] for no pixels, for more than 2²⁶, and for a window so narrow that two ends are the same `f64`;
@@ -111,8 +113,8 @@ impl PixelShares {
         self.undecided.len()
     }
 
-    /// Bounds on the share of a basin in a pixel, counted from the left end of the window. Beyond the last pixel nothing is known: the
-    /// bounds are 0 and 1.
+    /// Bounds on the share of a basin in a pixel, counted from the left end of the window. Beyond the last pixel
+    /// nothing is known: the bounds are 0 and 1.
     pub fn of(&self, label: Label, pixel: usize) -> Bounds {
         let lower = match (self.certain(pixel), self.labels.binary_search(&label)) {
             (Some(shares), Ok(place)) => shares[place],
@@ -144,8 +146,8 @@ impl PixelShares {
 const MOST_PIXELS: usize = 1 << 26;
 
 impl IntervalBasins {
-    /// The share of every basin in each of `pixels` equal parts of the window: a column of a picture whose pixels are areas, and no
-    /// points. The bounds hold as the intervals do.
+    /// The share of every basin in each of `pixels` equal parts of the window: a column of a picture whose pixels
+    /// are areas, and no points. The bounds hold as the intervals do.
     ///
     /// ```
     /// use basin_of_attraction::{Interval, Label, Refinement, interval_basins_from_known, monotone_branches};

@@ -14,8 +14,8 @@ const MOST_INTERVALS: usize = 1_000_000;
 /// Level 0 is the trap. Level k contains the points of the branches' domains that enter the trap after exactly
 /// k steps. The last level is an earlier one if it is empty, or if there are more than a million intervals.
 ///
-/// The trap and the branches are tested as in [`interval_basins`](crate::interval_basins), from the left end of the first branch to the right end of
-/// the last one.
+/// The trap and the branches are tested as in [`interval_basins`](crate::interval_basins), from the left end of the
+/// first branch to the right end of the last one.
 ///
 /// ```
 /// use basin_of_attraction::{Branch, Interval, preimage_levels};
@@ -46,7 +46,8 @@ pub fn preimage_levels(
     preimage_levels_from_known(map, branches, trap, depth)
 }
 
-/// The points that enter a known interval after 0 to `depth` steps and not before, as [`preimage_levels`] finds them, without any test.
+/// The points that enter a known interval after 0 to `depth` steps and not before, as [`preimage_levels`] finds
+/// them, without any test.
 ///
 /// The caller knows that the branches are complete. The interval may be one that orbits leave.
 ///

@@ -59,8 +59,8 @@ pub enum ResidualSet {
 impl PreimageTree {
     /// Grows `depth` levels. It stops earlier at an empty level, or at a level that ends beyond a million nodes.
     ///
-    /// `branches` must contain all monotone branches of the map in the window. The trap and the branches are tested as in
-    /// [`interval_basins`](crate::interval_basins).
+    /// `branches` must contain all monotone branches of the map in the window. The trap and the branches are tested
+    /// as in [`interval_basins`](crate::interval_basins).
     ///
     /// ```
     /// use basin_of_attraction::{Branch, Interval, PreimageTree, ResidualSet};
@@ -87,8 +87,8 @@ impl PreimageTree {
         Self::grow_from_known(map, branches, trap, window, depth)
     }
 
-    /// The tree of an interval that the caller knows, such as a hole from which orbits escape, as [`grow`](Self::grow) finds it, without any
-    /// test. The caller knows that the branches are complete.
+    /// The tree of an interval that the caller knows, such as a hole from which orbits escape, as
+    /// [`grow`](Self::grow) finds it, without any test. The caller knows that the branches are complete.
     ///
     /// ```
     /// use basin_of_attraction::{Branch, Interval, PreimageTree, ResidualSet};
@@ -169,8 +169,8 @@ impl PreimageTree {
         self.starts.len() - 1
     }
 
-    /// The number of levels that are complete, if the branches are: no preimage of their intervals is missing. Later levels
-    /// are preimages of intervals a few ulps wide.
+    /// The number of levels that are complete, if the branches are: no preimage of their intervals is missing.
+    /// Later levels are preimages of intervals a few ulps wide.
     pub fn complete_levels(&self) -> usize {
         self.incomplete.map_or(self.levels(), |level| level.min(self.levels()))
     }

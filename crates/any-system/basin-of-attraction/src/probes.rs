@@ -11,24 +11,24 @@ use interval_arithmetic::INVERSE_GOLDEN_RATIO;
 /// What shows that an interval is a trap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TrapGround {
-    /// The branches cover the interval, and the image of each part lies in it. So it is a trap if the branches are monotone, up to
-    /// some ulps at its ends.
+    /// The branches cover the interval, and the image of each part lies in it. So it is a trap if the branches are
+    /// monotone, up to some ulps at its ends.
     Image,
-    /// Some of it lies in no branch. This number of points of it have images in it, or the map has a value at none of them. A part
-    /// from which orbits leave, and that lies between the points, is not seen.
+    /// Some of it lies in no branch. This number of points of it have images in it, or the map has a value at none
+    /// of them. A part from which orbits leave, and that lies between the points, is not seen.
     Probes {
         /// The number of points.
         points: usize,
     },
 }
 
-/// The ends of traps and branches are computed numbers: they may be wrong by some ulps. An interval without these ulps at its ends
-/// is tested. A larger number would let pass an interval that orbits leave only there.
+/// The ends of traps and branches are computed numbers: they may be wrong by some ulps. An interval without these
+/// ulps at its ends is tested. A larger number would let pass an interval that orbits leave only there.
 const END_ULPS: f64 = 4.0;
 
-/// Points at which a trap is tested where no branch covers it. A part of one hundredth of the trap from which orbits leave is
-/// missed by a golden rotation of 128 points only if it lies between neighbours, at most 1/76 of the trap apart. More points see
-/// narrower parts and take more values of the map.
+/// Points at which a trap is tested where no branch covers it. A part of one hundredth of the trap from which
+/// orbits leave is missed by a golden rotation of 128 points only if it lies between neighbours, at most 1/76 of
+/// the trap apart. More points see narrower parts and take more values of the map.
 const TRAP_POINTS: usize = 128;
 
 /// Some ulps of the larger end of an interval.
@@ -100,9 +100,10 @@ pub fn check_trap(
 
 /// Tests branches against the map at random points: `points` of `window`, and four on every branch.
 ///
-/// The value at each point must be taken on its branch at this point alone, up to rounding; so must be a point without a branch, and
-/// outside `traps`, be without a value. A branch that a search with too few samples has missed, or two that it took for one, is
-/// found with the probability that one of the points falls on it: n points miss a part of 3/n of the window in 5 of 100 cases.
+/// The value at each point must be taken on its branch at this point alone, up to rounding; so must be a point
+/// without a branch, and outside `traps`, be without a value. A branch that a search with too few samples has
+/// missed, or two that it took for one, is found with the probability that one of the points falls on it: n points
+/// miss a part of 3/n of the window in 5 of 100 cases.
 ///
 /// # Errors
 /// [`Error::BadInterval`] for a window or a branch that is no interval; [`Error::BranchMissed`] with the point at which a branch is
@@ -149,8 +150,8 @@ pub(crate) fn check_given(
     branches: &[Branch],
     window: Interval,
 ) -> Result<Vec<TrapGround>, Error> {
-    /// Random points at which the branches are tested. They miss a branch of 0.3 % of the window in 5 of 100 cases. More points
-    /// see narrower branches; each takes some 30 values of the map.
+    /// Random points at which the branches are tested. They miss a branch of 0.3 % of the window in 5 of 100 cases.
+    /// More points see narrower branches; each takes some 30 values of the map.
     const POINTS: usize = 1000;
     /// Seed of the points. Another one tests other points.
     const SEED: u64 = 1;
@@ -161,8 +162,8 @@ pub(crate) fn check_given(
     Ok(grounds)
 }
 
-/// Returns an error if an interval is reversed or not finite: of the list, of the domains of the branches or of their values. Those of the
-/// list have a finite length too.
+/// Returns an error if an interval is reversed or not finite: of the list, of the domains of the branches or of
+/// their values. Those of the list have a finite length too.
 pub(crate) fn check_intervals(list: &[Interval], branches: &[Branch]) -> Result<(), Error> {
     list.iter().try_for_each(|&interval| check_window(interval))?;
     for branch in branches {
@@ -181,13 +182,14 @@ fn beside(sorted: &[Branch], next: usize, at: f64) -> bool {
 
 /// Whether the branch takes `value` at `at`, and nowhere else, up to rounding.
 fn agrees(map: &impl ScalarMap, branch: &Branch, at: f64, value: f64) -> bool {
-    /// A map is rounded in each of its operations: computed values of a monotone branch may go back by some ulps of the point and
-    /// of the value. A larger number would miss lower folds.
+    /// A map is rounded in each of its operations: computed values of a monotone branch may go back by some ulps of
+    /// the point and of the value. A larger number would miss lower folds.
     const NOISE_ULPS: f64 = 64.0;
-    /// A root beside its zero has far larger errors. They show themselves as scatter between neighbouring numbers, as many as these on
-    /// each side. With fewer the scatter is found too small by chance.
+    /// A root beside its zero has far larger errors. They show themselves as scatter between neighbouring numbers,
+    /// as many as these on each side. With fewer the scatter is found too small by chance.
     const NEIGHBOURS: usize = 4;
-    /// The largest of eight differences is a half or more of the largest error as a rule. A larger factor would miss lower folds.
+    /// The largest of eight differences is a half or more of the largest error as a rule. A larger factor would
+    /// miss lower folds.
     const SCATTERS: f64 = 8.0;
     let scatter = |step: fn(f64) -> f64| {
         let near = std::iter::successors(Some(at), |&x| Some(step(x))).take(NEIGHBOURS + 1);
@@ -284,7 +286,8 @@ mod tests {
         assert_eq!(check_branches(&fold, &fine[..2], &rest, UNIT, 1000, 1), Ok(()));
     }
 
-    /// √((x − 0.6)² + 10⁻⁶), computed as the root of a difference of squares: near its minimum the rounding is a thousand times larger.
+    /// √((x − 0.6)² + 10⁻⁶), computed as the root of a difference of squares: near its minimum the rounding is a
+    /// thousand times larger.
     #[test]
     fn rounding_beside_a_zero_of_a_root_is_no_missed_branch() {
         let root = |x: f64| Some((4.0 - (4.0 - (x - 0.6) * (x - 0.6) - 1e-6)).sqrt());

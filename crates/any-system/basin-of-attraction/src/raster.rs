@@ -24,8 +24,8 @@ pub struct Grid {
 const MOST_PIXELS: u64 = 1 << 34;
 
 impl Grid {
-    /// The grid whose first and last pixels have their middles at the ends of the ranges, as in programs that sample a range
-    /// with both of its ends. The middles are right to some ulps of the range.
+    /// The grid whose first and last pixels have their middles at the ends of the ranges, as in programs that
+    /// sample a range with both of its ends. The middles are right to some ulps of the range.
     ///
     /// ```
     /// use basin_of_attraction::{Grid, Interval};

@@ -3,13 +3,13 @@
 /// How attractors are searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RecurrenceLimits {
-    /// Cells along every side of the region. Attractors less than three cells apart are not separated, unless a finer grid,
-    /// of up to 16 times as many cells, finds them.
+    /// Cells along every side of the region. Attractors less than three cells apart are not separated, unless a
+    /// finer grid, of up to 16 times as many cells, finds them.
     pub cells: usize,
     /// Consecutive steps to cells that the orbit has visited, after which these cells are a candidate.
     pub recurrences: usize,
-    /// Fewest steps of a stretch: an oscillation should not be longer. A candidate is confirmed over ten stretches at least. An
-    /// orbit of a test must visit the candidate in each of three stretches.
+    /// Fewest steps of a stretch: an oscillation should not be longer. A candidate is confirmed over ten stretches
+    /// at least. An orbit of a test must visit the candidate in each of three stretches.
     pub locate: usize,
     /// Most steps to a candidate. To confirm it, the orbit is followed ten times as long as it took to be found.
     pub budget: usize,
@@ -17,16 +17,17 @@ pub struct RecurrenceLimits {
     pub lost: usize,
     /// Orbits that test a candidate.
     pub tests: usize,
-    /// A distance from the origin, in the largest coordinate, from where the caller knows that no orbit returns. Such an orbit has
-    /// the label [`Label::ESCAPED`](crate::Label::ESCAPED). `None` if there is none.
+    /// A distance from the origin, in the largest coordinate, from where the caller knows that no orbit returns.
+    /// Such an orbit has the label [`Label::ESCAPED`](crate::Label::ESCAPED). `None` if there is none.
     pub escape: Option<f64>,
 }
 
 impl Default for RecurrenceLimits {
-    /// A hundred cells a side, a hundred recurrences, stretches of 1000 steps, 10⁵ steps to a candidate, 1000 outside, and 200 tests.
+    /// A hundred cells a side, a hundred recurrences, stretches of 1000 steps, 10⁵ steps to a candidate, 1000
+    /// outside, and 200 tests.
     ///
-    /// More cells separate closer attractors, and take longer to be visited again by chaotic orbits. Fewer recurrences take more
-    /// transients for candidates, which are then refused.
+    /// More cells separate closer attractors, and take longer to be visited again by chaotic orbits. Fewer
+    /// recurrences take more transients for candidates, which are then refused.
     fn default() -> Self {
         RecurrenceLimits {
             cells: 100,

@@ -1,9 +1,9 @@
 //! Attractors of maps and flows of several variables, found by recurrences to cells of a grid and tested as traps.
 //!
-//! The idea is that of G. Datseris and A. Wagemakers (Chaos 32, 023104, 2022; `AttractorsViaRecurrences` of Attractors.jl): an
-//! orbit that visits only cells that it visited before has come to an attractor. A slow passage does the same. Here the cells
-//! are a candidate only. It is followed for long (`followed_orbit`), and tested before it is called an attractor; an orbit without a
-//! tested attractor is reported.
+//! The idea is that of G. Datseris and A. Wagemakers (Chaos 32, 023104, 2022; `AttractorsViaRecurrences` of
+//! Attractors.jl): an orbit that visits only cells that it visited before has come to an attractor. A slow passage
+//! does the same. Here the cells are a candidate only. It is followed for long (`followed_orbit`), and tested
+//! before it is called an attractor; an orbit without a tested attractor is reported.
 
 use crate::error::Error;
 use crate::followed_orbit::{End, Orbit, Settled, drift};
@@ -44,20 +44,22 @@ impl Attractors {
 
     /// Searches attractors by the orbits of `starts`, in their order.
     ///
-    /// `map` is a step: a map, a return map, or a flow over some time; `None` if it has no value. It may have more variables than
-    /// are of interest: starts on a plane are points of the whole state space.
+    /// `map` is a step: a map, a return map, or a flow over some time; `None` if it has no value. It may have more
+    /// variables than are of interest: starts on a plane are points of the whole state space.
     ///
-    /// An orbit that recurs is followed ten times as long as it took to recur. It is a candidate only if its cells are then visited
-    /// again. A candidate is tested by orbits that start in its cells and in the cells beside them, at random points: each must
-    /// come to the cells, and visit them in each of three stretches of [`RecurrenceLimits::locate`] steps. So an attractor is a trap at the scale of a grid, as far as the
-    /// tests see: a part of its neighbourhood from which orbits leave is missed with n tests if it is smaller than 3/n, in 5 of 100 cases.
-    /// Grids of up to 16 times as many cells are tried before a candidate is refused.
+    /// An orbit that recurs is followed ten times as long as it took to recur. It is a candidate only if its cells
+    /// are then visited again. A candidate is tested by orbits that start in its cells and in the cells beside
+    /// them, at random points: each must come to the cells, and visit them in each of three stretches of
+    /// [`RecurrenceLimits::locate`] steps. So an attractor is a trap at the scale of a grid, as far as the tests
+    /// see: a part of its neighbourhood from which orbits leave is missed with n tests if it is smaller than 3/n,
+    /// in 5 of 100 cases. Grids of up to 16 times as many cells are tried before a candidate is refused.
     ///
-    /// A candidate that still moves, and lies at the border of the region, is none: it may go on beyond. Two attractors closer than
-    /// three cells of the finest grid may be found as one.
+    /// A candidate that still moves, and lies at the border of the region, is none: it may go on beyond. Two
+    /// attractors closer than three cells of the finest grid may be found as one.
     ///
-    /// Attractors whose orbits enter each other are one. Each start that belongs to none is [unmatched](Self::unmatched), with the
-    /// reason; if no attractor is found, [`remedy`](Self::remedy) says what would help.
+    /// Attractors whose orbits enter each other are one. Each start that belongs to none is
+    /// [unmatched](Self::unmatched), with the reason; if no attractor is found, [`remedy`](Self::remedy) says what
+    /// would help.
     ///
     /// ```
     /// use basin_of_attraction::{Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits};
@@ -170,8 +172,8 @@ impl Attractors {
         &self.unmatched
     }
 
-    /// What would help if no attractor was found: a larger region, more cells, or longer orbits, by the reason of most starts. `None`
-    /// if there is an attractor, or if no start has such a reason.
+    /// What would help if no attractor was found: a larger region, more cells, or longer orbits, by the reason of
+    /// most starts. `None` if there is an attractor, or if no start has such a reason.
     pub fn remedy(&self) -> Option<Remedy> {
         let finest = self.known.grids().last().map_or(0, StateGrid::cells) as usize;
         let none = self.attractors.is_empty();
@@ -180,8 +182,8 @@ impl Attractors {
 
     /// The label of the attractor to which the orbit of a point comes; undecided if it comes to none of them.
     ///
-    /// The label is the same for each call: no attractor is added. So the points of a raster or of a sample can be labelled in
-    /// parallel: `|x| attractors.label(&map, x)`. A point of another dimension is undecided.
+    /// The label is the same for each call: no attractor is added. So the points of a raster or of a sample can be
+    /// labelled in parallel: `|x| attractors.label(&map, x)`. A point of another dimension is undecided.
     pub fn label(&self, map: &impl Fn(&[f64]) -> Option<Vec<f64>>, start: &[f64]) -> Label {
         if start.len() != self.known.dimension() {
             return Label::UNDECIDED;
@@ -228,8 +230,8 @@ impl Attractors {
         Ok(false)
     }
 
-    /// The cells of a grid that the orbit visits in the second half of its confirmation, each with its first point, and the last
-    /// points. `None` if it leaves the region or stops.
+    /// The cells of a grid that the orbit visits in the second half of its confirmation, each with its first point,
+    /// and the last points. `None` if it leaves the region or stops.
     fn visited(
         &self,
         map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
@@ -252,7 +254,8 @@ impl Attractors {
         Some((cells, last))
     }
 
-    /// Whether orbits from random points of the cells and of the cells beside them come to the cells, and come back to them.
+    /// Whether orbits from random points of the cells and of the cells beside them come to the cells, and come back
+    /// to them.
     fn is_trap(
         &self,
         map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
@@ -262,10 +265,11 @@ impl Attractors {
     ) -> bool {
         /// Seed of the points. Another one tests other points.
         const SEED: u64 = 1;
-        /// Successive stretches of `locate` steps in each of which an orbit must visit the cells. A passage that is left within
-        /// some thousand steps shows itself in one of three. More would take longer.
+        /// Successive stretches of `locate` steps in each of which an orbit must visit the cells. A passage that is
+        /// left within some thousand steps shows itself in one of three. More would take longer.
         const STRETCHES: usize = 3;
-        /// The time that an orbit may take to come to the cells, in units of the time that the candidate took to be found.
+        /// The time that an orbit may take to come to the cells, in units of the time that the candidate took to be
+        /// found.
         const PACES: usize = 4;
         let mut near: BTreeSet<u64> = cells.clone();
         near.extend(cells.iter().flat_map(|&cell| grid.neighbours(cell)));
@@ -303,7 +307,8 @@ impl Attractors {
         (0..self.limits.tests.max(1)).into_par_iter().all(stays)
     }
 
-    /// Makes one of attractors whose orbits enter each other, and gives the labels again. `ends` are points of their orbits.
+    /// Makes one of attractors whose orbits enter each other, and gives the labels again. `ends` are points of
+    /// their orbits.
     fn merge(&mut self, map: &impl Fn(&[f64]) -> Option<Vec<f64>>, ends: &[Vec<f64>]) {
         if self.attractors.len() < 2 {
             return;

@@ -20,14 +20,14 @@ pub struct Refinement {
 pub enum StopReason {
     /// The undecided length is at most [`Refinement::undecided`].
     Resolved,
-    /// Every interval has been followed, and more than [`Refinement::undecided`] is undecided: these points are in no basin, or a
-    /// branch is missing.
+    /// Every interval has been followed, and more than [`Refinement::undecided`] is undecided: these points are in
+    /// no basin, or a branch is missing.
     AllFollowed,
-    /// The undecided length is at most [`Refinement::undecided`], but the branches were searched at some spacing: a branch that was
-    /// missed leaves wrong labels.
+    /// The undecided length is at most [`Refinement::undecided`], but the branches were searched at some spacing: a
+    /// branch that was missed leaves wrong labels.
     SampledBranches,
-    /// More than [`Refinement::undecided`] was found twice, with different fates, or the fate of a point is not that of its
-    /// interval: a branch is missing, or is not monotone.
+    /// More than [`Refinement::undecided`] was found twice, with different fates, or the fate of a point is not
+    /// that of its interval: a branch is missing, or is not monotone.
     Contradiction,
     /// All intervals not yet followed are shorter than [`Refinement::shortest`], or of the last level.
     ShortestInterval,

@@ -13,8 +13,9 @@ use std::collections::BTreeMap;
 /// Divides every side of a region by `divisions`, and counts the boxes by the labels of `points` random points in each.
 ///
 /// [`BoxCount::size`] is 1/`divisions`, the side of a box over that of the region. A basin that no point of a box meets is not
-/// seen: the number of mixed boxes is a lower bound. The entropy of a box of f basins is too small by about (f − 1)/(2 `points`) in
-/// the mean. Without many points the entropies of small boxes cannot be compared with those of large ones, which all have as many.
+/// seen: the number of mixed boxes is a lower bound. The entropy of a box of f basins is too small by about (f −
+/// 1)/(2 `points`) in the mean. Without many points the entropies of small boxes cannot be compared with those of
+/// large ones, which all have as many.
 ///
 /// ```
 /// use basin_of_attraction::{Hyperrectangle, Interval, Label, region_boxes};
@@ -65,7 +66,8 @@ pub fn region_boxes(
         }
         Ok(count)
     };
-    // Sums of entropies are added in the order of the boxes, so that the result does not depend on the number of threads.
+    // Sums of entropies are added in the order of the boxes, so that the result does not depend on the number of
+    // threads.
     let all: Vec<BoxCount> =
         (0..boxes).into_par_iter().map(of_box).collect::<Result<_, Error>>()?;
     let mut sum = BoxCount::new(1.0 / divisions as f64);

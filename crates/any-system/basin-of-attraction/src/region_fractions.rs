@@ -62,8 +62,9 @@ impl LabelCounts {
 
     /// The fraction of a basin, with a 95 % interval, also of one without points.
     ///
-    /// An undecided point may belong to any basin. The interval begins at the lower end of [`proportion_interval`] for the points of the
-    /// basin, and ends at the upper end for these and all undecided points. The value counts no undecided point.
+    /// An undecided point may belong to any basin. The interval begins at the lower end of [`proportion_interval`]
+    /// for the points of the basin, and ends at the upper end for these and all undecided points. The value counts
+    /// no undecided point.
     ///
     /// # Errors
     /// None for points inside the region of interest, of which [`new`](Self::new) demands one.
@@ -78,11 +79,12 @@ impl LabelCounts {
 
 /// The labels of `count` independent random points of a region of any dimension.
 ///
-/// The points are uniform in the region. The same seed gives the same points, with any number of threads. Points with the label
-/// [`Label::OUTSIDE`] are not counted: so fractions of a disc, or of any other part of the region, are found.
+/// The points are uniform in the region. The same seed gives the same points, with any number of threads. Points
+/// with the label [`Label::OUTSIDE`] are not counted: so fractions of a disc, or of any other part of the region,
+/// are found.
 ///
-/// If the region is that of the shocks of interest, the fraction of an attractor's basin is its *basin stability* (P. J. Menck,
-/// J. Heitzig, N. Marwan, J. Kurths, Nat. Phys. 9, 89, 2013).
+/// If the region is that of the shocks of interest, the fraction of an attractor's basin is its *basin stability*
+/// (P. J. Menck, J. Heitzig, N. Marwan, J. Kurths, Nat. Phys. 9, 89, 2013).
 ///
 /// ```
 /// use basin_of_attraction::{Hyperrectangle, Interval, Label, region_fractions};

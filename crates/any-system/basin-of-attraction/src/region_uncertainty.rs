@@ -1,4 +1,5 @@
-//! Final-state uncertainty in a region of any dimension: pairs of points at a distance ε, and the exponent of their fraction.
+//! Final-state uncertainty in a region of any dimension: pairs of points at a distance ε, and the exponent of their
+//! fraction.
 
 use crate::confidence_interval::{ConfidenceInterval, proportion_interval};
 use crate::error::Error;
@@ -23,8 +24,8 @@ pub struct PairCount {
 }
 
 impl PairCount {
-    /// The fraction of uncertain pairs, with a 95 % interval: from the lower end of [`proportion_interval`] without the open pairs to the upper end with
-    /// all of them.
+    /// The fraction of uncertain pairs, with a 95 % interval: from the lower end of [`proportion_interval`] without
+    /// the open pairs to the upper end with all of them.
     ///
     /// # Errors
     /// [`Error::BadTrials`] without pairs.
@@ -38,8 +39,9 @@ impl PairCount {
 
 /// Counts the pairs x, x + ε u whose labels differ (Grebogi, McDonald, Ott, Yorke 1983).
 ///
-/// x is uniform in the region, and the direction u is uniform on the unit sphere. `count` independent pairs are tried, the same for
-/// the same seed with any number of threads. x + ε u may lie outside the region: the labelling must be defined there.
+/// x is uniform in the region, and the direction u is uniform on the unit sphere. `count` independent pairs are
+/// tried, the same for the same seed with any number of threads. x + ε u may lie outside the region: the labelling
+/// must be defined there.
 ///
 /// ```
 /// use basin_of_attraction::{Hyperrectangle, Interval, Label, uncertain_pairs};
@@ -95,7 +97,8 @@ pub(crate) fn check_perturbation(epsilon: f64) -> Result<(), Error> {
     }
 }
 
-/// Direction `number` of a generator, uniform on the unit sphere: a vector of independent normal numbers, divided by its length.
+/// Direction `number` of a generator, uniform on the unit sphere: a vector of independent normal numbers, divided
+/// by its length.
 pub(crate) fn random_direction(random: &SplitMix64, number: u64, dimension: usize) -> Vec<f64> {
     // Box and Muller: √(−2 ln u) cos 2πv is normal. 1 − u is in (0, 1].
     let normal = |k: u64| {
@@ -123,15 +126,16 @@ pub struct UncertaintyExponent {
     pub exponent: ConfidenceInterval,
     /// The sum of the squared deviations from the law, each over its variance.
     pub chi_squared: f64,
-    /// The degrees of freedom: the number of ε less 2. If the law holds, `chi_squared` has this mean, and twice this variance.
+    /// The degrees of freedom: the number of ε less 2. If the law holds, `chi_squared` has this mean, and twice
+    /// this variance.
     pub degrees: usize,
     /// The pairs, in increasing order of ε.
     pub counts: Vec<PairCount>,
 }
 
 impl UncertaintyExponent {
-    /// Whether chance explains the deviations from the power law: `chi_squared` exceeds its mean by no more than three standard
-    /// deviations. If not, the slope drifts over these ε and its interval means nothing.
+    /// Whether chance explains the deviations from the power law: `chi_squared` exceeds its mean by no more than
+    /// three standard deviations. If not, the slope drifts over these ε and its interval means nothing.
     pub fn follows_a_power_law(&self) -> bool {
         /// For few degrees the distribution of χ² has a long tail: of true laws some 1 % exceed this.
         const DEVIATIONS: f64 = 3.0;
@@ -142,8 +146,9 @@ impl UncertaintyExponent {
 
 /// The uncertainty exponent from independent pairs at several distances.
 ///
-/// The interval contains all exponents at which the score of the binomial likelihood is within 1.96 of its standard deviations. It allows for chance,
-/// and no assumption about the scatter is made. Open pairs are counted in the worst way for each end.
+/// The interval contains all exponents at which the score of the binomial likelihood is within 1.96 of its standard
+/// deviations. It allows for chance, and no assumption about the scatter is made. Open pairs are counted in the
+/// worst way for each end.
 ///
 /// ```
 /// use basin_of_attraction::{Hyperrectangle, Interval, Label, uncertainty_exponent};
@@ -157,8 +162,8 @@ impl UncertaintyExponent {
 ///
 /// # Errors
 /// [`Error::BadFit`] for fewer than three different distances; [`Error::TooFewUncertainPairs`] for fewer than thirty uncertain pairs at all distances together, and if
-/// their numbers give no bound on the exponent: take more pairs or larger distances. [`Error::TooManyOpenPairs`] if open pairs are
-/// more than a tenth of the uncertain ones at all distances together. Else as [`uncertain_pairs`].
+/// their numbers give no bound on the exponent: take more pairs or larger distances. [`Error::TooManyOpenPairs`] if
+/// open pairs are more than a tenth of the uncertain ones at all distances together. Else as [`uncertain_pairs`].
 pub fn uncertainty_exponent(
     region: &Hyperrectangle,
     epsilons: &[f64],
@@ -166,8 +171,9 @@ pub fn uncertainty_exponent(
     seed: u64,
     label: impl Fn(&[f64]) -> Label + Sync,
 ) -> Result<UncertaintyExponent, Error> {
-    /// With fewer uncertain pairs the score is not nearly normal. The sum of all numbers says next to nothing about the exponent, so that this
-    /// condition selects no samples of a certain slope; a condition on the number at each distance would.
+    /// With fewer uncertain pairs the score is not nearly normal. The sum of all numbers says next to nothing about
+    /// the exponent, so that this condition selects no samples of a certain slope; a condition on the number at
+    /// each distance would.
     const FEWEST: usize = 30;
     /// With more open pairs the ends of the interval say what the budget of the labelling was.
     const MOST_OPEN: f64 = 0.1;
@@ -242,8 +248,8 @@ mod tests {
         }
     }
 
-    /// In the plane a Cantor set of lines is crossed with the exponent of the Cantor set on the line: 1 − ln 2/ln 3. A smooth boundary
-    /// has the exponent 1 in each dimension.
+    /// In the plane a Cantor set of lines is crossed with the exponent of the Cantor set on the line: 1 − ln 2/ln
+    /// 3. A smooth boundary has the exponent 1 in each dimension.
     #[test]
     fn exponents_of_known_boundaries_lie_in_their_intervals() {
         let epsilons: Vec<f64> = (2..=5).map(|k| 3f64.powi(-k)).collect();
@@ -257,7 +263,8 @@ mod tests {
             }
             // Of 20 intervals of 95 % fewer than 16 cover in one of 300 cases.
             assert!(covered >= 16, "{dimension}: {covered}");
-            // Near single ends of gaps the fraction is ∝ ε: a correction of ε^0.63, which leaves 0.02 in the exponent here.
+            // Near single ends of gaps the fraction is ∝ ε: a correction of ε^0.63, which leaves 0.02 in the
+            // exponent here.
             let fine: Vec<f64> = (5..=9).map(|k| 3f64.powi(-k)).collect();
             let found = uncertainty_exponent(&cube(dimension), &fine, 100_000, 5, cantor).unwrap();
             let (value, truth) = (found.exponent.value, 0.369_070_246_428_543);

@@ -9,9 +9,9 @@ use crate::split_mix::SplitMix64;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Most points of all replicates together: two gigabytes of labels. With a label in a microsecond they take a quarter of an
-/// hour on one core, and give fractions to four digits; a count far above this is a mistake, such as one that overflowed, and
-/// would end in a lack of memory or never.
+/// Most points of all replicates together: two gigabytes of labels. With a label in a microsecond they take a
+/// quarter of an hour on one core, and give fractions to four digits; a count far above this is a mistake, such as
+/// one that overflowed, and would end in a lack of memory or never.
 const MOST_POINTS: usize = 1_000_000_000;
 
 /// An error for more points than can be labelled.
@@ -64,8 +64,8 @@ pub struct EquallySpacedFraction {
 
 /// The basin fractions among `count` equally spaced points, with the bounds that the spacing leaves.
 ///
-/// The label is assumed to be constant between neighbouring points with equal labels. Between points with
-/// different labels the boundary may lie anywhere. Undecided points may belong to any basin: they raise the upper bound of
+/// The label is assumed to be constant between neighbouring points with equal labels. Between points with different
+/// labels the boundary may lie anywhere. Undecided points may belong to any basin: they raise the upper bound of
 /// each.
 ///
 /// # Errors
@@ -112,9 +112,10 @@ pub fn equally_spaced_fractions(
 
 /// The basin fractions among `count` independent uniform points, with 95 % intervals.
 ///
-/// The same seed gives the same points, with any number of threads. The intervals are those of [`proportion_interval`]: they
-/// contain the fraction in at least 93 % of the samples. Undecided points may belong to any basin: they raise the upper end of
-/// each. A label without points is not in the result: its fraction is [`proportion_interval`]`(0, count)`.
+/// The same seed gives the same points, with any number of threads. The intervals are those of
+/// [`proportion_interval`]: they contain the fraction in at least 93 % of the samples. Undecided points may belong
+/// to any basin: they raise the upper end of each. A label without points is not in the result: its fraction is
+/// [`proportion_interval`]`(0, count)`.
 ///
 /// # Errors
 /// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion points, [`Error::BadInterval`] for a window

@@ -1,8 +1,9 @@
 //! Is a boundary smooth at one scale? The mean entropy of random balls on it, compared with that of a smooth boundary.
 //!
-//! A. Puy, A. Daza, A. Wagemakers, M. A. F. Sanjuán (2021), "A test for fractal boundaries based on the basin entropy". A smooth
-//! boundary cuts a small ball in two by a plane. A ball whose middle is uniform in space, if it meets the plane, has it at a
-//! uniform distance t ∈ (−1, 1) radii from its middle. The part of a ball of D dimensions beyond t is
+//! A. Puy, A. Daza, A. Wagemakers, M. A. F. Sanjuán (2021), "A test for fractal boundaries based on the basin
+//! entropy". A smooth boundary cuts a small ball in two by a plane. A ball whose middle is uniform in space, if it
+//! meets the plane, has it at a uniform distance t ∈ (−1, 1) radii from its middle. The part of a ball of D
+//! dimensions beyond t is
 //!
 //! ```text
 //!   p(t) = ∫ₜ¹ (1 − s²)^((D−1)/2) ds / ∫₋₁¹ (1 − s²)^((D−1)/2) ds,        S = ½ ∫₋₁¹ H(p(t)) dt,   H(p) = −p ln p − (1−p) ln (1−p)
@@ -10,8 +11,9 @@
 //!
 //! so that S = 0.5, 0.4395, 0.3961 for D = 1, 2, 3. A boundary that is folded inside the balls has another mean.
 //!
-//! The fractions of a ball are measured by n random points. With them an entropy is too small, and a ball that the plane barely
-//! touches looks undivided. Puy et al. allow for this by a fitted term. Here the reference itself is that of n points:
+//! The fractions of a ball are measured by n random points. With them an entropy is too small, and a ball that the
+//! plane barely touches looks undivided. Puy et al. allow for this by a fitted term. Here the reference itself is
+//! that of n points:
 //!
 //! ```text
 //!   Sₙ = ∫ Σ_{0<k<n} B(k; n, p(t)) H(k/n) dt / ∫ Σ_{0<k<n} B(k; n, p(t)) dt,        B: binomial
@@ -59,17 +61,19 @@ pub struct BallEntropy {
 /// What random balls of one radius say about a boundary.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundaryShape {
-    /// The mean entropy is that of a smooth boundary, within its interval. A fractal boundary may have nearly the same: the Cantor basin of
-    /// two colours on the line has 0.510 ± 0.008 with 1600 mixed balls, where a smooth boundary has 0.505.
+    /// The mean entropy is that of a smooth boundary, within its interval. A fractal boundary may have nearly the
+    /// same: the Cantor basin of two colours on the line has 0.510 ± 0.008 with 1600 mixed balls, where a smooth
+    /// boundary has 0.505.
     LooksSmooth,
-    /// The mean entropy differs from that of a smooth boundary. The boundary is folded, or several boundaries lie close together, at
-    /// the scale of the balls. It is fractal only if this holds at every smaller radius too: smooth stripes that are thinner than
-    /// a ball have this shape.
+    /// The mean entropy differs from that of a smooth boundary. The boundary is folded, or several boundaries lie
+    /// close together, at the scale of the balls. It is fractal only if this holds at every smaller radius too:
+    /// smooth stripes that are thinner than a ball have this shape.
     NotSmooth,
 }
 
 impl BallEntropy {
-    /// The shape of the boundary at the scale of the balls. A smooth boundary is called not smooth in 5 % of the samples.
+    /// The shape of the boundary at the scale of the balls. A smooth boundary is called not smooth in 5 % of the
+    /// samples.
     pub fn shape(&self) -> BoundaryShape {
         if self.mean.covers(self.smooth) {
             BoundaryShape::LooksSmooth
@@ -79,14 +83,15 @@ impl BallEntropy {
     }
 }
 
-/// Student's interval needs means that are nearly normal. Entropies lie between 0 and ln of the number of basins, and are skewed; the mean
-/// of thirty is normal enough for 93 %.
+/// Student's interval needs means that are nearly normal. Entropies lie between 0 and ln of the number of basins,
+/// and are skewed; the mean of thirty is normal enough for 93 %.
 const FEWEST_MIXED_BALLS: usize = 30;
 
 /// The mean entropy of random balls that lie in a region of any dimension, and meet a boundary.
 ///
-/// The middles are uniform in the part of the region that is a radius away from its sides. Radii should be much smaller than the
-/// radius of curvature of the boundary, and than the distance between its parts. If they are, half of the radius gives the same.
+/// The middles are uniform in the part of the region that is a radius away from its sides. Radii should be much
+/// smaller than the radius of curvature of the boundary, and than the distance between its parts. If they are, half
+/// of the radius gives the same.
 ///
 /// ```
 /// use basin_of_attraction::{BoundaryShape, Hyperrectangle, Interval, Label, RandomBalls, ball_entropy};
@@ -158,8 +163,8 @@ fn entropy_of_ball(
     Some(entropy(counts.values().map(|&found| found as f64 / points as f64)))
 }
 
-/// The boundary entropy of a ball that a smooth boundary cuts, in this number of dimensions: 1/2, 0.4395, 0.3961, … (Puy et al. 2021).
-/// It is 0 for no dimensions.
+/// The boundary entropy of a ball that a smooth boundary cuts, in this number of dimensions: 1/2, 0.4395, 0.3961, …
+/// (Puy et al. 2021). It is 0 for no dimensions.
 ///
 /// ```
 /// use basin_of_attraction::smooth_boundary_entropy;
@@ -197,12 +202,12 @@ fn smooth_entropy_of_points(dimensions: usize, points: usize) -> f64 {
     sum / mixed
 }
 
-/// Steps of the quadratures over the angle. The integrands are smooth in it but for p ln p at the ends; with 2000 steps S is right to
-/// 10⁻¹¹. More steps would cost time in proportion.
+/// Steps of the quadratures over the angle. The integrands are smooth in it but for p ln p at the ends; with 2000
+/// steps S is right to 10⁻¹¹. More steps would cost time in proportion.
 const STEPS: usize = 2000;
 
-/// The parts of a ball beyond cuts t = sin θ, with weights that integrate over t from −1 to 1. Parts of 0 and 1 are left out: they have no
-/// entropy.
+/// The parts of a ball beyond cuts t = sin θ, with weights that integrate over t from −1 to 1. Parts of 0 and 1 are
+/// left out: they have no entropy.
 fn cuts(dimensions: usize) -> Vec<(f64, f64)> {
     let step = PI / STEPS as f64;
     // ∫ (1 − s²)^((D−1)/2) ds = ∫ cos^D θ dθ, by Simpson's rule over each step.

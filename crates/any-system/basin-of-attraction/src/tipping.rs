@@ -74,9 +74,9 @@ pub struct Tipping {
 impl IntervalBasins {
     /// The intersections of these basins with the basins `after`, at another parameter.
     ///
-    /// A state is in basin a when the parameter changes at once. The new map takes it to the attractor of the basin b that
-    /// contains it there. The probability of b, if a state is equally likely anywhere in a, is |a ∩ b| / |a| (B. Kaszás,
-    /// U. Feudel, T. Tél, Sci. Rep. 9, 8654, 2019; `tipping_probabilities` of Attractors.jl).
+    /// A state is in basin a when the parameter changes at once. The new map takes it to the attractor of the basin
+    /// b that contains it there. The probability of b, if a state is equally likely anywhere in a, is |a ∩ b| / |a|
+    /// (B. Kaszás, U. Feudel, T. Tél, Sci. Rep. 9, 8654, 2019; `tipping_probabilities` of Attractors.jl).
     ///
     /// ```
     /// use basin_of_attraction::{Interval, Label, Refinement, interval_basins};
@@ -167,8 +167,8 @@ impl Tipping {
 
     /// The probability that a state of basin `from` goes to basin `to`; `None` if no interval of `from` is known.
     ///
-    /// The bounds hold as those of [`IntervalBasins::basin_length`] do: everything that is undecided before or after may belong to any
-    /// basin.
+    /// The bounds hold as those of [`IntervalBasins::basin_length`] do: everything that is undecided before or
+    /// after may belong to any basin.
     pub fn probability(&self, from: Label, to: Label) -> Option<Bounds> {
         let known = self.lengths.keys().any(|&(before, _)| before == Some(from));
         let Sums { both, possible, known_other, possible_other } = sums(&self.lengths, from, to);
@@ -249,7 +249,8 @@ impl TippingCounts {
         self.counts.get(&(Some(from), Some(to))).copied().unwrap_or(0)
     }
 
-    /// The probability that a state of basin `from` goes to basin `to`, with a 95 % interval; `None` if no point was in `from`.
+    /// The probability that a state of basin `from` goes to basin `to`, with a 95 % interval; `None` if no point
+    /// was in `from`.
     ///
     /// The value counts decided points only. The ends of the interval count undecided points in the worst way.
     ///
@@ -269,8 +270,9 @@ impl TippingCounts {
 
 /// The labels of `count` independent random points of a region before and after a change.
 ///
-/// `before` and `after` label the same point: by the map before, and by the map after, or by the orbit along a drift of the
-/// parameters ([`label_after_drift`]). The same seed gives the same points, with any number of threads.
+/// `before` and `after` label the same point: by the map before, and by the map after, or by the orbit along a
+/// drift of the parameters ([`label_after_drift`]). The same seed gives the same points, with any number of
+/// threads.
 ///
 /// ```
 /// use basin_of_attraction::{Hyperrectangle, Interval, Label, random_tipping};
@@ -302,8 +304,9 @@ pub fn random_tipping(
 
 /// The label of a state after `steps` steps of a map that changes from step to step.
 ///
-/// `step` gives the state after step k = 0, 1, …, or the label of an orbit that ends there. `label` gives the label of the last state
-/// at the last parameters. So a slow change of a parameter is followed by the orbit, and not by its attractor.
+/// `step` gives the state after step k = 0, 1, …, or the label of an orbit that ends there. `label` gives the label
+/// of the last state at the last parameters. So a slow change of a parameter is followed by the orbit, and not by
+/// its attractor.
 ///
 /// ```
 /// use basin_of_attraction::{Label, label_after_drift};

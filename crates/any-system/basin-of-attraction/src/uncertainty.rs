@@ -17,8 +17,8 @@ use rayon::prelude::*;
 /// `count` uniform random starts in `window` are tried. For small ε the fraction grows like a power of ε. Its
 /// exponent is the uncertainty exponent, which [`power_law`](crate::power_law) fits.
 ///
-/// An undecided label may be that of any basin: a start that is uncertain only then raises the upper end alone. A start with one of
-/// the three points outside the region of interest does not count.
+/// An undecided label may be that of any basin: a start that is uncertain only then raises the upper end alone. A
+/// start with one of the three points outside the region of interest does not count.
 ///
 /// # Errors
 /// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion, [`Error::BadPerturbation`]

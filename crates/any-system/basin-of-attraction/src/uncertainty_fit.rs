@@ -6,9 +6,10 @@
 //!   U(b) = Σ (k − n p)(x − x̄)/(1 − p)      V(b) = Σ W (x − x̄)²      W = n p/(1 − p)
 //! ```
 //!
-//! a is that of the greatest likelihood for each b: Σ (k − n p)/(1 − p) = 0; x̄ is the mean of x with the weights W. If b is the exponent, U/√V has
-//! the mean 0 and the variance 1 to leading order. So the estimate has U = 0, and the 95 % interval is that of the b with |U| ≤ 1.96 √V: Rao's
-//! score interval, as Wilson's is for one proportion. Counts of 0 need no exception, and no count is selected by its size.
+//! a is that of the greatest likelihood for each b: Σ (k − n p)/(1 − p) = 0; x̄ is the mean of x with the weights
+//! W. If b is the exponent, U/√V has the mean 0 and the variance 1 to leading order. So the estimate has U = 0, and
+//! the 95 % interval is that of the b with |U| ≤ 1.96 √V: Rao's score interval, as Wilson's is for one proportion.
+//! Counts of 0 need no exception, and no count is selected by its size.
 
 use crate::confidence_interval::{ConfidenceInterval, NORMAL_QUANTILE};
 
@@ -36,8 +37,8 @@ pub(crate) struct ExponentFit {
 /// Halvings of a bracket: they leave 10⁻¹⁵ of it.
 const HALVINGS: usize = 52;
 
-/// Largest exponent that is searched. Exponents are between 0 and the dimension of the region; counts without a bound on the exponent exceed
-/// every limit.
+/// Largest exponent that is searched. Exponents are between 0 and the dimension of the region; counts without a
+/// bound on the exponent exceed every limit.
 const LARGEST: f64 = 64.0;
 
 /// The exponent; `None` if the counts give no bound on it: all uncertain pairs at the largest distance, or none at all.
@@ -182,7 +183,8 @@ mod tests {
         }
     }
 
-    /// Two distances, and few of many pairs: k₁ of k₁ + k₂ is then binomial with the odds 2^b. Wilson's interval of 30 of 40 has these ends.
+    /// Two distances, and few of many pairs: k₁ of k₁ + k₂ is then binomial with the odds 2^b. Wilson's interval of
+    /// 30 of 40 has these ends.
     #[test]
     fn at_two_distances_the_interval_is_wilsons() {
         let found = fit_exponent(&counts(&[(1.0, 1e9, 10.0, 0.0), (2.0, 1e9, 30.0, 0.0)])).unwrap();

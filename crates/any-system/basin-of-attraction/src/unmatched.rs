@@ -45,9 +45,9 @@ pub enum UnmatchedReason {
         /// The distance by which the ends of its stretches move, a step, in the largest coordinate.
         drift: f64,
     },
-    /// The orbit keeps to a few cells, but orbits that start in or beside these cells do not come to them and stay: the cells are a slow
-    /// passage, or the attractor is too close to the boundary of its basin for this grid. The same for a group of features and orbits from
-    /// beside it.
+    /// The orbit keeps to a few cells, but orbits that start in or beside these cells do not come to them and stay:
+    /// the cells are a slow passage, or the attractor is too close to the boundary of its basin for this grid. The
+    /// same for a group of features and orbits from beside it.
     NoTrap,
 }
 
@@ -121,8 +121,8 @@ impl fmt::Display for Remedy {
     }
 }
 
-/// What would help where no start belongs to an attractor: by the reason of most of them. `tried` is the number of cells of the
-/// finest grid.
+/// What would help where no start belongs to an attractor: by the reason of most of them. `tried` is the number of
+/// cells of the finest grid.
 pub(crate) fn remedy(unmatched: &[Unmatched], budget: usize, tried: usize) -> Option<Remedy> {
     let reasons = || unmatched.iter().map(|own| own.reason);
     let border = reasons()

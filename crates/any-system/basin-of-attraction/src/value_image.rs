@@ -22,8 +22,8 @@ impl<T> ValueImage<T> {
     }
 }
 
-/// The values at the middles of all pixels, computed in parallel. `prepare` does the work that the pixels of a column share; `progress`
-/// is as for [`raster`](crate::raster).
+/// The values at the middles of all pixels, computed in parallel. `prepare` does the work that the pixels of a
+/// column share; `progress` is as for [`raster`](crate::raster).
 ///
 /// ```
 /// use basin_of_attraction::{Fate, Grid, Interval, Label, TrapSet, classify, value_raster};

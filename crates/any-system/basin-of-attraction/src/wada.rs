@@ -27,8 +27,8 @@ pub struct WadaTest {
 impl LabelImage {
     /// Compares the boundaries of all pairs of basins. Each is a boundary against the union of all other basins.
     ///
-    /// A border with undecided pixels, or with pixels outside the region of interest, is no boundary between basins. All
-    /// fractions of the image are of its pixels inside the region of interest.
+    /// A border with undecided pixels, or with pixels outside the region of interest, is no boundary between
+    /// basins. All fractions of the image are of its pixels inside the region of interest.
     ///
     /// # Errors
     /// [`Error::TooFewLabels`] for fewer than three basins; [`Error::BadImage`] as for [`check`](Self::check).
@@ -71,8 +71,8 @@ impl LabelImage {
         })
     }
 
-    /// The pixels on either side of the border of a basin with other basins: of the pixel and a neighbour exactly one has the
-    /// label, and both belong to basins.
+    /// The pixels on either side of the border of a basin with other basins: of the pixel and a neighbour exactly
+    /// one has the label, and both belong to basins.
     fn boundary_of(&self, label: Label) -> Vec<bool> {
         let inside = |at: usize| self.labels[at] == label;
         let basin = |at: usize| self.labels[at].is_basin();
@@ -124,16 +124,18 @@ impl LabelImage {
 pub struct LineWadaTest {
     /// The distance tested.
     pub distance: f64,
-    /// Boundary points of one basin that are farther than `distance` from every boundary point of another, as a fraction of the
-    /// boundary points of the first: the largest over all pairs of basins. Zero means that the Wada property holds at this distance.
+    /// Boundary points of one basin that are farther than `distance` from every boundary point of another, as a
+    /// fraction of the boundary points of the first: the largest over all pairs of basins. Zero means that the Wada
+    /// property holds at this distance.
     pub far_fraction: f64,
     /// The undecided length over that of the window. A boundary that lies in an undecided gap is not seen.
     pub undecided_fraction: f64,
 }
 
 impl IntervalBasins {
-    /// Compares the boundaries of all pairs of basins, as [`LabelImage::wada`] does for images. A boundary point of a basin is an end
-    /// that it shares with another basin, or a gap of at most `distance` between the two: the middle of the gap.
+    /// Compares the boundaries of all pairs of basins, as [`LabelImage::wada`] does for images. A boundary point of
+    /// a basin is an end that it shares with another basin, or a gap of at most `distance` between the two: the
+    /// middle of the gap.
     ///
     /// ```
     /// use basin_of_attraction::{Error, Interval, Label, Refinement, interval_basins};

@@ -1,4 +1,5 @@
-//! Attractors found by the features of orbits: known ones are found with their fractions, and all other orbits are reported.
+//! Attractors found by the features of orbits: known ones are found with their fractions, and all other orbits are
+//! reported.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -32,8 +33,8 @@ fn deviations(points: &[Vec<f64>]) -> Vec<f64> {
     (0..mean.len()).map(|k| of(k).sqrt()).collect()
 }
 
-/// A fixed point, a cycle and a chaotic attractor, whose basins reach close to one another. (Attractors.jl has the fractions 0.645, 0.18
-/// and 0.175 for the cube.)
+/// A fixed point, a cycle and a chaotic attractor, whose basins reach close to one another. (Attractors.jl has the
+/// fractions 0.645, 0.18 and 0.175 for the cube.)
 #[test]
 fn lorenz_84_has_its_three_attractors() {
     let (f, g, a, b) = (6.886, 1.347, 0.255, 4.0);
@@ -112,7 +113,8 @@ fn the_magnetic_pendulum_by_templates() {
     }
 }
 
-/// The fixed point 0 of x + x² attracts [−1, 0] and no point on its right: it is no trap, and its orbits belong to no basin.
+/// The fixed point 0 of x + x² attracts [−1, 0] and no point on its right: it is no trap, and its orbits belong to
+/// no basin.
 #[test]
 fn a_slow_passage_is_no_attractor() {
     let map = |x: &[f64]| Some(vec![x[0] + x[0] * x[0]]).filter(|x| x[0] < 10.0);

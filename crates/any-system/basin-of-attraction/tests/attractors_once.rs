@@ -24,8 +24,8 @@ fn spiral(factor: f64, angle: f64) -> impl Fn(&[f64]) -> Option<Vec<f64>> {
     move |x| Some(vec![cosine * x[0] - sine * x[1], sine * x[0] + cosine * x[1]])
 }
 
-/// One fixed point, for factors from fast to slow, turns that are rational and irrational parts of a circle, and cells whose corner is
-/// the fixed point or not. All starts belong to it.
+/// One fixed point, for factors from fast to slow, turns that are rational and irrational parts of a circle, and
+/// cells whose corner is the fixed point or not. All starts belong to it.
 #[test]
 fn a_fixed_point_that_is_approached_slowly_is_one_attractor() {
     let square = region(&[(-1.0, 1.0), (-1.0, 1.0)]);
@@ -76,8 +76,8 @@ fn an_approach_that_is_too_slow_is_not_settled() {
     }
 }
 
-/// Two slow points close to each other stay two, as far as the grid separates them. 2x − x³ has two fixed points that are
-/// approached algebraically.
+/// Two slow points close to each other stay two, as far as the grid separates them. 2x − x³ has two fixed points
+/// that are approached algebraically.
 #[test]
 fn two_slow_points_are_two_attractors() {
     let line = region(&[(-1.5, 1.5)]);
@@ -157,7 +157,8 @@ fn an_attractor_that_the_border_cuts_is_said_to_be_cut() {
     assert!(found.remedy().unwrap().to_string().contains("beyond the border 1"));
 }
 
-/// Orbits that leave a region for good have left it, with the border; a larger region, or a distance of escape, is the remedy.
+/// Orbits that leave a region for good have left it, with the border; a larger region, or a distance of escape, is
+/// the remedy.
 #[test]
 fn a_search_that_finds_none_says_what_would_help() {
     let away = |x: &[f64]| Some(vec![2.0 * x[0]]);
@@ -178,8 +179,8 @@ fn a_search_that_finds_none_says_what_would_help() {
     assert_eq!((found.remedy(), found.unmatched().len()), (None, 0));
 }
 
-/// A chaotic band with a hole as narrow as 2·10⁻³ leads to a fixed point. The band passes the tests of few orbits, and its orbit then
-/// enters the point: both are one, in both orders of starts, and the label is that of the point.
+/// A chaotic band with a hole as narrow as 2·10⁻³ leads to a fixed point. The band passes the tests of few orbits,
+/// and its orbit then enters the point: both are one, in both orders of starts, and the label is that of the point.
 #[test]
 fn attractors_whose_orbits_enter_each_other_are_one() {
     let map = |x: &[f64]| {
@@ -208,7 +209,8 @@ fn attractors_whose_orbits_enter_each_other_are_one() {
     }
 }
 
-/// A fixed point just outside, to which orbits come slowly, and a slow drift out of the last cell: no attractor, and the reason.
+/// A fixed point just outside, to which orbits come slowly, and a slow drift out of the last cell: no attractor,
+/// and the reason.
 #[test]
 fn what_moves_slowly_to_the_border_is_no_attractor() {
     let unit = region(&[(0.0, 1.0)]);

@@ -25,8 +25,8 @@ fn thin_stripes_look_smooth_to_small_balls_only() {
     assert!(large.mean.lower > 2f64.ln(), "{large:?}");
 }
 
-/// The Cantor basin of three colours looks the same at every scale. That of two colours has almost the entropy of a smooth boundary:
-/// 4000 balls of radius 0.01 do not tell them apart.
+/// The Cantor basin of three colours looks the same at every scale. That of two colours has almost the entropy of a
+/// smooth boundary: 4000 balls of radius 0.01 do not tell them apart.
 #[test]
 fn a_cantor_basin_of_three_colours_is_not_smooth_at_any_radius() {
     for radius in [0.1, 0.01, 0.001] {

@@ -1,4 +1,5 @@
-//! 95 % intervals contain the true number in at least 93 of 100 samples: basin fractions, dimensions, uncertainty exponents.
+//! 95 % intervals contain the true number in at least 93 of 100 samples: basin fractions, dimensions, uncertainty
+//! exponents.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 

@@ -1,5 +1,5 @@
-//! Fractions along a parameter with known answers: a fraction that changes smoothly, a jump, a narrow peak, attractors whose numbers
-//! change.
+//! Fractions along a parameter with known answers: a fraction that changes smoothly, a jump, a narrow peak,
+//! attractors whose numbers change.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -58,7 +58,8 @@ fn a_jump_is_located_to_the_shortest_step() {
     assert_eq!(found.jumps().count(), 1);
 }
 
-/// A peak is lost if no parameter is in it. With the position of the peak as a known parameter it is followed down to its width.
+/// A peak is lost if no parameter is in it. With the position of the peak as a known parameter it is followed down
+/// to its width.
 #[test]
 fn a_narrow_peak_at_a_known_parameter_is_followed() {
     let peak = |t: f64| 0.5 * (-((t - 0.4321) / 1e-4).powi(2)).exp();
@@ -105,8 +106,8 @@ fn an_unseen_basin_has_a_range_up_to_what_is_undecided() {
     assert_eq!(other.gap(&fractions.of(ONE())), 0.89);
 }
 
-/// x → 3x/2 − x³/2 + c x: the attractors ±√(1 + 2c) are numbered in the order in which random starts find them. Their basins have
-/// one half each.
+/// x → 3x/2 − x³/2 + c x: the attractors ±√(1 + 2c) are numbered in the order in which random starts find them.
+/// Their basins have one half each.
 #[test]
 fn attractors_whose_numbers_change_are_matched_by_position() {
     let line = Hyperrectangle::try_from(Interval::new(-1.5, 1.5).unwrap()).unwrap();

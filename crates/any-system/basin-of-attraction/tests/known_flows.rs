@@ -1,4 +1,5 @@
-//! Flows whose basin fractions are known from the literature: their attractors are found by recurrences, their basins by random points.
+//! Flows whose basin fractions are known from the literature: their attractors are found by recurrences, their
+//! basins by random points.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -15,7 +16,8 @@ fn region(sides: &[(f64, f64)]) -> Hyperrectangle {
     Hyperrectangle::new(sides.iter().map(side).collect()).unwrap()
 }
 
-/// The attractors that the first `starts` points of `window` find, and the labels of `count` others. `lift` makes a state of a point.
+/// The attractors that the first `starts` points of `window` find, and the labels of `count` others. `lift` makes a
+/// state of a point.
 fn basins(
     step: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
     space: Hyperrectangle,
@@ -40,8 +42,9 @@ fn fractions(counts: &LabelCounts) -> Vec<f64> {
     found
 }
 
-/// A fixed point has 0.645 of the cube. A cycle and a chaotic attractor share the rest. Their basins reach into the cells beside them:
-/// on this grid neither is a trap, and their orbits are reported instead of being given to one of the two.
+/// A fixed point has 0.645 of the cube. A cycle and a chaotic attractor share the rest. Their basins reach into the
+/// cells beside them: on this grid neither is a trap, and their orbits are reported instead of being given to one
+/// of the two.
 #[test]
 fn lorenz_84_has_its_fixed_point_and_reports_all_other_orbits() {
     let (f, g, a, b) = (6.886, 1.347, 0.255, 4.0);
@@ -105,8 +108,9 @@ fn the_magnetic_pendulum_comes_to_each_magnet_equally_often() {
     }
 }
 
-/// Thomas' system at b = 0.16: between each two of its three attractors the boundary has saddles of the same distance from the origin
-/// (the value is that of Attractors.jl). On attractor k coordinate k has the amplitude 4.48, and the others have 3.72 and 3.05.
+/// Thomas' system at b = 0.16: between each two of its three attractors the boundary has saddles of the same
+/// distance from the origin (the value is that of Attractors.jl). On attractor k coordinate k has the amplitude
+/// 4.48, and the others have 3.72 and 3.05.
 #[test]
 fn the_edge_states_of_thomas_have_the_norm_4_06585() {
     let field = |[x, y, z]: [f64; 3]| [y.sin() - 0.16 * x, z.sin() - 0.16 * y, x.sin() - 0.16 * z];
@@ -147,8 +151,8 @@ fn the_edge_states_of_thomas_have_the_norm_4_06585() {
     }
 }
 
-/// φ̈ = −0.1 φ̇ + 0.5 − sin φ: the fixed point sin φ = 1/2, or rotation, from φ within π of the fixed point and |φ̇| < 10 (M. Stender,
-/// N. Hoffmann, Nonlinear Dyn. 107, 2022: 0.152 and 0.848 of 10⁴ points).
+/// φ̈ = −0.1 φ̇ + 0.5 − sin φ: the fixed point sin φ = 1/2, or rotation, from φ within π of the fixed point and
+/// |φ̇| < 10 (M. Stender, N. Hoffmann, Nonlinear Dyn. 107, 2022: 0.152 and 0.848 of 10⁴ points).
 #[test]
 fn the_driven_pendulum_stands_or_rotates() {
     let rest = 0.5f64.asin();

@@ -14,7 +14,8 @@ fn interval(left: f64, right: f64) -> Interval {
     Interval::new(left, right).unwrap()
 }
 
-/// The label of a gap of the Cantor set is its stage n = 1, 2, …: there are countably many basins, of length (1/3)(2/3)^(n−1).
+/// The label of a gap of the Cantor set is its stage n = 1, 2, …: there are countably many basins, of length
+/// (1/3)(2/3)^(n−1).
 #[test]
 fn countably_many_basins_have_their_measures_and_their_entropy() {
     let map = |x: f64| {
@@ -51,7 +52,8 @@ fn countably_many_basins_have_their_measures_and_their_entropy() {
     }
 }
 
-/// The tent map of slope 3 has one basin, the orbits that leave [0, 1]. Its boundary is the Cantor set of the other orbits.
+/// The tent map of slope 3 has one basin, the orbits that leave [0, 1]. Its boundary is the Cantor set of the other
+/// orbits.
 #[test]
 fn the_boundary_of_an_escape_set_is_counted_with_the_undecided_rest() {
     let tent = |x: f64| Some(if x < 0.5 { 3.0 * x } else { 3.0 * (1.0 - x) });
@@ -76,8 +78,8 @@ struct Henon;
 
 impl Henon {
     fn label(x: f64, y: f64) -> Label {
-        // Beyond this radius the square outweighs the rest, and orbits escape. A bounded orbit comes to the attractor in far fewer
-        // steps.
+        // Beyond this radius the square outweighs the rest, and orbits escape. A bounded orbit comes to the
+        // attractor in far fewer steps.
         let (mut x, mut y) = (x, y);
         for _ in 0..500 {
             (x, y) = (1.0 - 1.4 * x * x + y, 0.3 * x);

@@ -1,5 +1,5 @@
-//! The riddled basin of J. C. Sommerer and E. Ott, Nature 365, 138 (1993): every box has starts of both fates, and the uncertainty
-//! exponent is near 0.
+//! The riddled basin of J. C. Sommerer and E. Ott, Nature 365, 138 (1993): every box has starts of both fates, and
+//! the uncertainty exponent is near 0.
 //!
 //! ```text
 //!   ẍ = −γ ẋ − ∂V/∂x + f₀ sin ωt        V(x, y) = (1 − x²)² + (x + x̄) y²
@@ -11,8 +11,8 @@
 use basin_of_attraction::{Hyperrectangle, Interval, Label, region_boxes, uncertainty_exponent};
 use std::sync::LazyLock;
 
-/// Steps of Runge and Kutta's method in a period of the forcing. An orbit is chaotic: with other steps its fate is that of another
-/// start nearby.
+/// Steps of Runge and Kutta's method in a period of the forcing. An orbit is chaotic: with other steps its fate is
+/// that of another start nearby.
 const STEPS: usize = 60;
 
 /// The forcing at the ends and the middles of the steps.

@@ -17,7 +17,8 @@ fn close(bounds: Bounds, lower: f64, upper: f64) -> bool {
 #[test]
 fn undecided_parts_open_the_bounds_of_a_tipping_probability() {
     let [one, two] = [1, 2].map(Label::from);
-    // Before: 1 on [0, 4], undecided [4, 5], 2 on [5, 10]. After: 1 on [0, 1], undecided [1, 2], 2 on [2, 9], undecided.
+    // Before: 1 on [0, 4], undecided [4, 5], 2 on [5, 10]. After: 1 on [0, 1], undecided [1, 2], 2 on [2, 9],
+    // undecided.
     let before = basins(&[(0.0, 4.0, 1), (5.0, 10.0, 2)]);
     let after = basins(&[(0.0, 1.0, 1), (2.0, 9.0, 2)]);
     let tipping = before.tipping_to(&after).unwrap();
@@ -88,8 +89,8 @@ fn counted_tipping_counts_undecided_points_in_the_worst_way() {
     assert!(TippingCounts::new([(Label::OUTSIDE, one)]).is_err());
 }
 
-/// x → x + 0.1 (x − x³ + c): with c = 0 the basins of −1 and 1 meet at 0. A constant c = 0.5 leaves one attractor. If c is
-/// switched on and off again within few steps, states come back; if it stays for long, they do not.
+/// x → x + 0.1 (x − x³ + c): with c = 0 the basins of −1 and 1 meet at 0. A constant c = 0.5 leaves one attractor.
+/// If c is switched on and off again within few steps, states come back; if it stays for long, they do not.
 #[test]
 fn a_fast_pulse_tips_fewer_states_than_a_long_one() {
     let step = |c: f64, x: f64| x + 0.1 * (x - x * x * x + c);

@@ -1,8 +1,8 @@
 //! The scenes of the page `hybrid_system::semantics`: small systems in which something happens at once, slides or
 //! touches. Tests and a figure share them.
 //!
-//! All flows have a constant second derivative, and all guards are affine. Therefore each scene can be run with signals,
-//! with samples and by integration, and its exact result is known.
+//! All flows have a constant second derivative, and all guards are affine. Therefore each scene can be run with
+//! signals, with samples and by integration, and its exact result is known.
 
 use hybrid_system::{
     Error, Guard, HybridSystem, NextEvent, QuasiPolynomial, Reset, Search, State, Tolerances,

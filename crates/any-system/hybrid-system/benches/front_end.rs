@@ -1,5 +1,5 @@
-//! Cost of a model by closures against the same model by the trait: the thermostat, a bouncing ball with samples, and the
-//! section of a pendulum.
+//! Cost of a model by closures against the same model by the trait: the thermostat, a bouncing ball with samples,
+//! and the section of a pendulum.
 
 #![allow(missing_docs, clippy::unwrap_used)]
 

@@ -1,7 +1,7 @@
 //! Events a second of ordinary scenes: the ball in four ways, a pendulum section, van der Pol.
 //!
-//! Run with `cargo bench -p hybrid-system --features ode --bench scenes`. With `-- --smallest [NAME]` the program prints
-//! instead the smallest time of an event in each scene. Two builds that run in turn are compared by it.
+//! Run with `cargo bench -p hybrid-system --features ode --bench scenes`. With `-- --smallest [NAME]` the program
+//! prints instead the smallest time of an event in each scene. Two builds that run in turn are compared by it.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
 

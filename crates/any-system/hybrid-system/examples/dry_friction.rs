@@ -5,9 +5,9 @@
 //!              ═══════════════ →    the belt moves with the speed v
 //! ```
 //!
-//! The friction pulls the mass towards the speed of the belt with the force 1/(1 + 3|v − x′|). At equal speeds the fields of
-//! both sides point at the surface x′ = v while |x| < 1: the mass sticks, and moves with the belt. The spring lets it go at
-//! x = 1. This is the stick-slip system of Leine (2024), with v = 0.2.
+//! The friction pulls the mass towards the speed of the belt with the force 1/(1 + 3|v − x′|). At equal speeds the
+//! fields of both sides point at the surface x′ = v while |x| < 1: the mass sticks, and moves with the belt. The
+//! spring lets it go at x = 1. This is the stick-slip system of Leine (2024), with v = 0.2.
 //!
 //! Run with `cargo run -p hybrid-system --features ode --example dry_friction`.
 
@@ -86,8 +86,8 @@ mod tests {
         assert!((period - PERIOD).abs() < 2e-11, "{period}");
     }
 
-    /// On a belt at rest the mass comes to rest: each half swing moves the turning point inwards, and the mass stops for
-    /// ever where the spring is too weak.
+    /// On a belt at rest the mass comes to rest: each half swing moves the turning point inwards, and the mass
+    /// stops for ever where the spring is too weak.
     #[test]
     fn on_a_belt_at_rest_the_mass_stops() {
         let belt = belt(0.0);

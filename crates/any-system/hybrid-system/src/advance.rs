@@ -10,8 +10,8 @@ impl<T: HybridSystem> Execution<'_, T> {
         self.at.mode
     }
 
-    /// The state at which the execution is: after the last jump, or at the limit that was reached. After a terminal event
-    /// it is the state before the jump that does not happen.
+    /// The state at which the execution is: after the last jump, or at the limit that was reached. After a terminal
+    /// event it is the state before the jump that does not happen.
     pub fn state(&self) -> &T::State {
         &self.at.state
     }
@@ -52,11 +52,12 @@ impl<T: HybridSystem> Execution<'_, T> {
     /// # Ok::<(), Error>(())
     /// ```
     ///
-    /// The state at the time is a new start. Rounding and the steps of an integration therefore differ a little from those
-    /// of an execution without the stop; [`Checkpoint`](crate::Checkpoint)s between two arcs change nothing.
+    /// The state at the time is a new start. Rounding and the steps of an integration therefore differ a little
+    /// from those of an execution without the stop; [`Checkpoint`](crate::Checkpoint)s between two arcs change
+    /// nothing.
     ///
-    /// Other limits stay as they are. If the execution had stopped for another reason than its limit on time, there are no
-    /// arcs, and [`stop`](Self::stop) tells the reason. A time before the present one is
+    /// Other limits stay as they are. If the execution had stopped for another reason than its limit on time, there
+    /// are no arcs, and [`stop`](Self::stop) tells the reason. A time before the present one is
     /// [`Error::BadLimit`](crate::Error::BadLimit).
     #[must_use = "the execution advances when the arcs are taken"]
     pub fn run_until(&mut self, time: f64) -> &mut Self {
@@ -67,7 +68,8 @@ impl<T: HybridSystem> Execution<'_, T> {
         self
     }
 
-    /// Goes on with other limits, if the execution has stopped at a limit on time or on events, or at the end of a budget.
+    /// Goes on with other limits, if the execution has stopped at a limit on time or on events, or at the end of a
+    /// budget.
     ///
     /// After every other stop, [`stop`](Self::stop) stays as it is, and there are no further arcs.
     #[must_use = "the execution advances when the arcs are taken"]

@@ -134,8 +134,8 @@ impl<M: Copy, S: Copy, X: StateVector> Arc<M, S, X> {
         Err(Error::StateNotFinite { time, jumps, state: state.components().to_vec() })
     }
 
-    /// The states at many times after the start of the arc, which are in order: 0 ≤ t₀ ≤ t₁ ≤ …. An integrated mode that
-    /// overrides [`HybridSystem::flow_at`] is integrated once for all of them.
+    /// The states at many times after the start of the arc, which are in order: 0 ≤ t₀ ≤ t₁ ≤ …. An integrated mode
+    /// that overrides [`HybridSystem::flow_at`] is integrated once for all of them.
     ///
     /// # Errors
     /// [`Error::StateNotFinite`] where the flow is not defined, and the errors of [`HybridSystem::flow_at`].

@@ -37,8 +37,8 @@ impl<T: HybridSystem> Execution<'_, T> {
             )?;
         }
         let mut time = self.at.time.plus(duration);
-        // The sum of the rounded duration may miss the preset time by a rounding. The clock would then have the same time
-        // once more.
+        // The sum of the rounded duration may miss the preset time by a rounding. The clock would then have the
+        // same time once more.
         if kind == EventKind::Clock
             && let Some(clock) = self.next_clock(horizon)?
             && clock.surface == surface
@@ -129,7 +129,8 @@ impl<T: HybridSystem> Execution<'_, T> {
             EventKind::Touch => {
                 self.at.arrival = Some(arrival(Some(surface), length).by_touch());
             }
-            // A guard that is on its surface at the preset time, before it has passed through it, must not lose its event.
+            // A guard that is on its surface at the preset time, before it has passed through it, must not lose its
+            // event.
             EventKind::Clock if duration > 0.0 => {
                 self.at.arrival = Some(arrival(None, DurationOfArc::given(duration)));
             }
@@ -183,7 +184,8 @@ impl<T: HybridSystem> Execution<'_, T> {
         leaving: LeavingGuards<T::Surface>,
     ) {
         if duration > 0.0 {
-            // A guard that reaches its surface just here, and passes through it after the limit, must not lose its event.
+            // A guard that reaches its surface just here, and passes through it after the limit, must not lose its
+            // event.
             let (flow, length) = (self.flow(), DurationOfArc::given(duration));
             self.at.arrival = Some(Arrival::new(&flow, None, &state, (length, leaving)));
             self.forget_residues(None, &state);
@@ -244,7 +246,8 @@ impl<T: HybridSystem> Execution<'_, T> {
         sliding_point(self.system, &at)
     }
 
-    /// The arc of no duration that ends on a sliding surface. The execution continues after it if the model gives a mode.
+    /// The arc of no duration that ends on a sliding surface. The execution continues after it if the model gives a
+    /// mode.
     pub(crate) fn sliding_arc(
         &mut self,
         sliding: Sliding<T::Mode, T::Surface, T::State>,

@@ -9,19 +9,21 @@ use smallvec::SmallVec;
 /// Surfaces that are reached together without allocating.
 const FEW: usize = 4;
 
-/// The lookback from a crossing, in roundings of its time. The rounding counts in both directions: two crossings whose times
-/// differ by the sum of their roundings may be at the same instant. A larger number would join events that are distinct.
+/// The lookback from a crossing, in roundings of its time. The rounding counts in both directions: two crossings
+/// whose times differ by the sum of their roundings may be at the same instant. A larger number would join events
+/// that are distinct.
 const LOOKBACK: f64 = 2.0;
 
-/// Each further look back is so many times longer, up to the start of the arc: some ten looks. A smaller number would take more
-/// looks; a larger one could pass over a short stay on the other side.
+/// Each further look back is so many times longer, up to the start of the arc: some ten looks. A smaller number
+/// would take more looks; a larger one could pass over a short stay on the other side.
 const LONGER: f64 = 8.0;
 
-/// Parts of an arc at which a guard is looked at that has left its surface. A periodic motion is back at one of them, and not
-/// at all of them.
+/// Parts of an arc at which a guard is looked at that has left its surface. A periodic motion is back at one of
+/// them, and not at all of them.
 const PLACES: [f64; 3] = [0.5, 0.3, 0.8];
 
-/// The part of an arc over which its field is straight enough to look back along it: the bend of 10⁻⁶ of an arc is 10⁻¹² of it.
+/// The part of an arc over which its field is straight enough to look back along it: the bend of 10⁻⁶ of an arc is
+/// 10⁻¹² of it.
 const NEAR: f64 = 1e-6;
 
 /// The duration of an arc, with its errors.
@@ -109,12 +111,12 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         arrival
     }
 
-    /// The side from which a guard has come to its zero on the computed trajectory; `None` if it has not come there. The
-    /// signs of its values decide, and no distance: a zero that is an ulp later is another event.
+    /// The side from which a guard has come to its zero on the computed trajectory; `None` if it has not come
+    /// there. The signs of its values decide, and no distance: a zero that is an ulp later is another event.
     ///
-    /// The search has reported no event of the guard on the arc. So a guard that started on a side from which crossings count,
-    /// and is now on the other one, or zero, has come to its zero at the end. One that started on its far side may have gone
-    /// and come back: its values before the end tell.
+    /// The search has reported no event of the guard on the arc. So a guard that started on a side from which
+    /// crossings count, and is now on the other one, or zero, has come to its zero at the end. One that started on
+    /// its far side may have gone and come back: its values before the end tell.
     fn side_before<T>(&self, arc: &FlowFrom<T>, guard: &Guard<S>) -> Option<f64>
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
@@ -144,8 +146,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         (is_there || self.has_left(arc, guard.surface, side)).then_some(side)
     }
 
-    /// Whether a guard was on `side` shortly before the end of the arc: the nearest one of some earlier values that is no
-    /// rounding.
+    /// Whether a guard was on `side` shortly before the end of the arc: the nearest one of some earlier values that
+    /// is no rounding.
     fn was_on_side_before<T>(&self, arc: &FlowFrom<T>, surface: S, side: f64) -> bool
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
@@ -178,8 +180,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         })
     }
 
-    /// The same if the model has solved for the crossing. Two surfaces that are reached together by its formulas have signs
-    /// of rounding.
+    /// The same if the model has solved for the crossing. Two surfaces that are reached together by its formulas
+    /// have signs of rounding.
     fn side_by_rounding<T>(&self, arc: &FlowFrom<T>, surface: S) -> Option<f64>
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
@@ -204,8 +206,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         })
     }
 
-    /// True if the zero of a guard, whose value at the start of `next` is `now`, is still ahead, although rounding may hide
-    /// it: the flow has come next to the surface, and the reset has not moved the guard.
+    /// True if the zero of a guard, whose value at the start of `next` is `now`, is still ahead, although rounding
+    /// may hide it: the flow has come next to the surface, and the reset has not moved the guard.
     pub(crate) fn is_ahead<T>(
         &self,
         next: &FlowFrom<T>,
@@ -243,8 +245,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         self
     }
 
-    /// True if the guard of this surface has touched it, and the reset has not changed the guard: it goes back to the side
-    /// from which it came, although its rate at the time of the touch may still lead to the surface.
+    /// True if the guard of this surface has touched it, and the reset has not changed the guard: it goes back to
+    /// the side from which it came, although its rate at the time of the touch may still lead to the surface.
     pub(crate) fn has_touched<T>(&self, next: &FlowFrom<T>, surface: S) -> bool
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
@@ -263,8 +265,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         self.duration
     }
 
-    /// The largest component at the start of the arc. On this scale the error of the arrival is small: an arc that ends near
-    /// the origin is wrong by rounding of the numbers that it began with.
+    /// The largest component at the start of the arc. On this scale the error of the arrival is small: an arc that
+    /// ends near the origin is wrong by rounding of the numbers that it began with.
     pub(crate) fn size(&self) -> f64 {
         self.start.largest()
     }
@@ -279,8 +281,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         self.reached.iter().find(|reached| reached.0 == surface).map(|reached| reached.1)
     }
 
-    /// The error of a guard after the reset, at the start of `next`, by the error of the time of the crossing. The guard of
-    /// the crossed surface is zero by construction, if the reset has not changed it.
+    /// The error of a guard after the reset, at the start of `next`, by the error of the time of the crossing. The
+    /// guard of the crossed surface is zero by construction, if the reset has not changed it.
     pub(crate) fn error_after<T>(&self, next: &FlowFrom<T>, surface: S) -> f64
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
@@ -294,8 +296,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         }
     }
 
-    /// True if a guard was on its surface at the start of the arc, and has not left it up to the end, as far as rounding
-    /// shows: the arc was too short. Its event has been before this arc, or is still to come.
+    /// True if a guard was on its surface at the start of the arc, and has not left it up to the end, as far as
+    /// rounding shows: the arc was too short. Its event has been before this arc, or is still to come.
     fn has_stayed<T>(&self, arc: &FlowFrom<T>, surface: S) -> bool
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
@@ -307,8 +309,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
 
     /// The value of a guard before the rounding of the time of the crossing, and the change within it.
     ///
-    /// The smaller one of the changes over two neighbouring stretches of time counts: a jump is in one of them only, and its
-    /// height is no error.
+    /// The smaller one of the changes over two neighbouring stretches of time counts: a jump is in one of them
+    /// only, and its height is no error.
     fn earlier<T>(&self, system: &T, surface: S) -> (f64, f64)
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,

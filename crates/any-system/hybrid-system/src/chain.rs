@@ -13,13 +13,14 @@ const MOST_TIMELESS: usize = 1000;
 /// Events that are kept without allocating.
 const FEW: usize = 4;
 
-/// The events since the time, as a double, has changed for the last time, the last crossing included: modes and surfaces.
+/// The events since the time, as a double, has changed for the last time, the last crossing included: modes and
+/// surfaces.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Chain<M, S> {
     pub(crate) events: SmallVec<[(M, S); FEW]>,
-    /// How many of them, the newest, took no time at all, or only the error of their times. The others moved the time by
-    /// less than the rounding of a double, as the last bounces of a ball late in time do.
+    /// How many of them, the newest, took no time at all, or only the error of their times. The others moved the
+    /// time by less than the rounding of a double, as the last bounces of a ball late in time do.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::count::read_count"))]
     pub(crate) timeless: usize,
 }

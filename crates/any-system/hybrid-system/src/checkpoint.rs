@@ -7,15 +7,15 @@ use crate::system::HybridSystem;
 
 /// An execution between two arcs, without its system and its limits.
 ///
-/// An execution that is [restored](Execution::restore) from a checkpoint, with the same system and limits, gives the same
-/// bits as the execution from which the checkpoint was [taken](Execution::checkpoint). The checkpoint contains the mode,
-/// the state, the time (with the digits that a double does not hold), the number of events, the durations and states from
-/// which a Zeno limit is recognised, and the events at the present instant.
+/// An execution that is [restored](Execution::restore) from a checkpoint, with the same system and limits, gives
+/// the same bits as the execution from which the checkpoint was [taken](Execution::checkpoint). The checkpoint
+/// contains the mode, the state, the time (with the digits that a double does not hold), the number of events, the
+/// durations and states from which a Zeno limit is recognised, and the events at the present instant.
 ///
-/// With the feature `serde` a checkpoint can be written and read by serde, if modes, surfaces and states can. JSON keeps
-/// all bits if the reader is exact (`serde_json` with its feature `float_roundtrip`). A checkpoint with an infinite or NaN
-/// component is not written, because JSON has no such numbers: the writer returns an error. Surfaces that are texts
-/// (`&'static str`) can be written but not read: use numbers or an enum.
+/// With the feature `serde` a checkpoint can be written and read by serde, if modes, surfaces and states can. JSON
+/// keeps all bits if the reader is exact (`serde_json` with its feature `float_roundtrip`). A checkpoint with an
+/// infinite or NaN component is not written, because JSON has no such numbers: the writer returns an error.
+/// Surfaces that are texts (`&'static str`) can be written but not read: use numbers or an enum.
 ///
 /// ```
 /// use hybrid_system::*;

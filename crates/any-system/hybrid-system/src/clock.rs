@@ -5,8 +5,8 @@ use crate::error::Error;
 /// The times first + k·period, k = 0, 1, 2, …
 ///
 /// A model with a clock guard returns [`next_after`](Self::next_after) from
-/// [`next_time`](crate::HybridSystem::next_time). Each time is computed from k, not from the time before it, so that the
-/// clock does not drift.
+/// [`next_time`](crate::HybridSystem::next_time). Each time is computed from k, not from the time before it, so
+/// that the clock does not drift.
 ///
 /// ```
 /// use hybrid_system::PeriodicTimes;
@@ -27,8 +27,8 @@ pub struct PeriodicTimes {
 /// a period apart or more.
 const MOST_TICKS: f64 = (1u64 << 52) as f64;
 
-/// How far k, estimated by a division, may be from the right one. The quotient has three roundings, each at most 2⁻⁵³ of
-/// k < 2⁵²; the sum is below 2. A larger number would only cost evaluations.
+/// How far k, estimated by a division, may be from the right one. The quotient has three roundings, each at most
+/// 2⁻⁵³ of k < 2⁵²; the sum is below 2. A larger number would only cost evaluations.
 const NEIGHBOURS: i32 = 3;
 
 impl PeriodicTimes {

@@ -15,11 +15,12 @@ use crate::state::State;
 use crate::system::HybridSystem;
 use nalgebra::RowSVector;
 
-/// Two delays agree within this part of their size. Derivatives by differences have about ten digits. A larger number would
-/// take two surfaces at a small angle for one.
+/// Two delays agree within this part of their size. Derivatives by differences have about ten digits. A larger
+/// number would take two surfaces at a small angle for one.
 const AGREEMENT: f64 = 1e-6;
 
-/// A crossing after this part of the present time is at the same instant as the event before: some roundings of the time.
+/// A crossing after this part of the present time is at the same instant as the event before: some roundings of the
+/// time.
 const SAME_INSTANT: f64 = 4.0 * f64::EPSILON;
 
 /// The derivative of the time of an event.
@@ -30,8 +31,8 @@ pub(crate) struct Delay<const C: usize> {
     pub(crate) time_rounding: f64,
 }
 
-/// ∂τ of the event that ends an arc; `None` for a touch, or a second event at one instant, that changes nothing. `by_guard` gives it for a crossing. `before` is that of the
-/// event before.
+/// ∂τ of the event that ends an arc; `None` for a touch, or a second event at one instant, that changes nothing.
+/// `by_guard` gives it for a crossing. `before` is that of the event before.
 ///
 /// # Errors
 /// [`Error::GrazingSensitivity`] for a touch, [`Error::CornerSensitivity`] for two surfaces at one instant,
@@ -76,8 +77,8 @@ where
     }
 }
 
-/// True if the state is beyond the surface by more than rounding, and more than the error of the time of the event before
-/// can explain.
+/// True if the state is beyond the surface by more than rounding, and more than the error of the time of the event
+/// before can explain.
 fn is_beyond<T, const N: usize>(
     system: &T,
     mode: T::Mode,

@@ -14,8 +14,8 @@ use crate::zeno::History;
 
 /// An execution of a hybrid system, as an iterator over its arcs.
 ///
-/// The iterator ends at a limit, at a terminal event, at a Zeno limit or a sliding surface after which the model gives no
-/// mode, when no event can follow, or after an error. [`stop`](Self::stop) returns which.
+/// The iterator ends at a limit, at a terminal event, at a Zeno limit or a sliding surface after which the model
+/// gives no mode, when no event can follow, or after an error. [`stop`](Self::stop) returns which.
 #[derive(Debug, Clone)]
 pub struct Execution<'a, T: HybridSystem> {
     pub(crate) system: &'a T,

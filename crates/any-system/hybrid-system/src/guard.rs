@@ -30,8 +30,8 @@ impl Direction {
         }
     }
 
-    /// True if a state whose guard has this value is beyond the surface: on the side that only events reach. A guard that
-    /// counts both ways has no such side.
+    /// True if a state whose guard has this value is beyond the surface: on the side that only events reach. A
+    /// guard that counts both ways has no such side.
     pub(crate) fn is_beyond(self, value: f64) -> bool {
         self != Direction::Either && self.leads_to(value)
     }
@@ -40,17 +40,19 @@ impl Direction {
 /// The part that a guard plays in its mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Role {
-    /// An event where the flow crosses the surface, and the author has not said what a state beyond it means. A jump to such
-    /// a state is the error [`LandsBeyond`](crate::Error::LandsBeyond), which names both words: a contact and a crossing.
+    /// An event where the flow crosses the surface, and the author has not said what a state beyond it means. A
+    /// jump to such a state is the error [`LandsBeyond`](crate::Error::LandsBeyond), which names both words: a
+    /// contact and a crossing.
     Switch,
-    /// A contact that holds, such as a floor: the surface bounds the flow of the mode, and no state beyond it can flow. A
-    /// jump to a state beyond it is an event at once; an initial state beyond it is an error.
+    /// A contact that holds, such as a floor: the surface bounds the flow of the mode, and no state beyond it can
+    /// flow. A jump to a state beyond it is an event at once; an initial state beyond it is an error.
     Contact,
-    /// An event only where the flow crosses the surface, such as a Poincaré section, or the touchdown of a leg that takes off
-    /// below the height of its touchdown. States on both sides can flow: a start on the surface or beyond it is no event.
+    /// An event only where the flow crosses the surface, such as a Poincaré section, or the touchdown of a leg that
+    /// takes off below the height of its touchdown. States on both sides can flow: a start on the surface or beyond
+    /// it is no event.
     Crossing,
-    /// The events happen at preset times, see [`HybridSystem::next_time`](crate::HybridSystem::next_time). The value of the
-    /// guard is not used.
+    /// The events happen at preset times, see [`HybridSystem::next_time`](crate::HybridSystem::next_time). The
+    /// value of the guard is not used.
     Clock,
 }
 
@@ -61,8 +63,8 @@ impl Role {
     }
 }
 
-/// What happens where a guard touches its surface: it comes within rounding of zero and goes back to the side from which
-/// it came.
+/// What happens where a guard touches its surface: it comes within rounding of zero and goes back to the side from
+/// which it came.
 ///
 /// Rounding hides whether such a guard stays away, touches, or crosses twice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -117,7 +119,8 @@ impl<S: Copy> Guard<S> {
         self.role = Role::Contact;
         self
     }
-    /// The same guard as a crossing: an event only where the flow crosses the surface. The mode flows on both sides of it.
+    /// The same guard as a crossing: an event only where the flow crosses the surface. The mode flows on both sides
+    /// of it.
     #[must_use]
     pub const fn crossing(mut self) -> Self {
         self.role = Role::Crossing;

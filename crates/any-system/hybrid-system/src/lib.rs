@@ -53,11 +53,12 @@
 //!
 //! More: [what happens at a surface](semantics), [sliding](sliding_motion), [the mathematics](mathematics), [which
 //! certainty do I have?](certainty), and [a model of your own in 20 lines](guide). In the examples `bouncing_ball`,
-//! `plastic_landing` and `eccentric_cylinder` bodies come to rest on another one and are released; in `dry_friction` a mass
-//! sticks to a belt.
+//! `plastic_landing` and `eccentric_cylinder` bodies come to rest on another one and are released; in
+//! `dry_friction` a mass sticks to a belt.
 //!
 //! # Features
-//! `ode`: modes given as ẋ = f(x), and sliding modes. `serde`: checkpoints that can be saved and loaded. Both are off by default.
+//! `ode`: modes given as ẋ = f(x), and sliding modes. `serde`: checkpoints that can be saved and loaded. Both are
+//! off by default.
 //!
 //! # Accuracy
 //! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard given
@@ -72,9 +73,9 @@
 //! kind of guard.
 //!
 //! # Not here
-//! Stiff integrators ([what to do](stiff)), differential-algebraic equations, sliding along several surfaces at once. The
-//! sampled search returns an error, not a guess, for a guard that starts at zero and is beyond its surface at the first
-//! sample.
+//! Stiff integrators ([what to do](stiff)), differential-algebraic equations, sliding along several surfaces at
+//! once. The sampled search returns an error, not a guess, for a guard that starts at zero and is beyond its
+//! surface at the first sample.
 //!
 //! # References
 //! R. Goebel, R. G. Sanfelice, A. R. Teel, *Hybrid Dynamical Systems*, Princeton (2012), for hybrid
@@ -156,8 +157,8 @@ pub use system::{HybridSystem, Reset, default_search};
 pub use trajectory::{EventColumns, Trajectory};
 pub use zeno::ZenoLimit;
 
-/// The parts of a [`Model`]: each method of it adds one. A type of a model is seldom written, and `impl HybridSystem` or a
-/// generic parameter does.
+/// The parts of a [`Model`]: each method of it adds one. A type of a model is seldom written, and `impl
+/// HybridSystem` or a generic parameter does.
 pub mod model_parts {
     #[cfg(feature = "ode")]
     pub use crate::model::Integrated;

@@ -13,9 +13,10 @@ pub struct Limits {
     pub sampling_interval: Option<f64>,
     /// The most intervals that the search for one event tests under bounds.
     pub intervals: usize,
-    /// The most steps of the integrated flow of one arc, and the most samples of one search. After them the arc ends with
-    /// [`ArcEnd::Unfinished`](crate::ArcEnd::Unfinished), and the execution can go on. Two other limits hold as well: the
-    /// steps of the tolerances of a flow, a million by default, and a billion samples of one search.
+    /// The most steps of the integrated flow of one arc, and the most samples of one search. After them the arc
+    /// ends with [`ArcEnd::Unfinished`](crate::ArcEnd::Unfinished), and the execution can go on. Two other limits
+    /// hold as well: the steps of the tolerances of a flow, a million by default, and a billion samples of one
+    /// search.
     pub steps: usize,
 }
 

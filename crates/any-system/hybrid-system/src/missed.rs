@@ -1,8 +1,8 @@
 //! Has a model that solves for its own crossings passed through a surface?
 //!
 //! The searches of this crate find a change of sign by themselves. A model that overrides
-//! [`first_crossing`](crate::HybridSystem::first_crossing) may forget a guard. At the end of an arc the state must not be
-//! beyond a surface, unless the model has returned the crossing of that surface.
+//! [`first_crossing`](crate::HybridSystem::first_crossing) may forget a guard. At the end of an arc the state must
+//! not be beyond a surface, unless the model has returned the crossing of that surface.
 
 use crate::arrival::{Arrival, DurationOfArc};
 use crate::crossing::{GuardedFlow, LeavingGuards};

@@ -11,7 +11,8 @@ use crate::start_rule::{Start, Undeclared, start_of_arc};
 use crate::system::{FlowFrom, HybridSystem};
 
 impl<T: HybridSystem> Execution<'_, T> {
-    /// The next event: at once, at a preset time, or the first crossing; and the guards on whose surfaces the arc starts.
+    /// The next event: at once, at a preset time, or the first crossing; and the guards on whose surfaces the arc
+    /// starts.
     pub(crate) fn next_event(
         &self,
         horizon: f64,

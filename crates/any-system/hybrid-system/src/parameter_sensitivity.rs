@@ -1,7 +1,7 @@
 //! How a small change of the parameters of a system propagates through arcs and events.
 //!
-//! Along an arc δx⁻ = Φ δx⁺ + Π δp, with Π = ∂φ/∂p at fixed time. The state lies on the surface g(x, p) = 0 at the event.
-//! So the event comes later by
+//! Along an arc δx⁻ = Φ δx⁺ + Π δp, with Π = ∂φ/∂p at fixed time. The state lies on the surface g(x, p) = 0 at the
+//! event. So the event comes later by
 //!
 //! ```text
 //!   δτ = −(∇g·δx⁻ + ∂g/∂p δp)/(∇g·f⁻)
@@ -92,8 +92,8 @@ type ArcOf<F, const N: usize, const P: usize> = Arc<ModeOf<F, N, P>, SurfaceOf<F
 /// ```
 ///
 /// # Errors
-/// The errors of [`sensitivity`](crate::sensitivity), and [`Error::ClockSensitivity`] for a preset time, which may depend on
-/// the parameters.
+/// The errors of [`sensitivity`](crate::sensitivity), and [`Error::ClockSensitivity`] for a preset time, which may
+/// depend on the parameters.
 pub fn parameter_sensitivity<F, const N: usize, const P: usize>(
     family: &F,
     arcs: &[ArcOf<F, N, P>],
@@ -105,13 +105,13 @@ where
     Ok(after_arcs(family, arcs, start)?.0)
 }
 
-/// ∂x⁺/∂p and ∂τ/∂p: the derivatives of the state right after the event that ends the last of `arcs`, and of the time of
-/// that event. The states of different parameters are compared at their events, not at the same time. `start` is ∂x₀/∂p
-/// at the start of the first arc, whose time does not depend on the parameters.
+/// ∂x⁺/∂p and ∂τ/∂p: the derivatives of the state right after the event that ends the last of `arcs`, and of the
+/// time of that event. The states of different parameters are compared at their events, not at the same time.
+/// `start` is ∂x₀/∂p at the start of the first arc, whose time does not depend on the parameters.
 ///
 /// # Errors
-/// Those of [`parameter_sensitivity`], and [`Error::NoSensitivity`] if no event ends the last arc, or the event ends the
-/// execution.
+/// Those of [`parameter_sensitivity`], and [`Error::NoSensitivity`] if no event ends the last arc, or the event
+/// ends the execution.
 pub fn event_parameter_sensitivity<F, const N: usize, const P: usize>(
     family: &F,
     arcs: &[ArcOf<F, N, P>],
@@ -152,8 +152,8 @@ where
     Ok((change, delay))
 }
 
-/// ∂x/∂p after the event of an arc, at fixed time, from that at its start, and the delay of the event. `before` is the delay
-/// of the event before the arc.
+/// ∂x/∂p after the event of an arc, at fixed time, from that at its start, and the delay of the event. `before` is
+/// the delay of the event before the arc.
 fn after_arc<F, const N: usize, const P: usize>(
     family: &F,
     arc: &ArcOf<F, N, P>,

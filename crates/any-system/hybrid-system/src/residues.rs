@@ -1,8 +1,8 @@
 //! Values of guards at their events, as long as the state has not come to the side where the event leads.
 //!
-//! The state of an event lies on the surface within an error: a little beyond it, or a little before. The next arc leads
-//! away from there: back, if the reset has turned the motion round, or through the surface of an observer. But the next
-//! event, or a limit on time, may come earlier:
+//! The state of an event lies on the surface within an error: a little beyond it, or a little before. The next arc
+//! leads away from there: back, if the reset has turned the motion round, or through the surface of an observer.
+//! But the next event, or a limit on time, may come earlier:
 //!
 //! ```text
 //!   ball 1 arrives at 2.2·10⁻¹⁶ and stops,
@@ -28,8 +28,8 @@ pub(crate) struct Residues<S>(SmallVec<[Residue<S>; FEW]>);
 struct Residue<S> {
     surface: S,
     value: f64,
-    /// True if the event was at a limit on time, within rounding of the surface: the guard has had its event, and passes
-    /// through its zero later.
+    /// True if the event was at a limit on time, within rounding of the surface: the guard has had its event, and
+    /// passes through its zero later.
     passes_later: bool,
 }
 
@@ -55,8 +55,8 @@ impl<S: Copy + PartialEq> Residues<S> {
         }
     }
 
-    /// Forgets the surfaces whose guards have changed sign or have gone away, with the values and their rounding at the end
-    /// of an arc. The event there is one of the surface `now`, if any.
+    /// Forgets the surfaces whose guards have changed sign or have gone away, with the values and their rounding at
+    /// the end of an arc. The event there is one of the surface `now`, if any.
     pub(crate) fn keep(
         &mut self,
         now: Option<S>,

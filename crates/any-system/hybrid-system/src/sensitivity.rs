@@ -108,8 +108,8 @@ where
     Ok(after_arc(system, arc, &SMatrix::identity(), None)?.0)
 }
 
-/// The change after the event that ends an arc, from the `change` at its start, and the delay of that event. `before` is the
-/// delay of the event before the arc.
+/// The change after the event that ends an arc, from the `change` at its start, and the delay of that event.
+/// `before` is the delay of the event before the arc.
 fn after_arc<T, const N: usize>(
     system: &T,
     arc: &Arc<T::Mode, T::Surface, State<N>>,
@@ -229,8 +229,8 @@ where
 /// An event at once after another one happens at the time of that event, however the start changes.
 ///
 /// # Errors
-/// The errors of [`arc_sensitivity`], and [`Error::CornerSensitivity`] where two surfaces are reached at one instant: nearby
-/// orbits reach them one after the other, in either order.
+/// The errors of [`arc_sensitivity`], and [`Error::CornerSensitivity`] where two surfaces are reached at one
+/// instant: nearby orbits reach them one after the other, in either order.
 pub fn sensitivity<T, const N: usize>(
     system: &T,
     arcs: &[Arc<T::Mode, T::Surface, State<N>>],

@@ -34,10 +34,11 @@ pub(crate) struct Fit {
     pub(crate) scatter: f64,
 }
 
-/// Least ratio of the first to the last length in a geometric fit. If λ changes along the series, like D as over a moving
-/// or curved surface, the change still to come is 1/(4 − 1) of the change seen. If λ falls like a small power s of D, the
-/// true remainder is 1/(1 − s) of the fitted one, and the change seen is s ln 4 > s. So the change seen bounds the
-/// change to come in both cases. A smaller ratio would not; a larger one needs longer series.
+/// Least ratio of the first to the last length in a geometric fit. If λ changes along the series, like D as over a
+/// moving or curved surface, the change still to come is 1/(4 − 1) of the change seen. If λ falls like a small
+/// power s of D, the true remainder is 1/(1 − s) of the fitted one, and the change seen is s ln 4 > s. So the
+/// change seen bounds the change to come in both cases. A smaller ratio would not; a larger one needs longer
+/// series.
 const LEAST_SHRINKING: f64 = 4.0;
 
 /// The geometric law, through `periods`, the oldest first; `None` if their slopes λ differ by more than `spread` of the
@@ -105,9 +106,9 @@ pub(crate) fn power_law(periods: &[Period]) -> Option<Fit> {
     let earlier = (at(d, second) - at(c, first)).abs();
     let later = (at(e, third) - at(d, second)).abs();
     let (remainder, order) = third;
-    // The noise of a length moves the slope of ln D between two points, of distance ln 2 or more, by 2/ln 2 < 3 times its
-    // relative size, and the difference of two slopes, which gives μ and the remainder, by twice that for each
-    // of the two: 12 in all, times the order.
+    // The noise of a length moves the slope of ln D between two points, of distance ln 2 or more, by 2/ln 2 < 3
+    // times its relative size, and the difference of two slopes, which gives μ and the remainder, by twice that for
+    // each of the two: 12 in all, times the order.
     let noise =
         12.0 * order * remainder * (c.error / c.length + d.error / d.length + e.error / e.length);
     if !(later <= CONVERGENCE * earlier + noise) {

@@ -20,8 +20,9 @@
 //! A guard that the flow has brought next to its surface, and whose zero is still ahead by the signs of the computed
 //! trajectory, is on its side, however small its value.
 //!
-//! For guards of all roles: if the flow has reached the surface at the same instant as the surface of the last event, and the
-//! reset of that event lets the state pass through, that is an event. No crossing is lost between two resets.
+//! For guards of all roles: if the flow has reached the surface at the same instant as the surface of the last
+//! event, and the reset of that event lets the state pass through, that is an event. No crossing is lost between
+//! two resets.
 
 use crate::arrival::Arrival;
 use crate::crossing::{
@@ -59,11 +60,12 @@ pub(crate) struct Undeclared {
     pub(crate) on_surface: bool,
 }
 
-/// The start of an arc: an event at once, or a flow. `leaving` becomes the list of the guards on whose surfaces it starts.
+/// The start of an arc: an event at once, or a flow. `leaving` becomes the list of the guards on whose surfaces it
+/// starts.
 ///
-/// `arrival` is the crossing before the arc, at the same instant, and `residues` are the values of guards at events from which
-/// the state has not gone away yet. `initial` is true at the start of an execution. The search
-/// goes up to a horizon, with samples at an interval, if there is one.
+/// `arrival` is the crossing before the arc, at the same instant, and `residues` are the values of guards at events
+/// from which the state has not gone away yet. `initial` is true at the start of an execution. The search goes up
+/// to a horizon, with samples at an interval, if there is one.
 ///
 /// # Errors
 /// [`Error::StartsBeyond`], [`Error::NotFinite`] for a guard without a value, and errors if rounding hides to which side a
@@ -97,8 +99,8 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             continue;
         }
         let rounding = flow.rounding_at(surface, flow.start);
-        // An exact zero, to which a reset has moved the state, has no error by time. A guard that the flow has moved to its
-        // other side has crossed it.
+        // An exact zero, to which a reset has moved the state, has no error by time. A guard that the flow has
+        // moved to its other side has crossed it.
         let crossed_by_flow = reached.is_some_and(|from| from * now < 0.0);
         let by_time = arrival
             .filter(|_| now != 0.0 && !crossed_by_flow)
@@ -151,8 +153,8 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
                     rounding: error,
                 });
             }
-            // A surface that the flow has reached is crossed. A jump through it, or beyond it, may mean two things. A reset
-            // that only changes the mode is no jump on the surface: the flow has brought the state there.
+            // A surface that the flow has reached is crossed. A jump through it, or beyond it, may mean two things.
+            // A reset that only changes the mode is no jump on the surface: the flow has brought the state there.
             let moved = || {
                 let before = arrival.map(Arrival::before);
                 before.is_some_and(|before| !is_unchanged(before, flow.start))

@@ -40,8 +40,8 @@ pub trait HybridSystem {
     /// defined.
     fn flow(&self, mode: Self::Mode, start: &Self::State, time: f64) -> Self::State;
 
-    /// φ(t; x₀) at each of these times, which are in one order from zero on. Pictures and comparisons with data need many
-    /// states of one arc.
+    /// φ(t; x₀) at each of these times, which are in one order from zero on. Pictures and comparisons with data
+    /// need many states of one arc.
     ///
     /// Default: one call of [`flow`](Self::flow) for each time. An integrated mode returns `integrated_states(…)`
     /// (feature `ode`), which integrates once.
@@ -59,8 +59,9 @@ pub trait HybridSystem {
 
     /// The guards of `mode`: only these surfaces are searched.
     ///
-    /// Of guards that change their signs at the same double of the time, the one listed first is the event. Another one is
-    /// an event at the same instant, after the first one, if the state after the first reset passes through its surface.
+    /// Of guards that change their signs at the same double of the time, the one listed first is the event. Another
+    /// one is an event at the same instant, after the first one, if the state after the first reset passes through
+    /// its surface.
     fn guards(&self, mode: Self::Mode) -> &[Guard<Self::Surface>];
 
     /// The function g whose zero set is the surface.
@@ -94,8 +95,8 @@ pub trait HybridSystem {
         None
     }
 
-    /// f(x) of ẋ = f(x) in `mode`. Integrated flows and derivatives through events need it, and so does the sliding field.
-    /// If the field depends on time, time is a component of the state with ṫ = 1.
+    /// f(x) of ẋ = f(x) in `mode`. Integrated flows and derivatives through events need it, and so does the sliding
+    /// field. If the field depends on time, time is a component of the state with ṫ = 1.
     ///
     /// Default: `None`.
     fn vector_field(&self, mode: Self::Mode, state: &Self::State) -> Option<Self::State> {
@@ -178,14 +179,14 @@ pub trait HybridSystem {
         None
     }
 
-    /// The first event of an arc strictly after its `start`. The horizon of the `search` may be infinite for a model that
-    /// solves its crossings.
+    /// The first event of an arc strictly after its `start`. The horizon of the `search` may be infinite for a
+    /// model that solves its crossings.
     ///
-    /// The start itself has been decided before: [`Search::leaving`] has the guards on whose surfaces it lies. Events at
-    /// preset times are not searched here.
+    /// The start itself has been decided before: [`Search::leaving`] has the guards on whose surfaces it lies.
+    /// Events at preset times are not searched here.
     ///
-    /// At the end of an arc whose certainty is `Exact` the execution checks the other guards. A state beyond one of their
-    /// surfaces is [`Error::MissedEvent`].
+    /// At the end of an arc whose certainty is `Exact` the execution checks the other guards. A state beyond one of
+    /// their surfaces is [`Error::MissedEvent`].
     ///
     /// Default: [`default_search`].
     ///
@@ -201,26 +202,28 @@ pub trait HybridSystem {
     }
 }
 
-/// The first crossing of a guard of `mode` along the flow of a system: what
-/// [`HybridSystem::first_crossing`] does unless a model overrides it. An override can call this function for some modes.
+/// The first crossing of a guard of `mode` along the flow of a system: what [`HybridSystem::first_crossing`] does
+/// unless a model overrides it. An override can call this function for some modes.
 ///
 /// Each guard is searched with the strongest information that the model gives. A guard with a
 /// [quasi-polynomial](HybridSystem::guard_quasi_polynomial) or with [enclosures](HybridSystem::guard_enclosure) is
-/// searched with certainty up to a finite horizon. Every other guard is sampled at the sampling interval, and a change of
-/// sign is refined to full precision. Sampling misses two crossings of one guard between two samples, and a touch
-/// without a change of sign; a zero at a sample counts once. If any guard was sampled, the result has
+/// searched with certainty up to a finite horizon. Every other guard is sampled at the sampling interval, and a
+/// change of sign is refined to full precision. Sampling misses two crossings of one guard between two samples, and
+/// a touch without a change of sign; a zero at a sample counts once. If any guard was sampled, the result has
 /// [`Certainty::Sampled`](crate::Certainty::Sampled).
 ///
 /// If a budget of the search ends before its horizon, of intervals or of samples, the result is
-/// [`NextEvent::Unfinished`] with the time up to which there is no event. This is no error: a search from there goes on.
+/// [`NextEvent::Unfinished`] with the time up to which there is no event. This is no error: a search from there
+/// goes on.
 ///
 /// # Errors
-/// * [`Error::Grazing`] for a touch of a guard whose [`Touch`](crate::Touch) is an error: the guard comes so close to zero that
-///   rounding hides whether it crosses, and its sign is the same before and behind.
-/// * [`Error::UndecidedStart`], [`Error::UndecidedSign`] if rounding or the samples hide to which side a guard leaves its zero
-///   at the start.
-/// * [`Error::NoSamplingInterval`] if a guard must be sampled and there is no interval; [`Error::BadSamplingInterval`] for an
-///   interval that is not positive or vanishes beside the horizon, and for an infinite horizon of a sampled guard.
+/// * [`Error::Grazing`] for a touch of a guard whose [`Touch`](crate::Touch) is an error: the guard comes so close
+///   to zero that rounding hides whether it crosses, and its sign is the same before and behind.
+/// * [`Error::UndecidedStart`], [`Error::UndecidedSign`] if rounding or the samples hide to which side a guard
+///   leaves its zero at the start.
+/// * [`Error::NoSamplingInterval`] if a guard must be sampled and there is no interval;
+///   [`Error::BadSamplingInterval`] for an interval that is not positive or vanishes beside the horizon, and for an
+///   infinite horizon of a sampled guard.
 /// * [`Error::BadLimit`] for a horizon that is negative or NaN, and for an infinite one of a guard under bounds.
 /// * [`Error::NotFinite`] where a guard or a coefficient of its quasi-polynomial is infinite or NaN;
 ///   [`Error::BadEnclosure`] for an enclosure without an inside.

@@ -11,9 +11,9 @@ use std::fmt::Debug;
 
 /// An execution, sampled: one row for each sample. Arrays of equal length, as plotting programs take them.
 ///
-/// Every arc has a row at its start and a row at its end, so that each event has both of its one-sided states: x⁻ at
-/// (t, j) and x⁺ at (t, j + 1). Between them are the times of the grid. An arc of no duration has one row, an arc that never
-/// ends has none at its end.
+/// Every arc has a row at its start and a row at its end, so that each event has both of its one-sided states: x⁻
+/// at (t, j) and x⁺ at (t, j + 1). Between them are the times of the grid. An arc of no duration has one row, an
+/// arc that never ends has none at its end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory<M, S> {
     /// Continuous time t of each row, in ascending order.
@@ -24,7 +24,8 @@ pub struct Trajectory<M, S> {
     pub modes: Vec<M>,
     /// The states: one row for each sample, one column for each component.
     pub states: DMatrix<f64>,
-    /// True for one row at each time of the grid, also if the grid has it twice. At the time of an event it is the row after the last jump of that instant.
+    /// True for one row at each time of the grid, also if the grid has it twice. At the time of an event it is the
+    /// row after the last jump of that instant.
     pub on_grid: Vec<bool>,
     /// The events, in columns.
     pub events: EventColumns<M, S>,
@@ -52,8 +53,8 @@ pub struct EventColumns<M, S> {
 }
 
 impl<T: HybridSystem> Execution<'_, T> {
-    /// The rest of the execution as arrays, with states at the times of `grid`, which are continuous times t in ascending
-    /// order. Times before the first arc or after the last one have no row.
+    /// The rest of the execution as arrays, with states at the times of `grid`, which are continuous times t in
+    /// ascending order. Times before the first arc or after the last one have no row.
     ///
     /// Along an integrated arc all states take one integration.
     ///

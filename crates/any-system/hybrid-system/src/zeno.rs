@@ -11,34 +11,37 @@ use crate::time_sum::TimeSum;
 ///
 /// An execution recognises the limit by the durations of its last arcs, in two cases.
 ///
-/// * **A geometric series**, possibly with a period of up to four events. Over six periods the lengths of the periods must fall
-///   in proportion to the time that remains, within one per cent; the sum of all further durations must be below 10⁻¹² of
-///   the time so far. If rounding hides the next event, or the errors of the events are a quarter of the durations, three
-///   periods, ten per cent and 10⁻⁵ suffice; with durations below their errors six periods and one per cent.
+/// * **A geometric series**, possibly with a period of up to four events. Over six periods the lengths of the
+///   periods must fall in proportion to the time that remains, within one per cent; the sum of all further
+///   durations must be below 10⁻¹² of the time so far. If rounding hides the next event, or the errors of the
+///   events are a quarter of the durations, three periods, ten per cent and 10⁻⁵ suffice; with durations below
+///   their errors six periods and one per cent.
 /// * **A power law** k^(−p) of the number k of events, p > 1.14: the restitution tends to 1 as the speed tends to 0.
 ///   Predictions of the limit from durations that halve must converge. The remainder must be below 10⁻¹² of the time so
 ///   far, or, for p < 3.5, below 10⁻⁵ with an error below 10⁻¹⁰.
 ///
-/// Finitely many durations never prove a limit. Durations that fall like 1/k or slower have none, and those that fall only
-/// a little faster, such as 1/(k ln² k), cannot be told from them: the execution goes on to its limits then.
+/// Finitely many durations never prove a limit. Durations that fall like 1/k or slower have none, and those that
+/// fall only a little faster, such as 1/(k ln² k), cannot be told from them: the execution goes on to its limits
+/// then.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ZenoLimit<X> {
     /// Time of the limit: the sum of all durations.
     pub time: f64,
-    /// Bound on the error of `time`, under two conditions. The series goes on as it was: the slope of the lengths of the
-    /// periods changes by no more than it has changed over the fitted periods, or predictions from a power law go
-    /// on to converge. And the errors of the single events, which the bound contains, act on later durations as in a
-    /// bounce: an error δ of an event after the duration T changes the later durations by 2δ/T of their size.
+    /// Bound on the error of `time`, under two conditions. The series goes on as it was: the slope of the lengths
+    /// of the periods changes by no more than it has changed over the fitted periods, or predictions from a power
+    /// law go on to converge. And the errors of the single events, which the bound contains, act on later durations
+    /// as in a bounce: an error δ of an event after the duration T changes the later durations by 2δ/T of their
+    /// size.
     pub time_error: f64,
-    /// Time from the start of the arc to the limit, with all its digits. The arc starts at the last event, or at a limit
-    /// on time at which the execution had stopped since.
+    /// Time from the start of the arc to the limit, with all its digits. The arc starts at the last event, or at a
+    /// limit on time at which the execution had stopped since.
     pub remainder: f64,
     /// The state at the limit, extrapolated.
     pub state: X,
     /// The change of the state over the last period, divided by 1 − `ratio`: an estimate of the error of `state`.
     pub state_error: f64,
-    /// The factor by which the time to the limit shrinks in one period. Durations shrink by the same factor if they are a
-    /// geometric series.
+    /// The factor by which the time to the limit shrinks in one period. Durations shrink by the same factor if they
+    /// are a geometric series.
     pub ratio: f64,
     /// Number of events in one period.
     pub period: usize,
@@ -127,8 +130,8 @@ impl<X: StateVector> History<X> {
 
     /// The Zeno limit of the last arcs; `None` if their durations are not recognised as a convergent series.
     ///
-    /// `next_event_hidden` is true if rounding hides the next event. The search may also go on to find events although their
-    /// times are lost in their errors: that is the same case.
+    /// `next_event_hidden` is true if rounding hides the next event. The search may also go on to find events
+    /// although their times are lost in their errors: that is the same case.
     pub(crate) fn zeno_limit(&self, next_event_hidden: bool) -> Option<ZenoLimit<X>> {
         let remainder = if next_event_hidden || self.durations.is_lost() {
             self.durations.remainder_if_hidden()
@@ -145,8 +148,9 @@ impl<X: StateVector> History<X> {
         let now = self.states[self.newest].as_ref()?;
         let mut step = now.clone();
         step.add_scaled(-1.0, self.states[(self.newest + count - period) % count].as_ref()?);
-        // A speed is proportional to the duration, D = c (t∞ − t)^μ. Over one period D changes by −D′ times the period, and
-        // it vanishes if it changes by D = −D′ (t∞ − t)/μ: a multiple (t∞ − t)/(μ · period) of the step.
+        // A speed is proportional to the duration, D = c (t∞ − t)^μ. Over one period D changes by −D′ times the
+        // period, and it vanishes if it changes by D = −D′ (t∞ − t)/μ: a multiple (t∞ − t)/(μ · period) of the
+        // step.
         let mut state = now.clone();
         state.add_scaled(time / (order * length), &step);
         Some(ZenoLimit {

@@ -125,8 +125,8 @@ fn roots_of_odd_order_are_crossings_and_of_even_order_touches() {
             FirstCrossing::Touch { time, value } if order % 2 == 0 => (time, value),
             _ => panic!("{order}: {found:?}"),
         };
-        // Behind a hidden crossing the value is clear of rounding: the sum of the coefficients up to t = 3, 4ᵒʳᵈᵉʳ, times
-        // some 30ε. Its root is the length of the hidden interval.
+        // Behind a hidden crossing the value is clear of rounding: the sum of the coefficients up to t = 3, 4ᵒʳᵈᵉʳ,
+        // times some 30ε. Its root is the length of the hidden interval.
         let rounding = 4f64.powi(order as i32) * 30.0 * f64::EPSILON;
         let length = 2.0 * rounding.powf(1.0 / order as f64);
         assert!((time - 1.0).abs() < length && value.abs() < rounding, "{order}: {time} {value}");

@@ -270,8 +270,8 @@ fn higher_limits_continue_and_other_stops_stay() {
     assert_eq!(execution.stop(), Some(Stop::Terminal));
 }
 
-/// Every number of a file in turn is replaced by other ones: the reader refuses the file, or the execution goes on or ends
-/// with an error.
+/// Every number of a file in turn is replaced by other ones: the reader refuses the file, or the execution goes on
+/// or ends with an error.
 #[test]
 fn a_damaged_checkpoint_does_not_panic() {
     let ball = Model::integrated(|(), x: &DVector<f64>| DVector::from_vec(vec![x[1], -1.0]))

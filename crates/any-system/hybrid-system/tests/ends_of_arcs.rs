@@ -18,8 +18,8 @@ fn sampled_bounces(restitution: f64, interval: f64, limit: f64) -> Vec<(f64, f64
 
 #[test]
 fn a_flight_shorter_than_the_sampling_interval_ends_at_the_floor() {
-    // Dropped from ½ the ball lands after 1, and each flight is half as long as the one before. Only the flight that ends at
-    // the first sample of its arc is not shorter than the interval.
+    // Dropped from ½ the ball lands after 1, and each flight is half as long as the one before. Only the flight
+    // that ends at the first sample of its arc is not shorter than the interval.
     for interval in [0.5, 0.7, 50.0] {
         let bounces = sampled_bounces(0.5, interval, 2.99);
         assert_eq!(bounces.len(), 8, "{interval}: {bounces:?}");
@@ -91,8 +91,8 @@ fn a_sampled_ball_of_any_time_scale_has_all_its_bounces() {
     }
 }
 
-/// A guard that is zero on 1 < x < 2 and positive or negative beside it. From the middle of the band it stays zero for half
-/// a unit of time. The start does not show when it leaves: that is an error, and no event at the start.
+/// A guard that is zero on 1 < x < 2 and positive or negative beside it. From the middle of the band it stays zero
+/// for half a unit of time. The start does not show when it leaves: that is an error, and no event at the start.
 #[test]
 fn a_guard_that_stays_zero_for_a_while_has_no_event_at_the_start() {
     let band = |x: &State<1>| (1.0 - x[0]).max(0.0) + (2.0 - x[0]).min(0.0);

@@ -8,8 +8,8 @@ use hybrid_system::*;
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 
-/// Zeros are found to this relative error: some ulps for the rounding of the guard, whose slope at the zeros is at least a
-/// hundredth of its size.
+/// Zeros are found to this relative error: some ulps for the rounding of the guard, whose slope at the zeros is at
+/// least a hundredth of its size.
 const KNOWN: f64 = 1e-14;
 
 fn constant(value: f64) -> QuasiPolynomial {

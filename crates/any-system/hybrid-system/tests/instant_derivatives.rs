@@ -119,8 +119,8 @@ fn an_event_at_once_beyond_a_surface_has_derivatives_by_parameters() {
     assert_close(&state, &((after(1.25 + REACH) - after(1.25 - REACH)) / (2.0 * REACH)));
 }
 
-/// From (0, 0) the lines x = 1 and y = 1 are reached together. Nearby orbits reach one of them first, and the resets do not
-/// commute.
+/// From (0, 0) the lines x = 1 and y = 1 are reached together. Nearby orbits reach one of them first, and the
+/// resets do not commute.
 #[test]
 fn two_surfaces_at_one_instant_have_no_derivative() {
     let model = Model::integrated(|mode: u8, _: &V| match mode {

@@ -129,7 +129,8 @@ fn each_component_has_a_tolerance() {
     assert!(matches!(wrong.err(), Some(Error::Dimension { expected: 4, found: 1, .. })));
 }
 
-/// A phase that turns at the rate 1 from 1e8 on, and drives an oscillator. Relative to the phase an error of 1e-9 is 0.1.
+/// A phase that turns at the rate 1 from 1e8 on, and drives an oscillator. Relative to the phase an error of 1e-9
+/// is 0.1.
 #[test]
 fn a_component_without_a_natural_size_has_the_relative_tolerance_zero() {
     let field = |_: f64, x: &Vector2<f64>| Vector2::new((1e8 - x[0]).cos(), x[1].cos());
@@ -203,7 +204,8 @@ fn integral(t: f64) -> f64 {
 /// The tolerances of the table in the documentation of `Tolerances`, without the first.
 const TOLERANCES_AT_KINKS: [f64; 7] = [1e-6, 1e-8, 1e-9, 3e-10, 1e-10, 3e-11, 1e-12];
 
-/// x = ∫|sin(t + p)|: the field has a kink at each zero of the sine. The largest of the errors is 10.5 times the tolerance.
+/// x = ∫|sin(t + p)|: the field has a kink at each zero of the sine. The largest of the errors is 10.5 times the
+/// tolerance.
 #[test]
 fn errors_at_a_hidden_kink_are_about_ten_times_the_tolerance_at_most() {
     for tolerance in TOLERANCES_AT_KINKS {

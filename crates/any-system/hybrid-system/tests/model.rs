@@ -125,8 +125,8 @@ fn terminal_guards_observers_and_parameters() {
     .signal("slow", |(), x| {
         Some(QuasiPolynomial::polynomial(&[0.3 - x[0] - x[1] * x[1] / (2.0 * gravity)]))
     });
-    // From height 4: lands after 2 with speed 4, leaves with 2, is at the top 1 later at height 1, lands 1 later, leaves
-    // with 1. Its energy is then ¼ < 0.3: it ends at once.
+    // From height 4: lands after 2 with speed 4, leaves with 2, is at the top 1 later at height 1, lands 1 later,
+    // leaves with 1. Its energy is then ¼ < 0.3: it ends at once.
     let mut execution = ball.run((), [4.0, 0.0], 100.0);
     let events: Vec<_> =
         execution.by_ref().map(|arc| arc.unwrap()).filter_map(|arc| arc.event().copied()).collect();
@@ -278,8 +278,8 @@ fn a_field_of_another_dimension_is_an_error() {
     assert!(matches!(first, Err(Error::Dimension { expected: 2, found: 1, .. })), "{first:?}");
 }
 
-/// A ball that lands with the speed v and leaves with v/2: a start that is faster by δ leaves faster by δ/2 and later by
-/// 2δ. Compared at the same time it is faster by δ/2 + 2δ.
+/// A ball that lands with the speed v and leaves with v/2: a start that is faster by δ leaves faster by δ/2 and
+/// later by 2δ. Compared at the same time it is faster by δ/2 + 2δ.
 #[test]
 fn derivatives_through_events() {
     let closed = Model::closed_form(|(), x: &State<2>, t| [x[0] + t * (x[1] - t / 2.0), x[1] - t])

@@ -1,4 +1,5 @@
-//! Scenes in which contacts and observers were passed, lost or doubled: after a bounce, beside a jump, at stops and clocks.
+//! Scenes in which contacts and observers were passed, lost or doubled: after a bounce, beside a jump, at stops and
+//! clocks.
 
 #![cfg(feature = "ode")]
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]

@@ -18,8 +18,8 @@ fn wall(value: impl Fn(&X) -> f64 + 'static) -> Watched {
     Watched { guard: |surface| Guard::rising(surface).contact(), ..stopping(value) }
 }
 
-/// Two guards whose zeros differ by 1 to 80 ulps: each has one event, at its zero, in this order, in either order of the
-/// list, whether the first guard is a line or a sign.
+/// Two guards whose zeros differ by 1 to 80 ulps: each has one event, at its zero, in this order, in either order
+/// of the list, whether the first guard is a line or a sign.
 #[test]
 fn zeros_that_differ_by_ulps_come_in_their_order() {
     for ulps in (1..16).chain([20, 31, 40, 80]) {
@@ -44,7 +44,8 @@ fn zeros_that_differ_by_ulps_come_in_their_order() {
                         && [found[0].0, found[1].0] == [a, b]
                         && near(found[0].1, 1.0)
                         && near(found[1].1, later);
-                    // An ulp is within the rounding of the state: the order of the two is that of the computed trajectory.
+                    // An ulp is within the rounding of the state: the order of the two is that of the computed
+                    // trajectory.
                     let as_rounded = ulps <= 2
                         && found.len() == 2
                         && found.iter().all(|event| near(event.1, 1.0) || near(event.1, later));

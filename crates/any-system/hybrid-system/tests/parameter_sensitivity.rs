@@ -24,8 +24,8 @@ fn arcs_of<T: HybridSystem>(
     arcs
 }
 
-/// A ball that falls from height 1. With t₁ = √(2/g) and v₁ = √(2g) bounce n comes at tₙ = t₁(1 + 2 Σ eᵏ), k < n, and the
-/// ball leaves with the speed eⁿ v₁.
+/// A ball that falls from height 1. With t₁ = √(2/g) and v₁ = √(2g) bounce n comes at tₙ = t₁(1 + 2 Σ eᵏ), k < n,
+/// and the ball leaves with the speed eⁿ v₁.
 fn check_ball<F, S>(family: &F)
 where
     F: Parametric<2, 2, System = S>,

@@ -1,14 +1,15 @@
 //! The scenes of three test classes of Hipparchus (`hipparchus-ode`, package `events`): `CloseEventsTest`,
-//! `OverlappingEventsTest` and `ReappearingEventTest`, forwards in time. The facts are theirs, read on 2026-11-23; where their
-//! test asserts what its sampling or its loose tolerance finds, the crossings of the exact motion stand here.
+//! `OverlappingEventsTest` and `ReappearingEventTest`, forwards in time. The facts are theirs, read on 2026-11-23;
+//! where their test asserts what its sampling or its loose tolerance finds, the crossings of the exact motion stand
+//! here.
 //!
 //! Each scene runs twice: integrated, at the tolerance of the original and at a loose one, and sampled. The motion is
 //! straight, so that the times are exact, and events whose times differ by an ulp come in their order.
 //!
-//! Not here, and added with what they need: the 28 scenes of `CloseEventsTest` whose names end in `Reverse` (a backward
-//! execution); the flag `increasing` of all scenes (a direction in the event). No scene needs `t` in a guard: time is a
-//! component here. `testEventCausedByDerivativesReset` asserts an exception for a reset that returns null, which Rust does
-//! not have.
+//! Not here, and added with what they need: the 28 scenes of `CloseEventsTest` whose names end in `Reverse` (a
+//! backward execution); the flag `increasing` of all scenes (a direction in the event). No scene needs `t` in a
+//! guard: time is a component here. `testEventCausedByDerivativesReset` asserts an exception for a reset that
+//! returns null, which Rust does not have.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -47,8 +48,8 @@ fn simultaneous_events_reset() {
     expect(20.0, guards, &[(0, 5.0), (1, 5.0)]);
 }
 
-/// A reset moves the state over a surface. A crossing counts only what the flow crosses (semantics.md, scene f): there is no
-/// event. A contact is an event at once, for both of two contacts.
+/// A reset moves the state over a surface. A crossing counts only what the flow crosses (semantics.md, scene f):
+/// there is no event. A contact is an event at once, for both of two contacts.
 #[test]
 fn simultaneous_discontinuous_events_after_reset() {
     let reset = |x: &X| Some(X::new(1e100, 0.0, x[TIME], x[FLAG]));
@@ -131,7 +132,8 @@ fn multiple_backups() {
     expect(30.0, guards, &expected);
 }
 
-/// The reset moves the state over the surface of the second guard: no crossing (scene f), but the crossing that follows.
+/// The reset moves the state over the surface of the second guard: no crossing (scene f), but the crossing that
+/// follows.
 #[test]
 fn event_caused_by_state_reset() {
     let reset = |x: &X| Some(X::new(-20.0, 0.0, x[TIME], x[FLAG]));
@@ -229,7 +231,8 @@ fn reset_changes_sign() {
     }
 }
 
-/// Each of two components is reset to zero where it reaches 1, both at each integer, by guards that jump and by smooth ones.
+/// Each of two components is reset to zero where it reaches 1, both at each integer, by guards that jump and by
+/// smooth ones.
 #[test]
 fn overlapping_events() {
     let reset = |k: usize| {

@@ -1,5 +1,5 @@
-//! A million guards (in release builds) with roots at known places, some of them within a few ulps of each other, of the start or of
-//! the end: each root is found once.
+//! A million guards (in release builds) with roots at known places, some of them within a few ulps of each other,
+//! of the start or of the end: each root is found once.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -21,8 +21,9 @@ const CROWD: f64 = 0.2;
 /// the root is at least about ALONE⁴ = 6e-6.
 const KNOWN: f64 = 1e-6;
 
-/// Largest distance of an event from the nearest root of a crowd. Five factors up to 8 have coefficients with a rounding of
-/// 8⁵ · 30ε = 2e-10 together. A crowd of five roots is hidden up to the fifth root of this number, 1.2e-2.
+/// Largest distance of an event from the nearest root of a crowd. Five factors up to 8 have coefficients with a
+/// rounding of 8⁵ · 30ε = 2e-10 together. A crowd of five roots is hidden up to the fifth root of this number,
+/// 1.2e-2.
 const CLOSE: f64 = 2e-2;
 
 /// Random numbers, one after the other.
@@ -215,8 +216,8 @@ fn check(roots: &[f64], form: Form) {
     }
 }
 
-/// Without optimization of the release profile a tenth of the cases runs, which takes some seconds. The rare arrangements,
-/// of which one in 10⁵ has found an error before, need the full number: `cargo test --release`.
+/// Without optimization of the release profile a tenth of the cases runs, which takes some seconds. The rare
+/// arrangements, of which one in 10⁵ has found an error before, need the full number: `cargo test --release`.
 const PART: usize = if cfg!(debug_assertions) { 10 } else { 1 };
 
 fn run(seed: u64, cases: usize, form: Form) {

@@ -1,13 +1,13 @@
-//! The scenes of the page `hybrid_system::semantics`, a test each: what happens at the start of an arc, at surfaces that
-//! are met together, where both fields point at a surface, and where a guard touches zero.
+//! The scenes of the page `hybrid_system::semantics`, a test each: what happens at the start of an arc, at surfaces
+//! that are met together, where both fields point at a surface, and where a guard touches zero.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use example_systems::scenes::*;
 use hybrid_system::*;
 
-/// The error of times and states of these scenes, which are of size 1 to 20: rounding, or the tolerances of the integrated
-/// scenes, 1e-10.
+/// The error of times and states of these scenes, which are of size 1 to 20: rounding, or the tolerances of the
+/// integrated scenes, 1e-10.
 fn error(by: By) -> f64 {
     if by == By::Integration { 1e-10 } else { 1e-13 }
 }
@@ -349,8 +349,8 @@ impl HybridSystem for Falling {
     }
 }
 
-/// The starts of all arcs are decided by the execution, whatever the model's own search finds. The search of the library
-/// can be called from there, with its certainty.
+/// The starts of all arcs are decided by the execution, whatever the model's own search finds. The search of the
+/// library can be called from there, with its certainty.
 #[test]
 fn a_model_with_its_own_search_is_checked_at_every_start() {
     let first = |after, blind, start| {

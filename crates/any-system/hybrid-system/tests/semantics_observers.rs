@@ -56,12 +56,12 @@ impl<G: Fn(&State<2>) -> f64> HybridSystem for Circle<G> {
 /// Length of a run: a little more than three turns.
 const LENGTH: f64 = 20.0;
 
-/// The shortest angle between two crossings, and between a crossing and the ends of the run, for which a run is counted.
-/// Closer crossings may lie between two samples.
+/// The shortest angle between two crossings, and between a crossing and the ends of the run, for which a run is
+/// counted. Closer crossings may lie between two samples.
 const CLEAR: f64 = 0.05;
 
-/// Number of changes of sign of the guard on the circle, and whether they are clear of each other. The values are taken at
-/// points of the exact circle: this count shares nothing with the search.
+/// Number of changes of sign of the guard on the circle, and whether they are clear of each other. The values are
+/// taken at points of the exact circle: this count shares nothing with the search.
 fn count(guard: impl Fn(&State<2>) -> f64, start: f64) -> Option<usize> {
     /// So fine that two changes of sign that are `CLEAR` are some 300 points apart.
     const POINTS: usize = 120_000;
@@ -229,8 +229,8 @@ fn a_jump_of_a_guard_is_located() {
     }
 }
 
-/// A ball with e = 1 and two observers: at a quarter of its height, and at its tops. It stops at each of its events, or a few
-/// ulps behind it.
+/// A ball with e = 1 and two observers: at a quarter of its height, and at its tops. It stops at each of its
+/// events, or a few ulps behind it.
 #[test]
 fn a_stop_just_behind_an_event_counts_no_event_twice() {
     for height in [0.123, 0.37, 0.5, 1.7] {

@@ -58,8 +58,8 @@ fn run(corner: &Corner, start: State<4>) -> (Vec<Wall>, State<4>) {
     (walls, end)
 }
 
-/// From many places on the diagonal of the corner, with rounded numbers: both walls reverse the point, in the order of the
-/// rounded zeros.
+/// From many places on the diagonal of the corner, with rounded numbers: both walls reverse the point, in the order
+/// of the rounded zeros.
 #[test]
 fn both_walls_reverse_a_point_in_the_corner() {
     for bounds in [true, false] {

@@ -100,8 +100,8 @@ fn a_relay_with_a_narrow_hysteresis_tends_to_the_sliding_motion() {
     }
 }
 
-/// A mass on a spring on a belt of speed 1: x″ = −x + F, F = 2 − 0.5 (1 − x′) below the speed of the belt. The slip has a
-/// closed form: u = x − 1.5 satisfies u″ = u′/2 − u.
+/// A mass on a spring on a belt of speed 1: x″ = −x + F, F = 2 − 0.5 (1 − x′) below the speed of the belt. The slip
+/// has a closed form: u = x − 1.5 satisfies u″ = u′/2 − u.
 fn weakening() -> TwoSided<2> {
     TwoSided::new(
         |x| Vector2::new(x[1], -x[0] + 2.0 - 0.5 * (1.0 - x[1])),
@@ -146,9 +146,9 @@ fn dry_friction_sticks_for_the_exact_time() {
     assert!((period - (returns + 2.0 - caught)).abs() < 1e-10, "{period}");
 }
 
-/// The stick-slip cycle of Leine (2024): friction 1/(1 + 3|v_rel|) on a belt of speed 0.2. His figure starts at x = 1.135
-/// with x′ = 0, after 5000 implicit steps. The digits below are from a program that shares no code with this one
-/// (classical Runge–Kutta steps of 5·10⁻⁴ for the slip).
+/// The stick-slip cycle of Leine (2024): friction 1/(1 + 3|v_rel|) on a belt of speed 0.2. His figure starts at x =
+/// 1.135 with x′ = 0, after 5000 implicit steps. The digits below are from a program that shares no code with this
+/// one (classical Runge–Kutta steps of 5·10⁻⁴ for the slip).
 #[test]
 fn the_stick_slip_cycle_of_leine() {
     const AMPLITUDE: f64 = 1.133_944_676_44;
@@ -178,9 +178,9 @@ fn the_stick_slip_cycle_of_leine() {
     assert!((period - PERIOD).abs() < 2e-11, "{period}");
 }
 
-/// Sliding control of a boost converter (Sira-Ramírez 1987): ẋ₁ = b − ω₀ u x₂, ẋ₂ = ω₀ u x₁ − ω₁ x₂, the switch u = 1 or 0,
-/// and the current x₁ is held at K. Along x₁ = K the equivalent control is u = b/(ω₀ x₂), so that ẋ₂ = bK/x₂ − ω₁ x₂, and
-/// x₂² = bK/ω₁ + (x₂(0)² − bK/ω₁) e^(−2ω₁t).
+/// Sliding control of a boost converter (Sira-Ramírez 1987): ẋ₁ = b − ω₀ u x₂, ẋ₂ = ω₀ u x₁ − ω₁ x₂, the switch u =
+/// 1 or 0, and the current x₁ is held at K. Along x₁ = K the equivalent control is u = b/(ω₀ x₂), so that ẋ₂ =
+/// bK/x₂ − ω₁ x₂, and x₂² = bK/ω₁ + (x₂(0)² − bK/ω₁) e^(−2ω₁t).
 #[test]
 fn the_boost_converter_slides_at_constant_current() {
     const SOURCE: f64 = 1.0;

@@ -9,8 +9,8 @@ use hybrid_system::*;
 use nalgebra::{SMatrix, Vector3};
 use two_sided::{Side, TIGHT, is_sliding, lasting, run};
 
-/// A sphere, with fields that turn along it at different rates: sliding on a curved surface in space, entered from below
-/// and left where the field above turns tangent.
+/// A sphere, with fields that turn along it at different rates: sliding on a curved surface in space, entered from
+/// below and left where the field above turns tangent.
 struct Sphere;
 
 impl Sphere {

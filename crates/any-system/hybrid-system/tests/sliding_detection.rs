@@ -208,8 +208,8 @@ fn a_start_on_the_surface_slides_at_once() {
     }
 }
 
-/// Both fields point away from the surface. A start on it is not unique as a solution of ẋ = f(x). The mode of the start
-/// decides.
+/// Both fields point away from the surface. A start on it is not unique as a solution of ẋ = f(x). The mode of the
+/// start decides.
 #[test]
 fn from_an_escaping_start_the_mode_flows() {
     for source in [Source::QuasiPolynomial, Source::Enclosure, Source::Field, Source::Integrated] {

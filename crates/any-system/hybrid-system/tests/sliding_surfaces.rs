@@ -169,8 +169,8 @@ fn a_sliding_motion_goes_on_behind_another_surface_with_the_modes_there() {
     assert!((last.state(&system, last.duration).unwrap() - Vector2::new(4.0, 0.0)).amax() < 1e-12);
 }
 
-/// A mass that slides down a moving wall, x = 0, and bounces off a floor, y = 0, with half of its speed: both modes have the
-/// floor, and their resets agree. The state is (x, y, ẏ).
+/// A mass that slides down a moving wall, x = 0, and bounces off a floor, y = 0, with half of its speed: both modes
+/// have the floor, and their resets agree. The state is (x, y, ẏ).
 #[test]
 fn a_bounce_while_sliding_keeps_the_state_on_the_surface() {
     let model = Model::integrated(|side: Side, x: &State<3>| {
@@ -226,7 +226,8 @@ fn two_relays_whose_guards_have_other_names_in_each_mode_end_where_both_are_zero
     }
 }
 
-/// The four quadrants by closures: the front end gives the guards numbers, another one in each mode for the same surface.
+/// The four quadrants by closures: the front end gives the guards numbers, another one in each mode for the same
+/// surface.
 #[test]
 fn two_sliding_surfaces_with_names_of_their_own_in_each_mode_end_the_execution() {
     let quadrants = || {
@@ -255,8 +256,8 @@ fn two_sliding_surfaces_with_names_of_their_own_in_each_mode_end_the_execution()
     }
 }
 
-/// A relay that leaves its surface at 2.1, where the field of one side turns tangent. At a stop before that point, within
-/// the error of its time, both fields still point at the surface.
+/// A relay that leaves its surface at 2.1, where the field of one side turns tangent. At a stop before that point,
+/// within the error of its time, both fields still point at the surface.
 #[test]
 fn a_stop_beside_an_exit_changes_nothing() {
     for tolerance in [1e-6, 1e-8, 1e-10, 1e-12] {

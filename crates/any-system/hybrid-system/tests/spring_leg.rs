@@ -4,11 +4,12 @@
 
 use hybrid_system::*;
 
-/// A point mass on a spring leg of 1 m (80 kg, 20 kN/m, angle of attack 68°), with the energy of 5 m/s at a height of 1 m. From
-/// the apex of its periodic run the body takes off below the height of its touchdown, and rises.
+/// A point mass on a spring leg of 1 m (80 kg, 20 kN/m, angle of attack 68°), with the energy of 5 m/s at a height
+/// of 1 m. From the apex of its periodic run the body takes off below the height of its touchdown, and rises.
 #[test]
 fn a_leg_that_takes_off_below_its_touchdown_says_which_guard_it_means() {
-    /// The periodic run has its apex here, and a multiplier of −0.161: the next apex is as high within a sixth of the error.
+    /// The periodic run has its apex here, and a multiplier of −0.161: the next apex is as high within a sixth of
+    /// the error.
     const APEX: f64 = 0.940_267;
     let (mass, gravity, stiffness, angle) = (80.0, 9.81, 20_000.0, 68f64.to_radians());
     let touchdown = angle.sin();

@@ -1,7 +1,7 @@
 //! An event within its error of the limit on time is flagged as lying on it, whatever finds it.
 //!
-//! The ball of DiffEqGPU.jl, issue 540: height 45, gravity 10, no loss. It lands exactly at 3, 9 and 15, and the end time
-//! is 15.
+//! The ball of DiffEqGPU.jl, issue 540: height 45, gravity 10, no loss. It lands exactly at 3, 9 and 15, and the
+//! end time is 15.
 
 #![cfg(feature = "ode")]
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
@@ -122,8 +122,8 @@ fn a_landing_at_the_end_is_flagged_by_all_means() {
         for (count, end) in [(1, 3.0), (2, 9.0), (3, 15.0)] {
             let (events, stop) = landings(means, end);
             assert_eq!(stop, Some(Stop::TimeLimit), "{means:?} {events:?}");
-            // The computed landing of an integrated flow may come just after the limit. Then it is no event, and a run that
-            // goes on until the stated error has passed has it.
+            // The computed landing of an integrated flow may come just after the limit. Then it is no event, and a
+            // run that goes on until the stated error has passed has it.
             let (events, end) = match means {
                 Means::Integrated(_) if events.len() + 1 == count => {
                     let (events, _) = landings(means, end + 1e-3);

@@ -172,8 +172,8 @@ fn a_check_interval_finds_a_narrow_bump_between_long_steps() {
     }
 }
 
-/// x₀ = 0.6 cos t + 0.8 sin t is zero at π − arctan ¾. The limit on time lies within the error of the event, or on it: the
-/// computed event up to the limit is flagged, and one after it is none.
+/// x₀ = 0.6 cos t + 0.8 sin t is zero at π − arctan ¾. The limit on time lies within the error of the event, or on
+/// it: the computed event up to the limit is flagged, and one after it is none.
 #[test]
 fn an_event_up_to_the_limit_is_flagged_at_all_tolerances() {
     for exponent in 6..=13 {
@@ -193,7 +193,8 @@ fn an_event_up_to_the_limit_is_flagged_at_all_tolerances() {
     }
 }
 
-/// A ball rests on the floor, or is held, until t = 2. Then something presses it downwards. State: height, velocity, time.
+/// A ball rests on the floor, or is held, until t = 2. Then something presses it downwards. State: height,
+/// velocity, time.
 #[test]
 fn a_guard_that_rests_on_its_surface_and_is_pushed_beyond_it_later_is_not_lost() {
     let pressed = |(), x: &State<3>| [x[1], -(x[2] - 2.0).max(0.0), 1.0];
@@ -213,8 +214,8 @@ fn a_guard_that_rests_on_its_surface_and_is_pushed_beyond_it_later_is_not_lost()
     }
 }
 
-/// A guard that falls to zero at t = 1, stays there, and falls on later: each time in between may be the crossing. The event
-/// is where it leaves, because a start on the stretch of zeros would be no event.
+/// A guard that falls to zero at t = 1, stays there, and falls on later: each time in between may be the crossing.
+/// The event is where it leaves, because a start on the stretch of zeros would be no event.
 #[test]
 fn a_stretch_of_zeros_is_crossed_at_its_end() {
     for width in [0.1, 0.5, 1.0, 2.0] {

@@ -5,8 +5,8 @@
 
 use hybrid_system::*;
 
-/// The height of a ball that keeps half of its speed, dropped from ½: it lands at 1 = 3 − 2, at 2 = 3 − 1, at 2½ = 3 − ½,
-/// …, and rests at 3. After the landing at 3 − w it leaves with the speed w/4.
+/// The height of a ball that keeps half of its speed, dropped from ½: it lands at 1 = 3 − 2, at 2 = 3 − 1, at 2½ =
+/// 3 − ½, …, and rests at 3. After the landing at 3 − w it leaves with the speed w/4.
 fn height(time: f64) -> f64 {
     if time <= 1.0 {
         return 0.5 - time * time / 2.0;

@@ -161,8 +161,8 @@ fn a_zeno_limit_without_a_mode_after_it_ends_the_execution() {
         }
     }
     let system = Restless(Ball { gravity: 9.81, floor: 0.0, restitution: 0.5 }, false);
-    // Sampled, with an interval far longer than the last bounces. They are found between two samples: the ball neither falls
-    // through the floor nor stops early.
+    // Sampled, with an interval far longer than the last bounces. They are found between two samples: the ball
+    // neither falls through the floor nor stops early.
     let limits = Limits::sampled(10.0, 100_000, 1e-3);
     let mut execution = Execution::new(&system, Mode::Air, Vector2::new(1.0, 0.0), limits);
     let last = execution.by_ref().last().unwrap().unwrap();
@@ -185,7 +185,8 @@ fn a_zeno_limit_without_a_mode_after_it_ends_the_execution() {
     assert!(last.time + last.duration <= early.time);
 }
 
-/// At t = 10⁹ doubles are 10⁻⁷ apart. The last thousands of bounces do not change the time as a double, but time passes.
+/// At t = 10⁹ doubles are 10⁻⁷ apart. The last thousands of bounces do not change the time as a double, but time
+/// passes.
 #[test]
 fn slow_accumulations_late_in_time_are_no_chains_without_time() {
     let ball = Ball { gravity: 2.0, floor: 0.0, restitution: 0.998 };

@@ -1,8 +1,9 @@
 //! Writes enclosures of sines, cosines and arc tangents to standard output, for a comparison with another program:
 //! `wave_enclosures COUNT`.
 //!
-//! Each record has eight numbers, as little-endian `f64`: the ends of the argument, and those of the three enclosures. The arguments
-//! are of all magnitudes up to 10⁹, next to multiples of ½π, and next to 0; every fourth one is an interval, the others are points.
+//! Each record has eight numbers, as little-endian `f64`: the ends of the argument, and those of the three
+//! enclosures. The arguments are of all magnitudes up to 10⁹, next to multiples of ½π, and next to 0; every fourth
+//! one is an interval, the others are points.
 
 use interval_arithmetic::{Enclosure, PI};
 use std::io::Write;

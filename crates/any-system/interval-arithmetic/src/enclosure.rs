@@ -5,9 +5,10 @@ use crate::rounding::{down, up};
 
 /// An interval that holds a number, or all values of a function, for certain.
 ///
-/// The constructors [`Enclosure::between`] and [`Enclosure::point`] refuse what is no interval. The fields can be written directly by
-/// callers who know their ends. An end that is NaN is no bound: results of operations are without a bound on its side, and neither
-/// [`Enclosure::sign`] nor another test tells anything of such an interval.
+/// The constructors [`Enclosure::between`] and [`Enclosure::point`] refuse what is no interval. The fields can be
+/// written directly by callers who know their ends. An end that is NaN is no bound: results of operations are
+/// without a bound on its side, and neither [`Enclosure::sign`] nor another test tells anything of such an
+/// interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Enclosure {
     /// Lower bound.
@@ -151,7 +152,8 @@ impl Enclosure {
         Enclosure { low: down(self.low - by), high: up(self.high + by) }
     }
 
-    /// The values of a function on `domain`, from its value at a point of it and its slope on it: f(c) + f′(domain)·(domain − c).
+    /// The values of a function on `domain`, from its value at a point of it and its slope on it: f(c) +
+    /// f′(domain)·(domain − c).
     ///
     /// ```
     /// # use interval_arithmetic::Enclosure;

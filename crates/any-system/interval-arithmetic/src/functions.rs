@@ -6,8 +6,8 @@ use crate::rounding::{down, up};
 /// π: the `f64` below it, and the one above it.
 pub const PI: Enclosure = Enclosure { low: std::f64::consts::PI, high: 3.141_592_653_589_793_6 };
 
-/// The largest argument whose place among the multiples of π is looked for. Beyond it the result is [−1, 1]. Below it a multiple kπ is
-/// enclosed to some ulps of itself, far less than 1.
+/// The largest argument whose place among the multiples of π is looked for. Beyond it the result is [−1, 1]. Below
+/// it a multiple kπ is enclosed to some ulps of itself, far less than 1.
 const LARGEST_ARGUMENT: f64 = 1e9;
 
 /// All values of a sine or a cosine.

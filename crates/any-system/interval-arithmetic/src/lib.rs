@@ -9,9 +9,9 @@
 //! | [`bracketed_root`], [`root_beyond`] | the root of a function between two values of opposite sign, to about two ulps |
 //! | [`golden_section_minimum`] | the minimum of a function of one variable |
 //!
-//! An operation is computed with rounding to nearest, and each end is then moved outwards by one `f64`. The exact end lies
-//! within half an ulp of the rounded one, so the exact range lies inside. No rounding mode is set: the bits are the
-//! same on every machine, and other threads are not affected.
+//! An operation is computed with rounding to nearest, and each end is then moved outwards by one `f64`. The exact
+//! end lies within half an ulp of the rounded one, so the exact range lies inside. No rounding mode is set: the
+//! bits are the same on every machine, and other threads are not affected.
 //!
 //! ```
 //! use interval_arithmetic::Enclosure;
@@ -22,8 +22,8 @@
 //! # Ok::<(), interval_arithmetic::Error>(())
 //! ```
 //!
-//! The width of a result is not the width of the true range: `x − x` is not zero, because the two operands may be different numbers. A
-//! narrow result needs narrow operands, a monotone function, or a bound on its derivative:
+//! The width of a result is not the width of the true range: `x − x` is not zero, because the two operands may be
+//! different numbers. A narrow result needs narrow operands, a monotone function, or a bound on its derivative:
 //! [`Enclosure::mean_value`] uses the last.
 
 mod bracketed_root;

@@ -97,7 +97,8 @@ macro_rules! with_numbers {
 with_numbers!(Add add, Sub sub, Mul mul, Div div);
 
 impl Enclosure {
-    /// The difference, with each end moved outwards only if it was rounded inwards: up to two `f64` narrower than by `−`, and slower.
+    /// The difference, with each end moved outwards only if it was rounded inwards: up to two `f64` narrower than
+    /// by `−`, and slower.
     #[inline]
     pub fn sharp_difference(self, other: Self) -> Self {
         Enclosure { low: sum_down(self.low, -other.high), high: sum_up(self.high, -other.low) }

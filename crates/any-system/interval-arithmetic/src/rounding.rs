@@ -1,5 +1,5 @@
-//! Rounding outwards: one `f64` beyond the result of rounding to nearest. Sums, whose rounding error is known, are rounded outwards only if it is
-//! on that side.
+//! Rounding outwards: one `f64` beyond the result of rounding to nearest. Sums, whose rounding error is known, are
+//! rounded outwards only if it is on that side.
 
 /// A number that is not above the exact value whose rounding to nearest is `rounded`.
 ///
@@ -29,8 +29,8 @@ pub(crate) fn sum_up(a: f64, b: f64) -> f64 {
     if error <= 0.0 { sum } else { up(sum) }
 }
 
-/// The rounded sum, and what is left of the exact one (D. E. Knuth, The Art of Computer Programming 2, Section 4.2.2, Theorem B); NaN if one of
-/// them is not finite.
+/// The rounded sum, and what is left of the exact one (D. E. Knuth, The Art of Computer Programming 2, Section
+/// 4.2.2, Theorem B); NaN if one of them is not finite.
 #[inline]
 fn with_error(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;

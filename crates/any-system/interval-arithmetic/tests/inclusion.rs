@@ -4,7 +4,8 @@
 use interval_arithmetic::{Enclosure, Error, PI};
 use proptest::prelude::*;
 
-/// A rounded number and the rest of the exact one are together inside: `low` − `rounded` is exact, as both are neighbours.
+/// A rounded number and the rest of the exact one are together inside: `low` − `rounded` is exact, as both are
+/// neighbours.
 fn holds(found: Enclosure, rounded: f64, rest: f64) -> bool {
     found.low - rounded <= rest && rest <= found.high - rounded
 }

@@ -1,5 +1,5 @@
-//! The fates of orbits of Sommerer and Ott's forced oscillator: they fall on the attractor in the plane y = 0, or escape.
-//! Neighbouring starts have different fates.
+//! The fates of orbits of Sommerer and Ott's forced oscillator: they fall on the attractor in the plane y = 0, or
+//! escape. Neighbouring starts have different fates.
 //!
 //! The model is `example_systems::forced_oscillator`. Run with
 //! `cargo run --release -p return-map --example forced_oscillator`; `cargo xtask model-figures` draws it.

@@ -213,8 +213,8 @@ mod tests {
         }
     }
 
-    /// The return map is a labelling in one line. From the least speed on the wheel comes to its periodic motion; from lower speeds it
-    /// stops, and such starts are reported.
+    /// The return map is a labelling in one line. From the least speed on the wheel comes to its periodic motion;
+    /// from lower speeds it stops, and such starts are reported.
     #[test]
     fn the_basin_of_rolling_begins_at_the_least_speed() {
         use basin_of_attraction::{

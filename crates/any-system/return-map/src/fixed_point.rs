@@ -37,8 +37,8 @@ const TANGENT_ULPS: f64 = 8.0;
 /// an ulp.
 const CROSSING_RESIDUAL: f64 = 1e-8;
 
-/// Most samples. Ten million evaluations of a return map take some minutes. A count far above this is a mistake, such as
-/// a count of pixels that overflowed, and the search would not end in a usable time.
+/// Most samples. Ten million evaluations of a return map take some minutes. A count far above this is a mistake,
+/// such as a count of pixels that overflowed, and the search would not end in a usable time.
 const MOST_SAMPLES: usize = 10_000_000;
 
 /// The fixed points of `map` that `samples` equally spaced points of [left, right] reveal, from left to right.

@@ -55,8 +55,8 @@
 //! ```
 //!
 //! # Accuracy
-//! A return is as accurate as the crossings that the system computes. Its derivative is as accurate as the derivatives of the
-//! system. [`fixed_points`] finds only fixed points that its samples reveal.
+//! A return is as accurate as the crossings that the system computes. Its derivative is as accurate as the
+//! derivatives of the system. [`fixed_points`] finds only fixed points that its samples reveal.
 //!
 //! # Poincaré sections of plain flows
 //! A plain flow is a hybrid system with one mode, and a guard whose reset keeps the state. The example `lorenz`

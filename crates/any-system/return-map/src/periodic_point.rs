@@ -27,8 +27,9 @@ const NEWTON_STEPS: usize = 50;
 /// lower the residual, the direction is wrong, or the residual is the noise of the map.
 const HALVINGS: usize = 30;
 
-/// The longest period. The error of fᵖ grows with p, and every Newton step evaluates f some p times: a million steps of a
-/// return map take a minute. A period far above this is a mistake, and the search would not end in a usable time.
+/// The longest period. The error of fᵖ grows with p, and every Newton step evaluates f some p times: a million
+/// steps of a return map take a minute. A period far above this is a mistake, and the search would not end in a
+/// usable time.
 const LONGEST_PERIOD: usize = 1_000_000;
 
 /// A Newton step that no longer lowers the residual is attributed to noise of the map if it is at most this,

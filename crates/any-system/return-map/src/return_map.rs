@@ -17,8 +17,8 @@ pub struct ReturnMap<'a, T, C, const N: usize> {
     pub section: &'a C,
     /// Limits on the time and the events of one return.
     pub limits: Limits,
-    /// Whether an event on the section at the start itself, after no time, is a return. Default: false, so that a start on
-    /// the surface of its own section never returns at once.
+    /// Whether an event on the section at the start itself, after no time, is a return. Default: false, so that a
+    /// start on the surface of its own section never returns at once.
     pub counts_at_once: bool,
 }
 
@@ -132,13 +132,13 @@ where
 
     /// The image of a point of a one-dimensional section; `None` if the execution ends without a return.
     ///
-    /// An execution ends in a mode without a further event, in a terminal mode, or at a Zeno limit after which the system
-    /// does not go on. That there is no further event is as certain as the search of the mode's guards
+    /// An execution ends in a mode without a further event, in a terminal mode, or at a Zeno limit after which the
+    /// system does not go on. That there is no further event is as certain as the search of the mode's guards
     /// ([`hybrid_system::Certainty`]).
     ///
     /// # Errors
-    /// As [`next`](Self::next), except that an execution that ends gives `None`. An execution that reaches a limit may still
-    /// return later, and is an error.
+    /// As [`next`](Self::next), except that an execution that ends gives `None`. An execution that reaches a limit
+    /// may still return later, and is an error.
     pub fn image(&self, coordinate: f64) -> Result<Option<f64>, Error>
     where
         C: Section<T, N, 1>,

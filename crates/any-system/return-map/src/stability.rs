@@ -52,10 +52,11 @@ impl OneSidedStability {
 /// Probes one side of a fixed point.
 ///
 /// `displacement` is the map in the coordinate δ = |x − x*|. It maps a distance to the distance of the image on the
-/// same side. The result is negative if the image is on the other side, and `None` if there is no image. A model that
-/// knows its map near the fixed point can compute it without cancellation. `count` distances are probed: `largest`, its
-/// half, its quarter and so on. The sequence ends at the smallest positive number, after 2098 halvings at most: a larger
-/// `count` probes no more. If `largest` is not positive and finite, no distance is probed.
+/// same side. The result is negative if the image is on the other side, and `None` if there is no image. A model
+/// that knows its map near the fixed point can compute it without cancellation. `count` distances are probed:
+/// `largest`, its half, its quarter and so on. The sequence ends at the smallest positive number, after 2098
+/// halvings at most: a larger `count` probes no more. If `largest` is not positive and finite, no distance is
+/// probed.
 ///
 /// ```
 /// use return_map::{Side, Stability, one_sided_stability};

@@ -39,7 +39,8 @@ impl HybridSystem for Ball {
     }
 }
 
-/// The speed after a bounce. A point of the section is the ball on the floor, before the bounce: its own event is at once.
+/// The speed after a bounce. A point of the section is the ball on the floor, before the bounce: its own event is
+/// at once.
 struct Bounce;
 
 impl Section<Ball, 2, 1> for Bounce {

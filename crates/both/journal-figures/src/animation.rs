@@ -3,7 +3,8 @@
 use crate::error::Error;
 use std::io::Cursor;
 
-/// The frames one after another, each shown for `seconds`, again and again. Frames are PNGs of one size with eight bits a channel.
+/// The frames one after another, each shown for `seconds`, again and again. Frames are PNGs of one size with eight
+/// bits a channel.
 ///
 /// # Errors
 /// [`Error::Render`] for no frames, for a frame that is no such PNG, and for frames of different sizes.
@@ -62,8 +63,9 @@ pub fn animated_gif(name: &str, frames: &[Vec<u8>], seconds: f64) -> Result<Vec<
     Ok(bytes)
 }
 
-/// At most 256 colours of an image, and the place of each pixel among them. Of an image with more, each colour keeps as many bits as
-/// leave 256: drawings have flat areas and some hundred shades at the edges of lines, which six or seven bits keep.
+/// At most 256 colours of an image, and the place of each pixel among them. Of an image with more, each colour
+/// keeps as many bits as leave 256: drawings have flat areas and some hundred shades at the edges of lines, which
+/// six or seven bits keep.
 fn palette_of(pixels: &[u8]) -> (Vec<u8>, Vec<u8>) {
     let exact = (2..=8).rev().find_map(|bits| palette_with_bits(pixels, bits));
     // Two bits of three channels are 64 colours: there always is a palette.

@@ -193,8 +193,8 @@ pub fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
         .collect()
 }
 
-/// Axes that end below the first or beyond the second of these have labels such as 2 · 10⁻⁷: written out, labels of nine digits and more
-/// would touch each other.
+/// Axes that end below the first or beyond the second of these have labels such as 2 · 10⁻⁷: written out, labels of
+/// nine digits and more would touch each other.
 const SMALLEST_PLAIN: f64 = 1e-6;
 const LARGEST_PLAIN: f64 = 1e9;
 

@@ -2,8 +2,8 @@
 
 /// The corners of an orbit's cobweb: (x₀, x₀), (x₀, x₁), (x₁, x₁), (x₁, x₂), …, for at most `steps` steps.
 ///
-/// It has fewer steps if the map has no value at an element of the orbit. The corners are computed one by one, so that a
-/// large `steps` needs no memory.
+/// It has fewer steps if the map has no value at an element of the orbit. The corners are computed one by one, so
+/// that a large `steps` needs no memory.
 ///
 /// ```
 /// let web = journal_figures::cobweb(|x| Some(x / 2.0), 1.0, 1);

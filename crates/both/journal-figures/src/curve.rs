@@ -54,7 +54,8 @@ pub fn graph_pieces(
 /// 54 halvings reach neighbouring `f64` if both ends are of one size. The others are for a bracket with an end near 0.
 const TO_AN_ULP: usize = 80;
 
-/// As [`graph_pieces`], with edges that are found by so many halvings of a 64th of a piece: a dozen are enough for a drawing.
+/// As [`graph_pieces`], with edges that are found by so many halvings of a 64th of a piece: a dozen are enough for
+/// a drawing.
 pub fn graph_pieces_to(
     halvings: usize,
     value: impl Fn(f64) -> Option<f64>,

@@ -210,8 +210,8 @@ mod tests {
         Ok((path, width))
     }
 
-    /// The widths are those of HarfBuzz with the same font: with the ligatures ff, ffi, fi and with kerning between T, y,
-    /// A and V.
+    /// The widths are those of HarfBuzz with the same font: with the ligatures ff, ffi, fi and with kerning between
+    /// T, y, A and V.
     #[test]
     fn widths_as_harfbuzz_sets_them() {
         for (text, width) in [

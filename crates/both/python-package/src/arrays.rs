@@ -15,8 +15,8 @@ pub(crate) struct Numbers {
     pub(crate) shape: Vec<usize>,
 }
 
-/// The number of a float or an int of Python, and of their subclasses as NumPy's float64. `None` for anything else, which is an array of
-/// no dimension: only its type tells whether it is a number.
+/// The number of a float or an int of Python, and of their subclasses as NumPy's float64. `None` for anything else,
+/// which is an array of no dimension: only its type tells whether it is a number.
 pub(crate) fn scalar(object: Borrowed<'_, '_, PyAny>) -> Option<f64> {
     if object.is_instance_of::<PyFloat>() || object.is_instance_of::<PyInt>() {
         return object.extract().ok();
@@ -60,8 +60,8 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Numbers {
 
 /// Where speeds are read from, piece by piece.
 pub(crate) enum Source<'py> {
-    /// An array of f64 whose numbers are beside each other. Another Python thread may change it during a computation: each piece is
-    /// copied while the interpreter is locked.
+    /// An array of f64 whose numbers are beside each other. Another Python thread may change it during a
+    /// computation: each piece is copied while the interpreter is locked.
     Array(PyReadonlyArrayDyn<'py, f64>),
     /// Anything else, converted once.
     Converted(Numbers),

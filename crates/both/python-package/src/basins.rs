@@ -45,9 +45,9 @@ type Labels<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>);
 
 /// The label of every pixel of a window of (M, α): arrays of M, of α, and of labels (uint16) with the shape (M, α).
 ///
-/// Each label is the fate of its pixel's middle. label_name names the labels. `alpha` is the window of the paper, from α*_1 to α*_6,
-/// unless given. `progress(done, all)` is called with the number of finished columns, some times a second and at the end;
-/// `progress=True` shows a bar of tqdm. Ctrl-C ends the computation.
+/// Each label is the fate of its pixel's middle. label_name names the labels. `alpha` is the window of the paper,
+/// from α*_1 to α*_6, unless given. `progress(done, all)` is called with the number of finished columns, some times
+/// a second and at the end; `progress=True` shows a bar of tqdm. Ctrl-C ends the computation.
 #[pyfunction]
 #[pyo3(signature = (M = [0.1, 1.0], alpha = None, shape = [512, 512], progress = None),
        text_signature = "(M=(0.1, 1.0), alpha=None, shape=(512, 512), progress=None)")]
@@ -65,8 +65,8 @@ pub(crate) fn basin_labels<'py>(
     Ok((ratios, speeds, labels))
 }
 
-/// The labels of the columns from `columns[0]` to before `columns[1]` of the raster of basin_labels, by this number of threads, or by
-/// all.
+/// The labels of the columns from `columns[0]` to before `columns[1]` of the raster of basin_labels, by this number
+/// of threads, or by all.
 #[pyfunction]
 #[pyo3(signature = (M, alpha, shape, columns, threads = None, progress = None))]
 #[expect(non_snake_case, reason = "M is the mass ratio in the paper and in Python")]
@@ -258,8 +258,8 @@ impl IntervalBasins {
         format!("{:?}", self.found.basins.stop_reason())
     }
 
-    /// What the labels stand on: "branches" of the map that are proved to be all, "enclosures" of images of intervals, or "contact parts" alone, at
-    /// M > 50, where the sudden windows stay undecided.
+    /// What the labels stand on: "branches" of the map that are proved to be all, "enclosures" of images of
+    /// intervals, or "contact parts" alone, at M > 50, where the sudden windows stay undecided.
     #[getter]
     fn ground(&self) -> &'static str {
         match self.found.ground {
@@ -283,8 +283,8 @@ impl IntervalBasins {
         Bounds { lower: bounds.lower / length, upper: (bounds.upper / length).min(1.0) }
     }
 
-    /// The probability that a speed of one basin is in another after the mass ratio has changed to that of `after`: a dictionary from pairs
-    /// (label before, label after) to Bounds. Both have the same window.
+    /// The probability that a speed of one basin is in another after the mass ratio has changed to that of `after`:
+    /// a dictionary from pairs (label before, label after) to Bounds. Both have the same window.
     fn tipping_to(&self, after: &Self) -> PyResult<BTreeMap<(u16, u16), Bounds>> {
         let (one, two) = (&self.found.basins, &after.found.basins);
         let tipping = one.tipping_to(two).map_err(value_error)?;
@@ -317,8 +317,9 @@ impl IntervalBasins {
 
 /// All basins between α*_first and α*_last at one mass ratio, as intervals with ends to an ulp.
 ///
-/// The search stops as soon as no more than the length `undecided` is open or about `most` intervals are found, and does not follow intervals
-/// below `shortest`. `samples` points search each sudden window for branches of the map. No label is wrong, at any M.
+/// The search stops as soon as no more than the length `undecided` is open or about `most` intervals are found, and
+/// does not follow intervals below `shortest`. `samples` points search each sudden window for branches of the map.
+/// No label is wrong, at any M.
 ///
 /// >>> from passive_hopper import interval_basins
 /// >>> basins = interval_basins(0.2, last=2)
@@ -347,8 +348,8 @@ pub(crate) fn interval_basins(
     in_background(py, work, value_error, |_| Ok(())).map(|found| IntervalBasins { found })
 }
 
-/// The basin fractions by the paper's protocol: `points` equally spaced speeds between any two neighbouring fixed points.
-/// A dictionary from names of fates to fractions.
+/// The basin fractions by the paper's protocol: `points` equally spaced speeds between any two neighbouring fixed
+/// points. A dictionary from names of fates to fractions.
 #[pyfunction]
 #[pyo3(signature = (mass_ratio, first = 1, last = 6, points = 10_000))]
 pub(crate) fn fractions(

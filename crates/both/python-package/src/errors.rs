@@ -33,8 +33,8 @@ pub(crate) fn of_result(py: Python<'_>, what: &str, error: PyErr) -> PyErr {
     own
 }
 
-/// The exception of a function of the user. StopIteration would end a loop over the results as if they were complete: it becomes a
-/// RuntimeError with it as its cause, as in a generator (PEP 479).
+/// The exception of a function of the user. StopIteration would end a loop over the results as if they were
+/// complete: it becomes a RuntimeError with it as its cause, as in a generator (PEP 479).
 pub(crate) fn of_callback(py: Python<'_>, what: &str, error: PyErr) -> PyErr {
     if !error.is_instance_of::<PyStopIteration>(py) {
         return error;

@@ -9,8 +9,8 @@ use hopper_basin::{Fates, HOP_BUDGET, HopperFate};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
-/// Hops that a fate is followed for before it gets a thread of its own: a millisecond at most. Nearly all fates are known by then, and
-/// the thread would take longer than they do.
+/// Hops that a fate is followed for before it gets a thread of its own: a millisecond at most. Nearly all fates are
+/// known by then, and the thread would take longer than they do.
 const QUICK: usize = 1000;
 
 /// The long-term behaviour of a hopper.

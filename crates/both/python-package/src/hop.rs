@@ -10,7 +10,8 @@ use pyo3::prelude::*;
 pub(crate) struct Landing {
     /// Time of flight before the landing, in units of 1/ω.
     time: f64,
-    /// Γ, the speed at which the lower mass meets the ground times 1 + M, in units of m₂gω/k. The landing takes μ Γ² from α².
+    /// Γ, the speed at which the lower mass meets the ground times 1 + M, in units of m₂gω/k. The landing takes μ
+    /// Γ² from α².
     closing_speed: f64,
     /// The stretch of the spring minus one just after the landing, in units of m₂g/k.
     excess: f64,

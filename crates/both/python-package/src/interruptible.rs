@@ -9,14 +9,14 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Time between two looks for Ctrl-C, and between two reports of progress. More looks would cost more than they give; fewer would
-/// let a person wait.
+/// Time between two looks for Ctrl-C, and between two reports of progress. More looks would cost more than they
+/// give; fewer would let a person wait.
 const LOOK: Duration = Duration::from_millis(25);
 
 /// The number of hops between two looks for Ctrl-C.
 ///
-/// A hop takes from 9 ns to some milliseconds, by the arithmetic that decides it, and neighbours take about the same: a piece is made longer if
-/// the one before was short, and shorter if it took long.
+/// A hop takes from 9 ns to some milliseconds, by the arithmetic that decides it, and neighbours take about the
+/// same: a piece is made longer if the one before was short, and shorter if it took long.
 pub(crate) struct Pace {
     hops: usize,
     begun: Option<Instant>,
@@ -82,8 +82,8 @@ impl Watch {
 /// How often this process was forked from one that had loaded the package: its generation.
 static GENERATION: AtomicU64 = AtomicU64::new(0);
 
-/// The threads of a forked process, with its generation. It is locked only by a thread that is attached to the interpreter, and
-/// so never while another one forks.
+/// The threads of a forked process, with its generation. It is locked only by a thread that is attached to the
+/// interpreter, and so never while another one forks.
 static POOL: Mutex<Option<(u64, Arc<ThreadPool>)>> = Mutex::new(None);
 
 /// To be called in the child after a fork: of the threads of the parent none is there.
@@ -111,10 +111,11 @@ fn pool_of_child(_: Python<'_>) -> PyResult<Option<Arc<ThreadPool>>> {
     Ok(Some(new))
 }
 
-/// The result of `work`, which runs in a thread of its own. `report` gets the number of finished parts whenever it has grown.
+/// The result of `work`, which runs in a thread of its own. `report` gets the number of finished parts whenever it
+/// has grown.
 ///
-/// After Ctrl-C or an error of `report` this function returns at once. The thread ends as soon as it looks at the [`Watch`], and
-/// a computation that never looks ends in the background.
+/// After Ctrl-C or an error of `report` this function returns at once. The thread ends as soon as it looks at the
+/// [`Watch`], and a computation that never looks ends in the background.
 pub(crate) fn in_background<T: Send + 'static, E: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&Watch) -> Result<T, E> + Send + 'static,

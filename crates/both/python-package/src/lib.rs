@@ -1,4 +1,5 @@
-//! The native part of the Python package `passive_hopper`. It converts arguments and results, and computes nothing itself.
+//! The native part of the Python package `passive_hopper`. It converts arguments and results, and computes nothing
+//! itself.
 
 mod arrays;
 mod basins;
@@ -20,8 +21,8 @@ use pyo3::prelude::*;
 /// The native part of `passive_hopper`.
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    // Loaded here, where a failure or Ctrl-C is an exception. The numpy crate would load it in the first call that makes an array, and
-    // panic.
+    // Loaded here, where a failure or Ctrl-C is an exception. The numpy crate would load it in the first call that
+    // makes an array, and panic.
     module.py().import("numpy")?;
     drop(numpy::PyArray1::<f64>::from_slice(module.py(), &[]));
     module.add("UndecidedError", module.py().get_type::<errors::UndecidedError>())?;

@@ -17,8 +17,9 @@ const PIECE: usize = 1 << 13;
 
 /// The map α′ = f(α; M) from one gradual lift-off speed to the next.
 ///
-/// Speeds are in units of m₂gω/k, and M = m₂/m₁ is the lower mass over the upper one. A call takes a number or anything that
-/// NumPy makes an array of, and gives a float or an array of the same shape. NaN means that the hopper is grounded, and stays NaN.
+/// Speeds are in units of m₂gω/k, and M = m₂/m₁ is the lower mass over the upper one. A call takes a number or
+/// anything that NumPy makes an array of, and gives a float or an array of the same shape. NaN means that the
+/// hopper is grounded, and stays NaN.
 ///
 /// >>> from passive_hopper import LiftOffMap
 /// >>> m = LiftOffMap(0.2)
@@ -27,7 +28,8 @@ const PIECE: usize = 1 << 13;
 /// >>> m([5.5, 7.0]).shape
 /// (2,)
 ///
-/// Every result has the bits of the Rust library: α′ is right to some ulps, and every decision of a hop is larger than its error.
+/// Every result has the bits of the Rust library: α′ is right to some ulps, and every decision of a hop is larger
+/// than its error.
 #[pyclass(frozen, module = "passive_hopper")]
 pub(crate) struct LiftOffMap {
     map: passive_hopper::LiftOffMap,
@@ -70,8 +72,9 @@ impl LiftOffMap {
 
     /// f(α) for all speeds at once; NaN where the hopper is grounded.
     ///
-    /// With status=True a pair: the images, and an array of uint8 with 0 where the hopper lifts off again, 1 where it is grounded,
-    /// 2 where the hop cannot be decided, and 3 where the speed was NaN. Without it an undecided hop raises UndecidedError.
+    /// With status=True a pair: the images, and an array of uint8 with 0 where the hopper lifts off again, 1 where
+    /// it is grounded, 2 where the hop cannot be decided, and 3 where the speed was NaN. Without it an undecided
+    /// hop raises UndecidedError.
     #[pyo3(signature = (alpha, status = false))]
     fn images<'py>(
         &self,
@@ -145,8 +148,8 @@ impl LiftOffMap {
         shaped(py, speeds, &[count])
     }
 
-    /// The fate of the orbit from α, with the number of hops until it is known. NaN, which the map gives for a grounded hopper, is
-    /// grounded.
+    /// The fate of the orbit from α, with the number of hops until it is known. NaN, which the map gives for a
+    /// grounded hopper, is grounded.
     fn fate(&self, py: Python<'_>, alpha: f64) -> PyResult<Fate> {
         if alpha.is_nan() {
             return Ok(Fate::grounded());

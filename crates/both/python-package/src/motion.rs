@@ -20,10 +20,12 @@ const EVENTS: [(MotionEvent, u8, &str); 3] = [
     (MotionEvent::SuddenLiftOff, 2, "sudden_lift_off"),
 ];
 
-/// The motion over some hops as a dictionary of arrays: times (units of 1/ω), hops, contact (whether the lower mass is on the ground),
-/// states with the columns y₁, ẏ₁, y₂, ẏ₂ (units of m₂g/k and m₂gω/k), event_times and event_kinds; and grounded.
+/// The motion over some hops as a dictionary of arrays: times (units of 1/ω), hops, contact (whether the lower mass
+/// is on the ground), states with the columns y₁, ẏ₁, y₂, ẏ₂ (units of m₂g/k and m₂gω/k), event_times and
+/// event_kinds; and grounded.
 ///
-/// A landing has two samples at the same time, before the collision and after it. motion(…) is the same as an xarray.Dataset.
+/// A landing has two samples at the same time, before the collision and after it. motion(…) is the same as an
+/// xarray.Dataset.
 #[pyfunction]
 #[pyo3(signature = (alpha, mass_ratio, hops = 10))]
 pub(crate) fn motion_arrays(
@@ -64,10 +66,11 @@ pub(crate) fn motion_event_names() -> Vec<(u8, &'static str)> {
     EVENTS.iter().map(|&(_, code, name)| (code, name)).collect()
 }
 
-/// The animation of a motion as the bytes of a file; `form` is "gif" or "apng". `progress(done, all)` counts the frames.
+/// The animation of a motion as the bytes of a file; `form` is "gif" or "apng". `progress(done, all)` counts the
+/// frames.
 ///
-/// The motion is given by its samples: times, numbers of hops, whether the lower mass is on the ground, and states with the columns
-/// y₁, ẏ₁, y₂, ẏ₂, as motion_arrays gives them.
+/// The motion is given by its samples: times, numbers of hops, whether the lower mass is on the ground, and states
+/// with the columns y₁, ẏ₁, y₂, ẏ₂, as motion_arrays gives them.
 #[pyfunction]
 #[pyo3(signature = (mass_ratio, times, hops, contact, states, form = "gif", progress = None))]
 #[expect(clippy::too_many_arguments, reason = "they are the arrays of motion_arrays")]

@@ -1,5 +1,5 @@
-//! Results and what is given without functions go through pickle and copy, and are compared. What holds a function of the user refuses, and
-//! names the function.
+//! Results and what is given without functions go through pickle and copy, and are compared. What holds a function
+//! of the user refuses, and names the function.
 
 use pyo3::PyClass;
 use pyo3::exceptions::PyTypeError;

@@ -4,10 +4,12 @@ use crate::errors::value_error;
 use pyo3::exceptions::{PyMemoryError, PyOverflowError};
 use pyo3::prelude::*;
 
-/// An int, or what Python takes for one, as a number of Rust without a sign: the `from_py_with` of every count and index.
+/// An int, or what Python takes for one, as a number of Rust without a sign: the `from_py_with` of every count and
+/// index.
 ///
 /// # Errors
-/// TypeError for what is no int. ValueError with the number beyond the range of `T`; pyo3 alone has an OverflowError without it.
+/// TypeError for what is no int. ValueError with the number beyond the range of `T`; pyo3 alone has an
+/// OverflowError without it.
 pub(crate) fn whole<T: TryFrom<u64>>(object: &Bound<'_, PyAny>) -> PyResult<T> {
     let beyond = || {
         let largest = u64::MAX >> (64 - 8 * size_of::<T>());
@@ -29,7 +31,8 @@ pub(crate) fn two_whole(object: &Bound<'_, PyAny>) -> PyResult<[usize; 2]> {
     Ok([whole(&first)?, whole(&second)?])
 }
 
-/// Whether there is memory for `count` results of about `bytes` bytes each. Without this question a count that is too large ends the process.
+/// Whether there is memory for `count` results of about `bytes` bytes each. Without this question a count that is
+/// too large ends the process.
 ///
 /// # Errors
 /// MemoryError with the size, as NumPy has it.

@@ -26,12 +26,13 @@ impl Pieces {
     /// Writes `header` and the payloads of the pieces 0 … `pieces` − 1 to the file `path`. Compares the written bytes
     /// with the pieces before the file gets its name.
     ///
-    /// `go_on` is asked before each piece is written, and before it is compared: its error, such as a signal, ends the assembly.
-    /// `look` receives each payload that agrees, in order, with its number.
+    /// `go_on` is asked before each piece is written, and before it is compared: its error, such as a signal, ends
+    /// the assembly. `look` receives each payload that agrees, in order, with its number.
     ///
     /// # Errors
     /// [`Error::MissingPiece`] if a piece is not finished; [`Error::Differs`] if the written file does not have the
-    /// bytes of the pieces; the errors of `go_on`. After an error the pieces, and a file that had this name before, are unchanged.
+    /// bytes of the pieces; the errors of `go_on`. After an error the pieces, and a file that had this name before,
+    /// are unchanged.
     pub fn assemble<E: From<Error>>(
         &self,
         path: &Path,

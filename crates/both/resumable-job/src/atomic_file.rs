@@ -5,8 +5,8 @@
 //! Therefore no two writers share it. The writer locks its temporary file: a temporary file without a lock belongs to a
 //! writer that has ended.
 //!
-//! A name that is a link is written through: the file to which it leads is replaced, and the link stays. A named pipe or a
-//! device cannot be replaced, and is refused.
+//! A name that is a link is written through: the file to which it leads is replaced, and the link stays. A named
+//! pipe or a device cannot be replaced, and is refused.
 
 use crate::error::Error;
 use crate::open_file::is_named;
@@ -82,7 +82,8 @@ impl AtomicFile {
             };
             if ours {
                 if let Some(old) = &old {
-                    // The new file is as open to others as the one that it replaces. Where that cannot be, it is its owner's.
+                    // The new file is as open to others as the one that it replaces. Where that cannot be, it is
+                    // its owner's.
                     let _ = file.set_permissions(old.permissions());
                 }
                 let (path, file) = (path.to_path_buf(), BufWriter::new(file));

@@ -19,10 +19,10 @@ const LONGEST: u64 = 1 << 16;
 
 /// Says in `folder/job.txt` that the folder has the results of the described job, or makes sure that it does.
 ///
-/// The description has all that the results depend on: the parameters, and the version of the computation. A process
-/// with another description is refused, so that results of two jobs never mix. Processes may call this at the same time.
-/// `is_result` tells the names of results and of folders of pieces: if there are any without a `job.txt`, nobody knows
-/// which job made them. A folder without pieces is none of them.
+/// The description has all that the results depend on: the parameters, and the version of the computation. A
+/// process with another description is refused, so that results of two jobs never mix. Processes may call this at
+/// the same time. `is_result` tells the names of results and of folders of pieces: if there are any without a
+/// `job.txt`, nobody knows which job made them. A folder without pieces is none of them.
 ///
 /// # Errors
 /// [`Error::OtherJob`] for a folder with another job, [`Error::UnknownJob`] for results without `job.txt`, and the
@@ -55,8 +55,8 @@ pub fn claim(
 /// Removes all results from a folder, and `job.txt` after them. The caller holds the lock on the job, and a [`claim`]
 /// follows. A process that is killed here leaves `job.txt` and some results.
 ///
-/// `is_result` tells the names of the files and folders to remove. Of a folder, only the pieces are removed, and the folder
-/// itself if nothing else is in it.
+/// `is_result` tells the names of the files and folders to remove. Of a folder, only the pieces are removed, and
+/// the folder itself if nothing else is in it.
 ///
 /// # Errors
 /// [`Error::File`] for what cannot be removed.

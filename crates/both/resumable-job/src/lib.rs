@@ -66,9 +66,9 @@
 //! survive it.) A test should compare a digest of some results with the one that belongs to the version.
 //!
 //! # Many processes
-//! The pieces of a job can be computed by many processes, also on several machines with one file system that has locks.
-//! Each takes its part: [`Lock::take_part`], [`Part::pieces`]. Another process assembles them with [`Lock::take`], which
-//! is refused while a part is at work.
+//! The pieces of a job can be computed by many processes, also on several machines with one file system that has
+//! locks. Each takes its part: [`Lock::take_part`], [`Part::pieces`]. Another process assembles them with
+//! [`Lock::take`], which is refused while a part is at work.
 //!
 //! The check of [`Pieces::assemble`] reads the file through the operating system's cache. It finds errors of programs.
 //! It does not find data that a disk loses later.

@@ -70,8 +70,8 @@ pub enum Found {
 }
 
 impl Pieces {
-    /// The pieces of the described job in `folder`. The folder is made if it does not exist. Temporary files of killed runs
-    /// are removed from it.
+    /// The pieces of the described job in `folder`. The folder is made if it does not exist. Temporary files of
+    /// killed runs are removed from it.
     ///
     /// The description has all that the pieces depend on: the parameters, and a version of the computation that is
     /// raised when it gives other bytes.
@@ -85,8 +85,8 @@ impl Pieces {
         Ok(Pieces { folder, job, description, is_payload: None })
     }
 
-    /// The same pieces, of which only those count whose payload `is_payload` accepts: mostly those of the right length. A
-    /// file with another payload is [`Found::Unusable`].
+    /// The same pieces, of which only those count whose payload `is_payload` accepts: mostly those of the right
+    /// length. A file with another payload is [`Found::Unusable`].
     #[must_use]
     pub fn holding(
         mut self,
@@ -155,18 +155,20 @@ impl Pieces {
         write_atomically(&self.path(piece), &bytes)
     }
 
-    /// Notes that the job is done in so many parts, so that [`numbers_of_parts`](Self::numbers_of_parts) can tell later.
+    /// Notes that the job is done in so many parts, so that [`numbers_of_parts`](Self::numbers_of_parts) can tell
+    /// later.
     pub fn note_parts(&self, of: usize) -> Result<(), Error> {
         let path = self.folder.join(format!("{PARTS}{of}"));
-        // A file of no bytes is never half written. One that is here is the note, whoever made it: nothing is written into
-        // it, nor to where it may lead.
+        // A file of no bytes is never half written. One that is here is the note, whoever made it: nothing is
+        // written into it, nor to where it may lead.
         match OpenOptions::new().write(true).create_new(true).open(&path) {
             Err(error) if error.kind() != ErrorKind::AlreadyExists => Err(Error::at(&path)(error)),
             _ => Ok(()),
         }
     }
 
-    /// The numbers of parts that processes have noted, in increasing order: mostly one, as many as there were different calls.
+    /// The numbers of parts that processes have noted, in increasing order: mostly one, as many as there were
+    /// different calls.
     ///
     /// # Errors
     /// [`Error::File`] if the folder cannot be read.

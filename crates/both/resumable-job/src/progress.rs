@@ -34,7 +34,8 @@ impl Place {
     }
 }
 
-/// The progress of some pieces, written where people read it: a line that changes on a terminal, elsewhere a line every 30 seconds.
+/// The progress of some pieces, written where people read it: a line that changes on a terminal, elsewhere a line
+/// every 30 seconds.
 ///
 /// ```
 /// use resumable_job::{Pace, Place, Progress};

@@ -28,8 +28,8 @@ pub struct Decay {
     pub inverse: f64,
 }
 
-/// Bound on dδ of an error of K, relative to its first order where the slope of rK is 1 (docs/theory.md, Theorem 69): the
-/// slope is at least 0.69, and the error of K changes u by at most 5 %.
+/// Bound on dδ of an error of K, relative to its first order where the slope of rK is 1 (docs/theory.md, Theorem
+/// 69): the slope is at least 0.69, and the error of K changes u by at most 5 %.
 const OFFSET_FACTOR: f64 = 2.0;
 
 /// The smallest λ. The number of hops is about 3u/λ, and u reaches 10¹⁰⁸ for the smallest positive δ, so that the
@@ -41,16 +41,16 @@ const SMALLEST_LAMBDA: f64 = 1e-150;
 /// it.
 const NEWTON_STEPS: usize = 60;
 
-/// Larger than ln(u₁/u₀) for any two positive `f64`, and than ln(u₀/r): u₀ lies between 1 and 10¹⁰⁸, u₁ between 1 and the
-/// largest `f64`, r above 10⁻¹⁵¹, and ln 1.8·10³⁰⁸ = 709.8.
+/// Larger than ln(u₁/u₀) for any two positive `f64`, and than ln(u₀/r): u₀ lies between 1 and 10¹⁰⁸, u₁ between 1
+/// and the largest `f64`, r above 10⁻¹⁵¹, and ln 1.8·10³⁰⁸ = 709.8.
 const LARGEST_LOGARITHM: f64 = 710.0;
 
-/// Bound on the rounding error of rK in ulps of u + 710 |L| (docs/theory.md, Lemma 72): 27 units 2⁻⁵³ of u, of which 14 are
-/// the error of r, and 18 of |L| ln.
+/// Bound on the rounding error of rK in ulps of u + 710 |L| (docs/theory.md, Lemma 72): 27 units 2⁻⁵³ of u, of
+/// which 14 are the error of r, and 18 of |L| ln.
 const SUM_ULPS: f64 = 16.0;
 
-/// Bound on the rounding error of 1/u³ in ulps of it (docs/theory.md, Lemma 72): 6 for the last Newton step, which is at
-/// most two ulps of u, 1.5 for the rounding of u and 1.5 for the three divisions, rounded up.
+/// Bound on the rounding error of 1/u³ in ulps of it (docs/theory.md, Lemma 72): 6 for the last Newton step, which
+/// is at most two ulps of u, 1.5 for the rounding of u and 1.5 for the three divisions, rounded up.
 const OFFSET_ULPS: f64 = 10.0;
 
 impl Decay {
@@ -63,8 +63,8 @@ impl Decay {
 
     /// Bound on r δ₀^{−2/3} Σ u_j⁻³ over an orbit from δ₀ (docs/theory.md, Theorem 69).
     ///
-    /// So the neglected terms of a number of hops are at most `ORBIT` (0.55 + 0.3 λ³) δ₀^{2/3}/r. The proof gives 0.603; the
-    /// rest of 0.61 covers the rounding of this product.
+    /// So the neglected terms of a number of hops are at most `ORBIT` (0.55 + 0.3 λ³) δ₀^{2/3}/r. The proof gives
+    /// 0.603; the rest of 0.61 covers the rounding of this product.
     pub const ORBIT: f64 = 0.61;
 
     /// The law at α*_n.
@@ -89,7 +89,8 @@ impl Decay {
 
     /// The largest offset for which the law has values: 0.1, or 10⁻³ λ⁻³ if that is less.
     ///
-    /// 10⁻³ λ⁻³ is about a thousandth of the length of the trap. The error is proved up to it (docs/theory.md, Theorem 69).
+    /// 10⁻³ λ⁻³ is about a thousandth of the length of the trap. The error is proved up to it (docs/theory.md,
+    /// Theorem 69).
     pub fn range(&self) -> f64 {
         let lambda = 3.0 * self.rate;
         RIGHT_RANGE.min(1e-3 / (lambda * lambda * lambda))
@@ -139,8 +140,8 @@ impl Decay {
             return Err(Error::OutsideRange { value: hops, left: 0.0, right });
         }
         // Newton's method on r (K(u) − K(u₀)) = r · hops. The slope of r K by u is near 1 throughout the range
-        // (docs/theory.md, Theorem 69), so that the leading term is a good start. The slope is positive and `hops` is not
-        // negative: the root is not below u₀, and no step may fall below it.
+        // (docs/theory.md, Theorem 69), so that the leading term is a good start. The slope is positive and `hops`
+        // is not negative: the root is not below u₀, and no step may fall below it.
         let mut u = u0 + self.rate * hops;
         for _ in 0..NEWTON_STEPS {
             let sum = (u - u0) - self.logarithm * pxfm::f_log(u / u0)

@@ -12,8 +12,8 @@ pub struct ExpansionValue {
     pub neglected_exponent: f64,
 }
 
-/// Bound on the errors of a product whose factors or result are subnormal: four times 2⁻¹⁰⁷⁴, the spacing of the subnormal
-/// numbers.
+/// Bound on the errors of a product whose factors or result are subnormal: four times 2⁻¹⁰⁷⁴, the spacing of the
+/// subnormal numbers.
 ///
 /// An operation with a subnormal result has an error of up to half this spacing, which no bound relative to the result
 /// covers. The bounds here are themselves such products. Each value and its bound have at most seven such operations,

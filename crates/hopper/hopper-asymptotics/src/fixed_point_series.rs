@@ -5,12 +5,13 @@
 use crate::error::Error;
 use crate::expansion_value::ExpansionValue;
 
-/// Bound on −q¹¹ times the neglected terms of [`fixed_point_series`], for all n ≥ 1 (docs/theory.md, Theorem 71). The next
-/// coefficient is 16328/3465 ≈ 4.71. The proof gives 5.177; the rest of 5.2 covers the rounding of the bound.
+/// Bound on −q¹¹ times the neglected terms of [`fixed_point_series`], for all n ≥ 1 (docs/theory.md, Theorem 71).
+/// The next coefficient is 16328/3465 ≈ 4.71. The proof gives 5.177; the rest of 5.2 covers the rounding of the
+/// bound.
 pub const FIXED_POINT_REMAINDER: f64 = 5.2;
 
-/// Bound on the rounding error in ulps of q, for n < 2⁵² (docs/theory.md, Lemma 72): 1.36 units 2⁻⁵³ for π and the product,
-/// 1 for the last difference, and 0.14 for the quotient that is subtracted.
+/// Bound on the rounding error in ulps of q, for n < 2⁵² (docs/theory.md, Lemma 72): 1.36 units 2⁻⁵³ for π and the
+/// product, 1 for the last difference, and 0.14 for the quotient that is subtracted.
 const ULPS: f64 = 1.25;
 
 /// As [`ULPS`], from n = 2⁵² on, where n and n + ½ are rounded as well, each with one unit 2⁻⁵³.

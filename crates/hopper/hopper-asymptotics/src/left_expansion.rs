@@ -35,8 +35,8 @@ pub struct LeftExpansion {
     pub coefficients: [f64; 2],
 }
 
-/// The largest |δ| for which the error is proved (docs/theory.md, Theorem 68), and for which [`LeftExpansion`] has values
-/// where λ is small.
+/// The largest |δ| for which the error is proved (docs/theory.md, Theorem 68), and for which [`LeftExpansion`] has
+/// values where λ is small.
 ///
 /// A larger range would need a larger [`LeftExpansion::REMAINDER`].
 pub const LEFT_RANGE: f64 = 1e-3;
@@ -67,8 +67,9 @@ impl LeftExpansion {
 
     /// The largest |δ| with a value: [`LEFT_RANGE`]/(1 + λ³).
     ///
-    /// Up to it the leading loss 10λ|δ|^{4/3} is at most |δ|. The bound on the error holds further, up to [`LEFT_RANGE`], but
-    /// there a hop with a large λ more than doubles its distance from α*_n, and the local map says little about an orbit.
+    /// Up to it the leading loss 10λ|δ|^{4/3} is at most |δ|. The bound on the error holds further, up to
+    /// [`LEFT_RANGE`], but there a hop with a large λ more than doubles its distance from α*_n, and the local map
+    /// says little about an orbit.
     pub fn range(&self) -> f64 {
         LEFT_RANGE / (1.0 + self.lambda * self.lambda * self.lambda)
     }

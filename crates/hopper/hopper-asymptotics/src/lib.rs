@@ -37,8 +37,8 @@
 //!
 //! # Accuracy
 //! The coefficients are right to seven ulps. Every [`ExpansionValue`] has a bound on its error, which is proved in
-//! `docs/theory.md`, section 14, for every fixed point and mass ratio. Input outside the range of that proof is an error. The leading-order map of
-//! [`Coefficients`] has no range; its documentation states the next term.
+//! `docs/theory.md`, section 14, for every fixed point and mass ratio. Input outside the range of that proof is an
+//! error. The leading-order map of [`Coefficients`] has no range; its documentation states the next term.
 //!
 //! # Not here
 //! - Values where no expansion holds: the exact map is in `passive-hopper`, the exact Δ in `hopper-basin`.

@@ -32,7 +32,8 @@ pub struct RightExpansion {
     pub coefficients: [f64; 4],
 }
 
-/// The largest δ for which the error is proved (docs/theory.md, Theorem 67), and for which [`RightExpansion`] has values.
+/// The largest δ for which the error is proved (docs/theory.md, Theorem 67), and for which [`RightExpansion`] has
+/// values.
 ///
 /// A larger range would need a larger [`RightExpansion::REMAINDER`].
 pub const RIGHT_RANGE: f64 = 0.1;
@@ -45,8 +46,8 @@ impl RightExpansion {
     /// Exponent of the first neglected term of δ′.
     pub const NEGLECTED_EXPONENT: f64 = 3.0;
 
-    /// Bound on |ℓ₉ + ℓ₁₀δ^{1/3} + …|, for all n ≥ 1, all M and 0 ≤ δ ≤ [`RIGHT_RANGE`] (docs/theory.md, Theorem 67). The
-    /// proof gives 0.445; the rest of 0.5 covers the rounding of the bound.
+    /// Bound on |ℓ₉ + ℓ₁₀δ^{1/3} + …|, for all n ≥ 1, all M and 0 ≤ δ ≤ [`RIGHT_RANGE`] (docs/theory.md, Theorem
+    /// 67). The proof gives 0.445; the rest of 0.5 covers the rounding of the bound.
     pub const REMAINDER: f64 = 0.5;
 
     /// The expansion about α*_n.

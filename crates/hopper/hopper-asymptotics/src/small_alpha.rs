@@ -6,12 +6,13 @@ use crate::error::Error;
 use crate::expansion_value::{ExpansionValue, UNDERFLOW};
 use passive_hopper::MassRatio;
 
-/// The largest α for which the error is proved (docs/theory.md, Theorem 71), and for which [`small_hop_loss`] has a value.
+/// The largest α for which the error is proved (docs/theory.md, Theorem 71), and for which [`small_hop_loss`] has a
+/// value.
 pub const SMALL_ALPHA_RANGE: f64 = 0.3;
 
 /// Bound on |c₄ + c₆α² + …| in the factor 1 − (8/5)α² + c₄α⁴ + … of [`small_hop_loss`], for all M and 0 ≤ α ≤
-/// [`SMALL_ALPHA_RANGE`] (docs/theory.md, Theorem 71). The proof gives 2.365; the rest of 2.4 covers the rounding of the
-/// bound.
+/// [`SMALL_ALPHA_RANGE`] (docs/theory.md, Theorem 71). The proof gives 2.365; the rest of 2.4 covers the rounding
+/// of the bound.
 pub const SMALL_HOP_REMAINDER: f64 = 2.4;
 
 /// Bound on the rounding error in ulps of the leading term (docs/theory.md, Lemma 72): 11 units 2⁻⁵³ of the leading
@@ -54,7 +55,8 @@ pub fn small_hop_loss(mass_ratio: MassRatio, alpha: f64) -> Result<ExpansionValu
 mod tests {
     use super::*;
 
-    /// M, α and the loss (mpmath with 60 digits, from the equation of the landing), two of them where rounding dominates.
+    /// M, α and the loss (mpmath with 60 digits, from the equation of the landing), two of them where rounding
+    /// dominates.
     #[test]
     fn losses_of_long_arithmetic_lie_within_the_bound() {
         for (m, alpha, exact) in [

@@ -17,8 +17,8 @@ const REFERENCE: &str = include_str!("data/local_basin.json");
 /// Nine ulps: the roundings of the cube root, of μ and of some five products and quotients.
 const ROUNDING: f64 = 2e-15;
 
-/// Relative error of `Hop::loss` for small hops, measured (docs/accuracy.md). The unit tests of `small_alpha.rs` compare
-/// with forty digits.
+/// Relative error of `Hop::loss` for small hops, measured (docs/accuracy.md). The unit tests of `small_alpha.rs`
+/// compare with forty digits.
 const HOP_LOSS: f64 = 2e-15;
 
 #[test]

@@ -159,8 +159,8 @@ fn abels_equation_holds_for_exact_hops() {
     assert!(single > 2000, "{single}");
 }
 
-/// Above the range of the series a phase is found by hops into the range, and Abel's equation holds by construction. There it is
-/// compared with a phase thirty and more hops further in.
+/// Above the range of the series a phase is found by hops into the range, and Abel's equation holds by
+/// construction. There it is compared with a phase thirty and more hops further in.
 #[test]
 fn phases_above_the_range_agree_with_a_smaller_start_of_the_series() {
     let mut worst = 0.0f64;
@@ -223,7 +223,8 @@ fn an_offset_comes_back_from_its_phase() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
 
-    /// The bound of a phase is a bound, at every depth: up to 200 exact hops lead from a point whose bound is far smaller, or to it.
+    /// The bound of a phase is a bound, at every depth: up to 200 exact hops lead from a point whose bound is far
+    /// smaller, or to it.
     #[test]
     fn bounds_of_phases_hold(
         n in 1..=50u64,

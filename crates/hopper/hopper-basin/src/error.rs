@@ -98,8 +98,8 @@ pub enum Error {
         /// The largest mass ratio of the search.
         largest: f64,
     },
-    /// No turn of the Fatou coordinate was found: the hopper is grounded from the offset, or the hops from there towards α*_n
-    /// are too many.
+    /// No turn of the Fatou coordinate was found: the hopper is grounded from the offset, or the hops from there
+    /// towards α*_n are too many.
     #[error(
         "the offset {delta:e} left of α*_{n} has no turn of phases; the mass ratio is too extreme"
     )]

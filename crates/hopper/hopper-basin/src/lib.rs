@@ -48,12 +48,13 @@
 //! ```
 //!
 //! # Accuracy
-//! Only traps and grounding decide a fate; closeness to a fixed point does not. If the budget of hops or up to 1024 bits do
-//! not suffice, the fate is [`HopperFate::Undecided`], with the reason. For M ≳ 10 the map has needles
+//! Only traps and grounding decide a fate; closeness to a fixed point does not. If the budget of hops or up to 1024
+//! bits do not suffice, the fate is [`HopperFate::Undecided`], with the reason. For M ≳ 10 the map has needles
 //! (canards) narrower than any spacing of `f64`. A scan there finds only needles wider than its spacing.
 //!
 //! # Not here
-//! Dimensions, entropies and distances to the boundary are in the generic crate `basin_of_attraction`, and work on these basins.
+//! Dimensions, entropies and distances to the boundary are in the generic crate `basin_of_attraction`, and work on
+//! these basins.
 //!
 //! # References
 //! C. K. Reddy, R. Pratap, *Multimodal map and complex basin of attraction of a simple hopper*,

@@ -238,7 +238,8 @@ fn immediate_basins_in_the_sudden_windows() {
     );
 }
 
-/// On two humps level k of the tree has 2k − 1 intervals; on three the number grows like k². The residual set is countable.
+/// On two humps level k of the tree has 2k − 1 intervals; on three the number grows like k². The residual set is
+/// countable.
 #[test]
 fn the_residual_set_of_the_preimage_tree_is_countable() {
     let fates = fates(0.2);
@@ -291,7 +292,8 @@ fn every_fate_has_a_label_of_its_own() {
         assert!(labels.iter().skip(k + 1).all(|other| *other != label));
         assert!(!HopperFate::label_name(label).is_empty());
     }
-    // An ulp left of a fixed point an orbit repeats its speed in f64. It needs thousands of hops to leave, which are jumped over.
+    // An ulp left of a fixed point an orbit repeats its speed in f64. It needs thousands of hops to leave, which
+    // are jumped over.
     let fates = fates(0.2);
     let alpha = alpha_star(2).next_down();
     let (fate, hops) = fates.fate_within(alpha, 500).unwrap();

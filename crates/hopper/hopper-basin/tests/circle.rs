@@ -34,8 +34,8 @@ const MEASURED: [Measured; 6] = [
     (2, 0.8, &[(DECAYING, 0.187), (FIRST, 0.003), (GROUNDED, 0.810)]),
 ];
 
-/// The speeds α*_n + δ, rounded to `f64`, of `count` equally spaced phases in the turn that begins at `scale`, with the phases of
-/// the rounded speeds.
+/// The speeds α*_n + δ, rounded to `f64`, of `count` equally spaced phases in the turn that begins at `scale`, with
+/// the phases of the rounded speeds.
 fn turn(psi: &FatouCoordinate, n: u64, scale: f64, count: usize) -> Vec<(f64, Phase)> {
     let star = FixedPointSpeed::new(n);
     let first = psi.phase(Offset::from(scale)).unwrap();
@@ -169,7 +169,8 @@ fn phases_of_the_domain_are_those_of_orbits_from_within() {
     }
 }
 
-/// Fates of neighbouring `f64` near 10⁻⁶ differ where the circle has its boundary points. These `f64` are a phase of 3·10⁻⁹ apart.
+/// Fates of neighbouring `f64` near 10⁻⁶ differ where the circle has its boundary points. These `f64` are a phase
+/// of 3·10⁻⁹ apart.
 #[test]
 fn boundary_phases_agree_with_bisected_fates() {
     let mut found = 0;
@@ -223,8 +224,8 @@ fn a_share_of_phases_is_that_of_its_parts() {
     assert_eq!(circle.label_at(start, 0.6 * length), None);
 }
 
-/// Below a crisis the left of the next fixed point has one fate. Above it the other fate has a share C √(M − M_c): f falls below
-/// α*_{n−1}, or to zero, on an interval of this width about its quadratic minimum.
+/// Below a crisis the left of the next fixed point has one fate. Above it the other fate has a share C √(M − M_c):
+/// f falls below α*_{n−1}, or to zero, on an interval of this width about its quadratic minimum.
 #[test]
 fn a_crisis_opens_a_share_like_a_square_root() {
     let [ground, fall] = [grounding(0).unwrap().mass_ratio, crisis(1).unwrap().mass_ratio];

@@ -26,8 +26,9 @@ fn column(m: f64, window: Interval, pixels: usize, tolerance: f64) -> CoverageCo
     CoverageColumn::new(&fates(m), window, pixels, limits(tolerance)).unwrap()
 }
 
-/// Compares the shares with the fates of `samples` speeds in every pixel. A sample of a labelled interval has its label without exception, so
-/// that the numbers of samples lie within the bounds, up to one sample at each end of an interval.
+/// Compares the shares with the fates of `samples` speeds in every pixel. A sample of a labelled interval has its
+/// label without exception, so that the numbers of samples lie within the bounds, up to one sample at each end of
+/// an interval.
 fn check_samples(m: f64, window: Interval, pixels: usize, samples: usize, column: &CoverageColumn) {
     let fates = fates(m);
     let height = window.length() / pixels as f64;
@@ -66,8 +67,8 @@ fn check_samples(m: f64, window: Interval, pixels: usize, samples: usize, column
     }
 }
 
-/// Every sample of a labelled interval has its label: at small and large M, below, across and above the humps with laps, beside fixed
-/// points, and where the hopper is grounded.
+/// Every sample of a labelled interval has its label: at small and large M, below, across and above the humps with
+/// laps, beside fixed points, and where the hopper is grounded.
 #[test]
 fn labelled_intervals_have_the_fates_of_their_speeds() {
     let humps = first_humps(5);
@@ -101,7 +102,8 @@ fn columns_without_laps_stand_on_samples() {
         let spacing = window.length() / (pixels * CoverageLimits::default().samples) as f64;
         assert_eq!(found.ground(), CoverageGround::Spacing { speeds: spacing });
         assert!(found.shares().most_undecided() <= 0.01, "{m}");
-        // Between two samples of one fate this fate is concluded; few speeds have another one, in a basin thinner than the spacing.
+        // Between two samples of one fate this fate is concluded; few speeds have another one, in a basin thinner
+        // than the spacing.
         let fates = fates(m);
         let speed = |k: u32| window.left + window.length() * (f64::from(k) + 0.37) / 2000.0;
         let speeds: Vec<f64> = (0..2000).map(speed).collect();
@@ -146,7 +148,8 @@ fn shares_have_the_lengths_of_the_basins() {
     }
 }
 
-/// The shares of a pixel and its undecided part are the whole pixel; little is undecided, but where infinitely many basins meet.
+/// The shares of a pixel and its undecided part are the whole pixel; little is undecided, but where infinitely many
+/// basins meet.
 #[test]
 fn shares_and_the_undecided_part_are_the_pixel() {
     let (window, pixels) = (interval(17.0, 17.8), 300);
@@ -169,7 +172,8 @@ fn shares_and_the_undecided_part_are_the_pixel() {
     }
 }
 
-/// A band of Fig. 9 that is thinner than a pixel: no middle of a pixel has its fate, and the shares of the pixels show its height.
+/// A band of Fig. 9 that is thinner than a pixel: no middle of a pixel has its fate, and the shares of the pixels
+/// show its height.
 #[test]
 fn a_needle_between_the_middles_of_pixels_is_seen() {
     let ((from, to), (bottom, top)) = FIG_9;

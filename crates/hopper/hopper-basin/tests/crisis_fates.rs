@@ -1,4 +1,5 @@
-//! Fates at mass ratios some ulps beside a crisis: whether the hump falls through is not known to `f64`, and no fate says otherwise.
+//! Fates at mass ratios some ulps beside a crisis: whether the hump falls through is not known to `f64`, and no
+//! fate says otherwise.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -44,7 +45,8 @@ fn no_fate_at_a_touch_is_wrong() {
     assert!(below > 40 && decided > 300, "{below} {decided}");
 }
 
-/// A speed is in the trap, or its image is, unless it is next to the touch. So no orbit is followed far towards its fixed point.
+/// A speed is in the trap, or its image is, unless it is next to the touch. So no orbit is followed far towards its
+/// fixed point.
 #[test]
 fn beside_a_crisis_orbits_are_not_followed_to_their_fixed_point() {
     let random = SplitMix64::from_seed(3);

@@ -31,7 +31,8 @@ fn at_each_mass_ratio(check: impl Fn(&Fates, &[Row])) -> usize {
     all.len()
 }
 
-/// None is undecided. The count of hops is that of the reference, also of orbits that enter a trap within an ulp of its end.
+/// None is undecided. The count of hops is that of the reference, also of orbits that enter a trap within an ulp of
+/// its end.
 #[test]
 fn fates_and_counts_of_hops_beside_edges_are_those_of_the_reference() {
     let compared = at_each_mass_ratio(|fates, group| {
@@ -53,8 +54,9 @@ fn labels_beside_edges_are_those_of_the_reference() {
     });
 }
 
-/// Orbits that leave α*_5 in more than 512 hops and then pass by α*_4, α*_3 and α*_2, each of which multiplies their error: after a jump
-/// over the slow hops it would be too large. Here the orbit in 512 bits is followed hop by hop.
+/// Orbits that leave α*_5 in more than 512 hops and then pass by α*_4, α*_3 and α*_2, each of which multiplies
+/// their error: after a jump over the slow hops it would be too large. Here the orbit in 512 bits is followed hop
+/// by hop.
 #[test]
 fn orbits_beside_several_fixed_points_are_followed_hop_by_hop() {
     for (m, alpha) in [(20.0, 17.220_755_271_922_03), (10.0, 17.220_755_271_928_866)] {

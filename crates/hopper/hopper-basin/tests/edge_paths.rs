@@ -1,5 +1,5 @@
-//! A boundary point followed over the mass ratio is the boundary point that a search finds there, and windows of the (M, α) plane about
-//! it have the fates of their points.
+//! A boundary point followed over the mass ratio is the boundary point that a search finds there, and windows of
+//! the (M, α) plane about it have the fates of their points.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -115,8 +115,8 @@ fn deep_frames_are_alike_at_any_depth() {
     }
 }
 
-/// Both sides of a preimage: the side that falls has the local fractions, the other one belongs to the basin; columns without it are
-/// blank.
+/// Both sides of a preimage: the side that falls has the local fractions, the other one belongs to the basin;
+/// columns without it are blank.
 #[test]
 fn columns_about_a_preimage_have_both_sides() {
     let (_, _, start) = edge(0.12, 2, 11.9206);

@@ -20,7 +20,8 @@ fn fates(m: f64) -> Fates {
     Fates::new(mass_ratio(m)).unwrap()
 }
 
-/// Bounds up to the proved mass ratios, 95 % intervals beyond: both contain what equally spaced points give, which uses neither.
+/// Bounds up to the proved mass ratios, 95 % intervals beyond: both contain what equally spaced points give, which
+/// uses neither.
 #[test]
 fn fractions_contain_those_of_the_papers_protocol() {
     let limits = FractionLimits { points: 20_000, ..FractionLimits::default() };

@@ -1,4 +1,5 @@
-//! Basins as intervals say what they rest on, and agree with the fates of single speeds where their branches are proved.
+//! Basins as intervals say what they rest on, and agree with the fates of single speeds where their branches are
+//! proved.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -21,7 +22,8 @@ fn basins(fates: &Fates, samples: usize) -> HopperBasins {
     hopper_basins(fates, 1, 6, samples, refinement).unwrap()
 }
 
-/// Branches that a search with 400 samples in each window misses would give wrong labels here. At M = 5 this speed was called decaying.
+/// Branches that a search with 400 samples in each window misses would give wrong labels here. At M = 5 this speed
+/// was called decaying.
 #[test]
 fn above_the_proved_mass_ratios_windows_stay_undecided_and_no_label_is_wrong() {
     for m in [0.92, 2.0, 5.0] {
@@ -54,8 +56,8 @@ fn where_the_branches_are_proved_every_probe_has_the_fate_of_its_interval() {
     assert_eq!(found.basins.stop_reason(), StopReason::Resolved);
 }
 
-/// The ends themselves have the fate of their interval, also where they were computed as 4.580042449461985 at M = 0.2, which decays after
-/// 24 133 hops. The ground is reached by one more hop than the gap in which it is.
+/// The ends themselves have the fate of their interval, also where they were computed as 4.580042449461985 at M =
+/// 0.2, which decays after 24 133 hops. The ground is reached by one more hop than the gap in which it is.
 #[test]
 fn the_ends_of_every_interval_have_its_fate() {
     for m in [0.12, 0.2, 0.5, 0.8] {
@@ -106,7 +108,8 @@ fn ranges_of_humps_that_never_end_are_errors() {
     assert_eq!(branches(&f, 5, 5, 3).unwrap(), []);
 }
 
-/// At the ends of the range of M nothing is searched: small M have whole humps as traps, and large M have no window that `f64` resolves.
+/// At the ends of the range of M nothing is searched: small M have whole humps as traps, and large M have no window
+/// that `f64` resolves.
 #[test]
 fn at_extreme_mass_ratios_the_traps_are_the_basins() {
     let small = basins(&fates(1e-300), 400);
@@ -140,7 +143,8 @@ fn at_extreme_mass_ratios_the_traps_are_the_basins() {
     assert!(found.basins.intervals().iter().any(|part| part.level > Some(0)));
 }
 
-/// An image within the error of a trap's end counts as in the trap if the next one is: decided with 60 digits elsewhere.
+/// An image within the error of a trap's end counts as in the trap if the next one is: decided with 60 digits
+/// elsewhere.
 #[test]
 fn the_hop_into_the_end_of_a_trap_is_the_last_one() {
     for (m, speed, hops) in [

@@ -137,8 +137,8 @@ fn deep_pixels_have_the_local_fractions() {
     assert_eq!(deep.labels(), [0, 1].map(Label::from));
 }
 
-/// A raster over mass ratios covers the phases of all its mass ratios: no stripes appear where a turn is higher than a pixel's
-/// width.
+/// A raster over mass ratios covers the phases of all its mass ratios: no stripes appear where a turn is higher
+/// than a pixel's width.
 #[test]
 fn pixels_cover_the_phases_of_all_their_mass_ratios() {
     // A pixel is 0.04 turns high, and its phases move by three turns over its width.

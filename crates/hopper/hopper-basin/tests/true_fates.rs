@@ -196,8 +196,8 @@ fn lengths_of_whole_contact_parts_do_not_depend_on_the_size_of_the_speed() {
     }
 }
 
-/// Doubles left of a preimage of α*_2 at M = 0.12, where rounding accumulates over the slow hops: of 300, some 90 were decided
-/// and wrong at 1e-11. A few are compared with 256 bits.
+/// Doubles left of a preimage of α*_2 at M = 0.12, where rounding accumulates over the slow hops: of 300, some 90
+/// were decided and wrong at 1e-11. A few are compared with 256 bits.
 #[test]
 fn fates_left_of_a_preimage_of_a_fixed_point_are_decided_and_right() {
     let fates = fates(0.12);

@@ -1,4 +1,5 @@
-//! The bits of rasters belong to a version. A change of the bits without a new version would let a continued raster mix both.
+//! The bits of rasters belong to a version. A change of the bits without a new version would let a continued raster
+//! mix both.
 //!
 //! After a change that is meant: raise the version, and enter the digests that this test reports.
 

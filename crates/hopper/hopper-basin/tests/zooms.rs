@@ -15,8 +15,8 @@ const EDGES: [(f64, f64); 4] = [
     (0.2, 15.025371092446333),
 ];
 
-/// Compares labels of a window about an edge with the fates alone: of a window of two columns, which are labelled one by one, and of
-/// two columns of a wider one, whose columns share circles. None is undecided.
+/// Compares labels of a window about an edge with the fates alone: of a window of two columns, which are labelled
+/// one by one, and of two columns of a wider one, whose columns share circles. None is undecided.
 fn check(m: f64, edge: f64, half: f64, rows: usize) -> usize {
     let x = Interval::new(m - 0.1 * half, m + 0.1 * half).unwrap();
     let y = Interval::new(edge - half, edge + half).unwrap();

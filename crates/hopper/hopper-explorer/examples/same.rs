@@ -1,4 +1,5 @@
-//! What the page shows as "the same in Rust" for M = 0.2 and α = 7. The test of the page compares the lines of `main` with it.
+//! What the page shows as "the same in Rust" for M = 0.2 and α = 7. The test of the page compares the lines of
+//! `main` with it.
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     use hopper_basin::Fates;

@@ -1,7 +1,7 @@
 //! The one buffer in which an answer waits for the page.
 //!
-//! A call computes its answer, keeps it here and returns whether it is an answer or a refusal. The page copies the bytes from
-//! `answer_place` before its next call.
+//! A call computes its answer, keeps it here and returns whether it is an answer or a refusal. The page copies the
+//! bytes from `answer_place` before its next call.
 
 use crate::refusal::Refusal;
 use std::cell::RefCell;

@@ -1,4 +1,5 @@
-//! The functions that the page calls by name. Each returns 0 for an answer and 1 for a refusal; the bytes are at `answer_place`.
+//! The functions that the page calls by name. Each returns 0 for an answer and 1 for a refusal; the bytes are at
+//! `answer_place`.
 
 use crate::answer;
 use crate::depth::Depth;

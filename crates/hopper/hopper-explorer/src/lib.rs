@@ -5,8 +5,9 @@
 //!        ◄── bytes, JSON ── answer
 //! ```
 //!
-//! It holds no mathematics: colours, names, labels, pieces of the map and samples of the motion are those of the libraries. A tile is
-//! computed in strips of columns, so that a worker can look for newer wishes between two of them.
+//! It holds no mathematics: colours, names, labels, pieces of the map and samples of the motion are those of the
+//! libraries. A tile is computed in strips of columns, so that a worker can look for newer wishes between two of
+//! them.
 //!
 //! | item | role |
 //! |---|---|

@@ -11,8 +11,9 @@ const MOST_HOPS: usize = 200;
 /// Numbers of a sample: time, hop, 1 in flight and 0 on the ground, y₁, ẏ₁, y₂, ẏ₂.
 const NUMBERS: usize = 7;
 
-/// The samples of a motion over some hops: 1 or 0 for a hopper that is grounded at the end, then seven numbers for each sample: time,
-/// hop, 1 in flight and 0 on the ground, y₁, ẏ₁, y₂, ẏ₂. A sudden lift-off is a landing after which the phase is flight again.
+/// The samples of a motion over some hops: 1 or 0 for a hopper that is grounded at the end, then seven numbers for
+/// each sample: time, hop, 1 in flight and 0 on the ground, y₁, ẏ₁, y₂, ẏ₂. A sudden lift-off is a landing after
+/// which the phase is flight again.
 ///
 /// # Errors
 /// The refusals of [`Motion::new`], and of more than 200 hops.

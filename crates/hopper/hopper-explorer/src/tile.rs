@@ -1,7 +1,7 @@
 //! Strips of pixels of the (M, α) plane.
 //!
-//! A tile is a window of `columns` × `rows` pixels. On the linear axis its pixels are those of [`basin_columns`] on the same grid, bit for
-//! bit. On the logarithmic axis the columns are equally far apart in log₂ M.
+//! A tile is a window of `columns` × `rows` pixels. On the linear axis its pixels are those of [`basin_columns`] on
+//! the same grid, bit for bit. On the logarithmic axis the columns are equally far apart in log₂ M.
 
 use crate::refusal::Refusal;
 use basin_of_attraction::{Grid, Interval, Label};
@@ -43,7 +43,8 @@ impl Layer {
     }
 }
 
-/// The number of hops with the darkest colour. Few pixels have more; one scale for all tiles keeps neighbours comparable.
+/// The number of hops with the darkest colour. Few pixels have more; one scale for all tiles keeps neighbours
+/// comparable.
 pub(crate) const DARKEST_HOPS: u64 = 10_000;
 
 /// Most pixels of a tile each way: its pixels then take 64 MB.
@@ -90,8 +91,8 @@ impl Window {
 pub struct Strip {
     /// Red, green, blue and opacity, the highest row first.
     pub pixels: Vec<u8>,
-    /// Column by column, each from below: the codes of the labels, with [`PROVED`] added where the layer says so, or the numbers of hops up to
-    /// 2³² − 1. Empty for shares.
+    /// Column by column, each from below: the codes of the labels, with [`PROVED`] added where the layer says so,
+    /// or the numbers of hops up to 2³² − 1. Empty for shares.
     pub values: Vec<u32>,
 }
 
@@ -142,7 +143,8 @@ fn fates(window: &Window, grid: &Grid, columns: Range<usize>) -> Result<Strip, R
     Ok(Strip { pixels: painted(&labels, grid.rows, color), values })
 }
 
-/// The colour of a fate that is computed and not proved: a light blue. The colours of fates are black, grey, yellow and dark ones.
+/// The colour of a fate that is computed and not proved: a light blue. The colours of fates are black, grey, yellow
+/// and dark ones.
 pub const ONLY_COMPUTED: [u8; 3] = [0x38, 0xc0, 0xff];
 
 /// What a value of the layer of proofs has beside the code of its label if the fate is proved.

@@ -65,8 +65,8 @@ pub fn draw_pixels(window: &Window, pixels: &[u8], labels: impl Iterator<Item = 
 const LEGEND_END: f64 = 576.0;
 const LAST_ENTRY: f64 = 74.0;
 
-/// The legend, with one entry for each colour: fixed points beyond the last colour share it. Many entries move together. Returns where the
-/// next entry begins.
+/// The legend, with one entry for each colour: fixed points beyond the last colour share it. Many entries move
+/// together. Returns where the next entry begins.
 pub fn legend(svg: &mut Svg, left: f64, labels: impl Iterator<Item = Label>) -> f64 {
     let mut entries: Vec<Label> = labels.collect();
     entries.dedup_by_key(|label| fate_colors::css(*label));

@@ -7,8 +7,9 @@ use basin_of_attraction::Label;
 use hopper_basin::{HopperFate, ShareRaster};
 use journal_figures::{Svg, rgb_png};
 
-/// The undecided part of a pixel up to which it takes the mixture of its decided part. A larger part is yellow: it is seen that something
-/// is not known. At this part the colour of a pixel of two basins errs by an eighth of their difference at most.
+/// The undecided part of a pixel up to which it takes the mixture of its decided part. A larger part is yellow: it
+/// is seen that something is not known. At this part the colour of a pixel of two basins errs by an eighth of their
+/// difference at most.
 const SHARED_OUT: f64 = 0.125;
 
 /// The drawing of a window with axes and legend.
@@ -33,8 +34,8 @@ pub fn coverage_png(name: &str, raster: &ShareRaster) -> Result<Vec<u8>, Error> 
     Ok(rgb_png(name, grid.columns, grid.rows, &coverage_pixels(raster))?)
 }
 
-/// Red, green and blue of every pixel, the highest row first. A small undecided part takes the mixture of the decided part; a larger
-/// one is yellow.
+/// Red, green and blue of every pixel, the highest row first. A small undecided part takes the mixture of the
+/// decided part; a larger one is yellow.
 pub fn coverage_pixels(raster: &ShareRaster) -> Vec<u8> {
     let grid = raster.grid();
     let mut pixels = Vec::with_capacity(3 * grid.columns * grid.rows);

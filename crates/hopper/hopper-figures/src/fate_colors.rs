@@ -54,7 +54,8 @@ pub fn name(label: Label) -> String {
     }
 }
 
-/// The colour of a pixel that covers several fates: the light of their colours mixed by their shares. The rest to 1 is undecided.
+/// The colour of a pixel that covers several fates: the light of their colours mixed by their shares. The rest to 1
+/// is undecided.
 pub fn mixed(shares: impl Iterator<Item = (Label, f64)>) -> [u8; 3] {
     let (mut light, mut rest) = ([0.0; 3], 1.0);
     let mut add = |color: Color, share: f64| {
@@ -76,8 +77,8 @@ fn linear(byte: u8) -> f64 {
     if value <= 0.04045 { value / 12.92 } else { power((value + 0.055) / 1.055, 2.4) }
 }
 
-/// The power of a positive number, to some ulps: a step of a byte is 10¹² times as large. `pxfm::f_pow` is exact to half an ulp; its
-/// tables would be a fifteenth of the explorer's page.
+/// The power of a positive number, to some ulps: a step of a byte is 10¹² times as large. `pxfm::f_pow` is exact to
+/// half an ulp; its tables would be a fifteenth of the explorer's page.
 fn power(base: f64, exponent: f64) -> f64 {
     pxfm::f_exp(exponent * pxfm::f_log(base))
 }

@@ -16,12 +16,14 @@ const FIRST_SPEED: f64 = 1e-3;
 pub struct Graph {
     /// Smooth pieces.
     pub pieces: Vec<Vec<(f64, f64)>>,
-    /// Speeds whose hop was tried and is not decided, from the lowest up. They are in no piece, and need not be grounded.
+    /// Speeds whose hop was tried and is not decided, from the lowest up. They are in no piece, and need not be
+    /// grounded.
     pub undecided: Vec<f64>,
 }
 
 impl Graph {
-    /// The graph between neighbouring `cuts`, in pieces of `count` + 1 points each, with every digit of [`LiftOffMap::image`].
+    /// The graph between neighbouring `cuts`, in pieces of `count` + 1 points each, with every digit of
+    /// [`LiftOffMap::image`].
     pub fn exact(map: &LiftOffMap, cuts: &[f64], count: usize) -> Self {
         Self::of(
             |alpha| map.image(alpha).ok(),
@@ -29,8 +31,8 @@ impl Graph {
         )
     }
 
-    /// The same for a drawing: images to a thousandth, and edges to a ten-thousandth of a piece. From M = 10⁴ on, where a hop has hundreds of
-    /// landings and 1024 bits take a second, only `f64` decides.
+    /// The same for a drawing: images to a thousandth, and edges to a ten-thousandth of a piece. From M = 10⁴ on,
+    /// where a hop has hundreds of landings and 1024 bits take a second, only `f64` decides.
     pub fn drawn(map: &LiftOffMap, cuts: &[f64], count: usize) -> Self {
         Self::of(
             |alpha| drawn_image(map, alpha),
@@ -64,7 +66,8 @@ const DRAWN: f64 = 1e-3;
 /// Halvings to an edge that is drawn, from a 64th of a piece.
 const DRAWN_HALVINGS: usize = 8;
 
-/// The largest mass ratio for which 106 bits decide what `f64` leaves open: a hop then has up to some hundred landings, and takes milliseconds.
+/// The largest mass ratio for which 106 bits decide what `f64` leaves open: a hop then has up to some hundred
+/// landings, and takes milliseconds.
 const LARGEST_EXTENDED: f64 = 1e4;
 
 /// The image for a drawing, or that the hopper is grounded; `None` if it is not decided.
@@ -102,7 +105,8 @@ pub fn cuts(n: u64) -> Vec<f64> {
     cuts
 }
 
-/// Most pieces of a graph: half as many humps. A page is some thousand dots wide, so that a hump of more would be some dots.
+/// Most pieces of a graph: half as many humps. A page is some thousand dots wide, so that a hump of more would be
+/// some dots.
 const MOST_PIECES: u64 = 400;
 
 /// The points where pieces of the map meet between two speeds, and the two speeds. Instead of 0 it begins at 10⁻³.
@@ -140,7 +144,8 @@ mod tests {
         }
     }
 
-    /// At a huge mass ratio some hops have thousands of landings, and 106 bits do not decide all of them. They are not called grounded.
+    /// At a huge mass ratio some hops have thousands of landings, and 106 bits do not decide all of them. They are
+    /// not called grounded.
     #[test]
     fn undecided_speeds_are_named() {
         let map = LiftOffMap::new(MassRatio::new(1e6).unwrap());

@@ -5,8 +5,8 @@ use crate::error::Error;
 use basin_of_attraction::Grid;
 use journal_figures::{Anchor, Frame, Pen, Svg, rgb_png, ticks};
 
-/// The colours of no hops and of the largest number, with those between in equal steps of log(1 + hops): the lightness falls, so
-/// that the order is visible in grey print.
+/// The colours of no hops and of the largest number, with those between in equal steps of log(1 + hops): the
+/// lightness falls, so that the order is visible in grey print.
 const COLORS: [[f64; 3]; 4] =
     [[255.0, 247.0, 188.0], [254.0, 153.0, 41.0], [153.0, 52.0, 142.0], [23.0, 9.0, 58.0]];
 

@@ -1,4 +1,5 @@
-//! Figures of the passive hopper, as drawings: basins, shares of fates, the map, cobwebs, and the motion of both masses.
+//! Figures of the passive hopper, as drawings: basins, shares of fates, the map, cobwebs, and the motion of both
+//! masses.
 //!
 //! | item | role |
 //! |---|---|

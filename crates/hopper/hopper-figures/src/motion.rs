@@ -1,7 +1,7 @@
 //! The motion of both masses over some hops, sampled.
 //!
-//! The lift-off map decides each hop: its landings and the next lift-off speed. Between them the states are closed forms, so that the
-//! drawn landings are those of the orbit, and no event is searched for.
+//! The lift-off map decides each hop: its landings and the next lift-off speed. Between them the states are closed
+//! forms, so that the drawn landings are those of the orbit, and no event is searched for.
 
 use crate::error::Error;
 use passive_hopper::{
@@ -9,8 +9,8 @@ use passive_hopper::{
 };
 use std::f64::consts::TAU;
 
-/// The largest distance of two samples, in units of 1/ω. The spring turns by this angle between them: the straight line between two
-/// samples is off by an eight-hundredth of the amplitude, less than the width of a line.
+/// The largest distance of two samples, in units of 1/ω. The spring turns by this angle between them: the straight
+/// line between two samples is off by an eight-hundredth of the amplitude, less than the width of a line.
 const SPACING: f64 = 0.1;
 
 /// The most samples of a motion: 64 MB. A motion of more would be a mistake, such as a million hops.
@@ -60,9 +60,11 @@ pub(crate) struct Arc<'a> {
 }
 
 impl Motion {
-    /// The motion that begins with a gradual lift-off with speed `alpha`, over `hops` hops or until the hopper is grounded.
+    /// The motion that begins with a gradual lift-off with speed `alpha`, over `hops` hops or until the hopper is
+    /// grounded.
     ///
-    /// On the ground for ever it is followed for one period of the contact phase, or as long as it has hopped if that is shorter.
+    /// On the ground for ever it is followed for one period of the contact phase, or as long as it has hopped if
+    /// that is shorter.
     ///
     /// ```
     /// use hopper_figures::{Motion, MotionEvent};
@@ -194,7 +196,8 @@ impl Motion {
         self.samples.last().map_or(0.0, |sample| sample.time)
     }
 
-    /// The state at a time, on the straight line between the samples before and after it; `None` for a motion without samples.
+    /// The state at a time, on the straight line between the samples before and after it; `None` for a motion
+    /// without samples.
     pub fn at(&self, time: f64) -> Option<HopperState> {
         let after = self.samples.partition_point(|sample| sample.time <= time);
         let before = self.samples.get(after.saturating_sub(1))?;

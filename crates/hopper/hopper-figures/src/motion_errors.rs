@@ -9,17 +9,18 @@ use passive_hopper::{
 /// Bounds on the errors of a sample. Infinite where none is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SampleError {
-    /// Of the time, if the sample is at the beginning or the end of a phase, which is an event. The time of any other sample is chosen, and has
-    /// no error.
+    /// Of the time, if the sample is at the beginning or the end of a phase, which is an event. The time of any
+    /// other sample is chosen, and has no error.
     pub time: f64,
-    /// Of y₁, ẏ₁, y₂ and ẏ₂ at the time of the sample. At an event the phase of the sample counts, also some ulps beyond its end.
+    /// Of y₁, ẏ₁, y₂ and ẏ₂ at the time of the sample. At an event the phase of the sample counts, also some ulps
+    /// beyond its end.
     pub state: [f64; 4],
 }
 
 /// A motion with bounds on the errors of its samples, one for each.
 ///
-/// The exact orbit is followed in as many bits as it needs ([`BoundedOrbit`]). From the hop on that 1024 bits do not decide, the errors of the
-/// samples are not known.
+/// The exact orbit is followed in as many bits as it needs ([`BoundedOrbit`]). From the hop on that 1024 bits do
+/// not decide, the errors of the samples are not known.
 ///
 /// ```
 /// use hopper_figures::motion_with_errors;
@@ -93,7 +94,8 @@ impl ExactMotion {
         self.landings = 0;
     }
 
-    /// Adds the errors of the samples of a phase, which are those after the ones that it knows, and goes on to the next phase.
+    /// Adds the errors of the samples of a phase, which are those after the ones that it knows, and goes on to the
+    /// next phase.
     fn follow(&mut self, samples: &[Sample], phase: Phase) {
         let own = &samples[self.errors.len().min(samples.len())..];
         let duration = self.duration(phase);

@@ -28,7 +28,8 @@ const TOP: f64 = 45.0;
 const MIDDLE: f64 = 80.0;
 /// The shortest spring, as a part of the room that is left for springs and flights.
 const SHORTEST: f64 = 0.12;
-/// The heights of both blocks together on the page. Each has its share of the mass, and at least a quarter, so that its label fits.
+/// The heights of both blocks together on the page. Each has its share of the mass, and at least a quarter, so that
+/// its label fits.
 const BLOCKS: f64 = 76.0;
 
 /// The times of the frames of a motion, at equal distances.

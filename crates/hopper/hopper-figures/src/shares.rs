@@ -7,8 +7,8 @@ use hopper_basin::{HopperFate, ShareRaster, Upwards};
 use journal_figures::palette::Color;
 use journal_figures::{Anchor, Frame, Pen, Svg, rgb_png, ticks};
 
-/// The drawing of a raster left of α*_n, or about a preimage of it, with axes and legend. Every pixel has the colours of its fates,
-/// mixed by their shares.
+/// The drawing of a raster left of α*_n, or about a preimage of it, with axes and legend. Every pixel has the
+/// colours of its fates, mixed by their shares.
 ///
 /// # Errors
 /// As [`share_png`].
@@ -103,7 +103,8 @@ pub fn share_pixels(raster: &ShareRaster) -> Vec<u8> {
     pixels
 }
 
-/// The shares of the label at a place as 16-bit integers, 65535 for 1, row by row from the lowest, in bytes from the lowest.
+/// The shares of the label at a place as 16-bit integers, 65535 for 1, row by row from the lowest, in bytes from
+/// the lowest.
 pub fn share_words(raster: &ShareRaster, at: usize) -> Vec<u8> {
     let grid = raster.grid();
     let mut bytes = Vec::with_capacity(2 * grid.rows * grid.columns);

@@ -58,7 +58,8 @@ pub fn draw_zoom_frame(
     Ok(svg)
 }
 
-/// The strips of all frames side by side, from half height 1 on, with `step` decades between two of them, and `rows` of pixels.
+/// The strips of all frames side by side, from half height 1 on, with `step` decades between two of them, and
+/// `rows` of pixels.
 ///
 /// # Errors
 /// [`Error::Figure`] without frames, or unless each strip has as many pixels.

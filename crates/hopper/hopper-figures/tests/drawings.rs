@@ -33,7 +33,8 @@ fn the_energy_falls_at_landings_only() {
     }
 }
 
-/// The map decides the hops of a motion. The hybrid system, which searches each event from the state before it, has the same events.
+/// The map decides the hops of a motion. The hybrid system, which searches each event from the state before it, has
+/// the same events.
 #[test]
 fn the_events_are_those_of_the_hybrid_system() {
     for (m, alpha, hops) in [(0.2, 7.0, 4), (1.0, 9.5, 3), (5.0, 12.0, 2), (1.0, 2.0, 3)] {

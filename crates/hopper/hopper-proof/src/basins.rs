@@ -10,31 +10,34 @@ use passive_hopper::alpha_star;
 /// Parts of the window of a sweep, each with a budget of its own. They affect the time, and what stays open.
 const PARTS: usize = 64;
 
-/// The share of a part that the first sweep may leave open, and the factor from one sweep to the next. They affect the time: with a
-/// smaller factor more sweeps are for nothing, with a larger one the last sweep resolves more than is asked for.
+/// The share of a part that the first sweep may leave open, and the factor from one sweep to the next. They affect
+/// the time: with a smaller factor more sweeps are for nothing, with a larger one the last sweep resolves more than
+/// is asked for.
 const COARSEST: f64 = 0.1;
 const FINER: f64 = 10.0;
 
 /// Most speeds of a part.
 const SPEEDS: usize = 1_000_000;
 
-/// No finer sweep begins if the last one found more than this part of the intervals that are asked for. A larger number ends earlier, with
-/// more that is undecided; a smaller one could end with several times as many intervals as asked for.
+/// No finer sweep begins if the last one found more than this part of the intervals that are asked for. A larger
+/// number ends earlier, with more that is undecided; a smaller one could end with several times as many intervals
+/// as asked for.
 const MORE: usize = 4;
 
-/// The largest M at which windows are enclosed. Above it, their hops have hundreds of landings, and needles in them are narrower than
-/// any spacing of `f64` (docs/theory.md, Section 4: 10⁻²² at M = 50), so that a sweep would take long for little.
+/// The largest M at which windows are enclosed. Above it, their hops have hundreds of landings, and needles in them
+/// are narrower than any spacing of `f64` (docs/theory.md, Section 4: 10⁻²² at M = 50), so that a sweep would take
+/// long for little.
 const LARGEST_ENCLOSED: f64 = 50.0;
 
 /// Random speeds that test the intervals, and their seed, as in [`hopper_basins`].
 const PROBES: usize = 1000;
 const SEED: u64 = 1;
 
-/// The basins of all fates on [α*_`from`, α*_`to`], from images of intervals that are enclosed with rounding outwards. No label is
-/// wrong, at any M. Levels are not counted.
+/// The basins of all fates on [α*_`from`, α*_`to`], from images of intervals that are enclosed with rounding
+/// outwards. No label is wrong, at any M. Levels are not counted.
 ///
-/// Sweeps become finer until no more than `undecided` of the refinement is open, or until one finds a quarter of its `intervals`; its other limits
-/// have no effect.
+/// Sweeps become finer until no more than `undecided` of the refinement is open, or until one finds a quarter of
+/// its `intervals`; its other limits have no effect.
 ///
 /// ```
 /// use basin_of_attraction::Refinement;
@@ -83,8 +86,9 @@ pub fn proved_basins(
     Ok(found)
 }
 
-/// The basins of all fates on [α*_`from`, α*_`to`]: by branches, sharp to an ulp of the map and with levels, where it is proved which
-/// branches there are ([`hopper_basins`]); else by enclosures ([`proved_basins`]). Above M = 50 the sudden windows stay undecided.
+/// The basins of all fates on [α*_`from`, α*_`to`]: by branches, sharp to an ulp of the map and with levels, where
+/// it is proved which branches there are ([`hopper_basins`]); else by enclosures ([`proved_basins`]). Above M = 50
+/// the sudden windows stay undecided.
 ///
 /// # Errors
 /// Those of both.

@@ -1,7 +1,8 @@
 //! What another program needs to check a theorem.
 //!
-//! A certificate has the numbers of a proof and no formula: intervals of speeds, enclosures, bounds. docs/certificates.md says what each
-//! kind of line means, and how `xtask/generators/check_certificate.py` checks it.
+//! A certificate has the numbers of a proof and no formula: intervals of speeds, enclosures, bounds.
+//! docs/certificates.md says what each kind of line means, and how `xtask/generators/check_certificate.py` checks
+//! it.
 
 use crate::fixed_points::fixed_point;
 use crate::theorems::cells::ProvedStrip;
@@ -108,7 +109,8 @@ pub enum Evidence {
     },
     /// The gaps between the intervals of the line of basins before, and parts of gaps: disjoint, from the lowest up.
     Gaps(Vec<BasinGap>),
-    /// So many lines of [`Evidence::Basins`], which are too long to be held: those of [`proved_strips`](crate::proved_strips), from the left.
+    /// So many lines of [`Evidence::Basins`], which are too long to be held: those of
+    /// [`proved_strips`](crate::proved_strips), from the left.
     Strips(usize),
     /// The fraction of a basin on humps 1 to `humps`, at the mass ratio of the line of basins before.
     Fraction {

@@ -9,8 +9,8 @@ const FIRST_REACH: f64 = 1e-14;
 
 /// An enclosure of α*_n, n ≥ 1; 0 for n = 0.
 ///
-/// α ↦ (n+½)π − arctan(1/α) contracts, and α*_n is its fixed point (docs/theory.md, Lemma 6). An interval around the computed α*_n that
-/// it maps into itself holds a fixed point; its image is narrower.
+/// α ↦ (n+½)π − arctan(1/α) contracts, and α*_n is its fixed point (docs/theory.md, Lemma 6). An interval around
+/// the computed α*_n that it maps into itself holds a fixed point; its image is narrower.
 ///
 /// ```
 /// let star = hopper_proof::fixed_point(1);

@@ -9,8 +9,9 @@ use basin_of_attraction::{Interval, Label, PixelShares};
 use hopper_basin::{HopperFate, LapsSweep, Resolution};
 use passive_hopper::{alpha_star, index_below};
 
-/// The share that may stay open on a hump, over that of the hump above it. What is open below is open again at each of its preimages
-/// above. With a larger factor the upper humps do not reach their share; with a smaller one the lower humps cost more.
+/// The share that may stay open on a hump, over that of the hump above it. What is open below is open again at each
+/// of its preimages above. With a larger factor the upper humps do not reach their share; with a smaller one the
+/// lower humps cost more.
 const FINER_BELOW: f64 = 0.2;
 
 /// Passes over a part. The gaps that are left have then the size of an ulp.
@@ -22,16 +23,16 @@ const FINEST: f64 = 1e-3;
 /// Most parts of a hump below the window. More affect the time only.
 const MOST_PARTS_BELOW: f64 = 64.0;
 
-/// Disjoint intervals of speeds, each with the fate that all its speeds have, at all mass ratios of a strip. Between them nothing is
-/// proved.
+/// Disjoint intervals of speeds, each with the fate that all its speeds have, at all mass ratios of a strip.
+/// Between them nothing is proved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProvedLine {
     intervals: Vec<(Interval, Label)>,
 }
 
 impl ProvedLine {
-    /// The basins in a window of speeds. Of each of `parts` equal parts of it at most the share `open` is left without a label, if `speeds`
-    /// speeds inside a part suffice for that.
+    /// The basins in a window of speeds. Of each of `parts` equal parts of it at most the share `open` is left
+    /// without a label, if `speeds` speeds inside a part suffice for that.
     ///
     /// A sweep goes upwards from 0, since images lie below their speeds. So the intervals begin below the window.
     ///
@@ -48,8 +49,8 @@ impl ProvedLine {
         Self::finer_at_fixed_points(strip, window, parts, open, speeds, f64::INFINITY)
     }
 
-    /// As [`Self::new`], in parts that are halved towards the ends of each trap down to `shortest`: of each of them at most the share `open` is left
-    /// as well.
+    /// As [`Self::new`], in parts that are halved towards the ends of each trap down to `shortest`: of each of them
+    /// at most the share `open` is left as well.
     pub(crate) fn finer_at_fixed_points(
         strip: Strip,
         window: Interval,
@@ -130,7 +131,8 @@ impl ProvedLine {
     }
 }
 
-/// Edges of parts on both sides of the traps, the nearest ones at most `shortest` away, each next one at twice the distance.
+/// Edges of parts on both sides of the traps, the nearest ones at most `shortest` away, each next one at twice the
+/// distance.
 fn edges_at_traps(traps: &[(Interval, Label)], top: f64, shortest: f64) -> Vec<f64> {
     let mut edges = Vec::new();
     let last = Interval { left: top, right: top };

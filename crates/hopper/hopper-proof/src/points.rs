@@ -8,14 +8,15 @@ use basin_of_attraction::{Interval, Label};
 use hopper_basin::{HopperFate, ImagedSpeed, SpeedImage, SpeedImages};
 use passive_hopper::{alpha_star, index_below};
 
-/// Most hops of a speed until it lies in a trap. In 16 columns of each of Figs 6 and 9 no point needs more than 23. With fewer, more speeds
-/// next to fixed points stay without a proof; with more, these take longer.
+/// Most hops of a speed until it lies in a trap. In 16 columns of each of Figs 6 and 9 no point needs more than 23.
+/// With fewer, more speeds next to fixed points stay without a proof; with more, these take longer.
 const MOST_HOPS: usize = 500;
 
 /// The label of a speed without a proof.
 const WITHOUT_PROOF: Label = HopperFate::UNDECIDED_PRECISION;
 
-/// Proves the fates of single speeds at one mass ratio: the orbit is enclosed hop by hop until a proved trap contains it.
+/// Proves the fates of single speeds at one mass ratio: the orbit is enclosed hop by hop until a proved trap
+/// contains it.
 ///
 /// ```
 /// use hopper_basin::HopperFate;
@@ -42,8 +43,8 @@ impl ProvedPoints {
         Ok(ProvedPoints { images, traps: Vec::new() })
     }
 
-    /// The fate of one speed, the same in any order of the speeds. [`HopperFate::UNDECIDED_PRECISION`] if no proof is found in 500 hops, or
-    /// with 53 bits.
+    /// The fate of one speed, the same in any order of the speeds. [`HopperFate::UNDECIDED_PRECISION`] if no proof
+    /// is found in 500 hops, or with 53 bits.
     ///
     /// # Errors
     /// [`Error::Speeds`] unless the speed is from 0 to α*_n of the largest label.

@@ -1,8 +1,9 @@
 //! Traps and crises, enclosed.
 //!
-//! On the contact part of hump n let q(α) = (α² − α*_n²)/Γ². It falls to its minimum μ_c(n), and rises beyond it; the sign of
-//! T = Γ² − 4W (α² − α*_n²) is negative before the minimum and positive beyond it. While q > μ the map stays above α*_n. So two signs at
-//! one speed prove a trap, for this μ and all smaller ones (docs/theory.md, Theorems 29 and 31; α*_0 = 0).
+//! On the contact part of hump n let q(α) = (α² − α*_n²)/Γ². It falls to its minimum μ_c(n), and rises beyond it;
+//! the sign of T = Γ² − 4W (α² − α*_n²) is negative before the minimum and positive beyond it. While q > μ the map
+//! stays above α*_n. So two signs at one speed prove a trap, for this μ and all smaller ones (docs/theory.md,
+//! Theorems 29 and 31; α*_0 = 0).
 
 use crate::error::Error;
 use crate::fixed_points::{fixed_point, offset_from_fixed_point};
@@ -18,8 +19,8 @@ use passive_hopper::{HalfFlight, MassRatio};
 /// Halvings of the bracket of a touch: from a length of 3 to neighbouring `f64`.
 const HALVINGS: usize = 60;
 
-/// Steps to the left of a computed edge of a trap until its signs are certain, each four times as long as the one before. The first one is
-/// an ulp, so that the last one is longer than the trap.
+/// Steps to the left of a computed edge of a trap until its signs are certain, each four times as long as the one
+/// before. The first one is an ulp, so that the last one is longer than the trap.
 const STEPS: usize = 30;
 
 /// Halvings of the last step: the end that is proved is then within a sixteenth of it.
@@ -44,8 +45,8 @@ impl AtSpeed {
     }
 }
 
-/// The place where the minimum of the map on hump n touches α*_n, and the mass parameter at which it does: a crisis; for n = 0 it touches 0,
-/// and the hopper is grounded beyond.
+/// The place where the minimum of the map on hump n touches α*_n, and the mass parameter at which it does: a
+/// crisis; for n = 0 it touches 0, and the hopper is grounded beyond.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
     /// The hump.
@@ -114,7 +115,8 @@ impl Touch {
     }
 }
 
-/// The speeds from α*_n up that are proved to converge to α*_n, at all mass ratios of a strip; for n = 0 those whose hops become ever lower.
+/// The speeds from α*_n up that are proved to converge to α*_n, at all mass ratios of a strip; for n = 0 those
+/// whose hops become ever lower.
 ///
 /// # Errors
 /// [`Error::Open`] if no trap is proved, [`Error::Basin`] for a hump that the library does not have.
@@ -125,8 +127,8 @@ pub fn proved_trap(n: u64, strip: &Strip) -> Result<Interval, Error> {
     let end = (PI * (n + 1) as f64).low;
     let heaviest = strip.mass_ratios.high;
     if strip.mu.high < touch.mu.low {
-        // f stays above α*_n on the contact part. Where it rises over the window beyond, the trap reaches to the next fixed point
-        // (docs/theory.md, Corollary 94).
+        // f stays above α*_n on the contact part. Where it rises over the window beyond, the trap reaches to the
+        // next fixed point (docs/theory.md, Corollary 94).
         let rises = heaviest < 1.0
             && rising_window(n + 1).is_some_and(|window| heaviest <= window.largest_mass_ratio);
         return Ok(Interval { left, right: if rises { fixed_point(n + 1).low } else { end } });

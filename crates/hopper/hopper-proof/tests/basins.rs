@@ -10,8 +10,8 @@ use hopper_proof::{
 use passive_hopper::MassRatio;
 use std::ops::ControlFlow::Continue;
 
-/// The intervals of a strip against the fates of single speeds at single mass ratios of it, also where a hop may have several sudden
-/// lift-offs.
+/// The intervals of a strip against the fates of single speeds at single mass ratios of it, also where a hop may
+/// have several sudden lift-offs.
 #[test]
 fn no_interval_has_a_wrong_fate() {
     let part = |k: u32, step: f64| (f64::from(k) * step).fract();
@@ -46,8 +46,8 @@ fn no_interval_has_a_wrong_fate() {
     }
 }
 
-/// The edge of grounding at α = 6.2636 moves by 3·10⁻⁴ with the mass ratios of the strip. This band stays open, and leaves enough speeds for what
-/// lies above it.
+/// The edge of grounding at α = 6.2636 moves by 3·10⁻⁴ with the mass ratios of the strip. This band stays open, and
+/// leaves enough speeds for what lies above it.
 #[test]
 fn an_open_band_takes_few_speeds() {
     let strip = Strip::between(0.8555, 0.8565).unwrap();
@@ -108,7 +108,8 @@ fn cells_hold_for_all_their_points() {
     }
 }
 
-/// The fractions at the paper's first mass ratio, between bounds of 10⁻⁴: 0.953 of the speeds come to α*_1, and 0.0348 to α*_2.
+/// The fractions at the paper's first mass ratio, between bounds of 10⁻⁴: 0.953 of the speeds come to α*_1, and
+/// 0.0348 to α*_2.
 #[test]
 fn fractions_lie_between_their_bounds() {
     let found = ProvedFractions::new(0.1, 1e-4).unwrap();
@@ -123,8 +124,8 @@ fn fractions_lie_between_their_bounds() {
     assert!(of(0).low == 0.0 && of(0).high < 1e-4);
 }
 
-/// Bounds to different widths, from other intervals and gaps, hold the same fractions, and so do the fates of equally spaced speeds; also where
-/// hops have several sudden lift-offs, and where F is not continuous.
+/// Bounds to different widths, from other intervals and gaps, hold the same fractions, and so do the fates of
+/// equally spaced speeds; also where hops have several sudden lift-offs, and where F is not continuous.
 #[test]
 fn bounds_of_fractions_agree_with_each_other_and_with_fates() {
     for (ratio, widths) in [(0.1, [1e-3, 1e-7]), (0.5, [1e-2, 1e-5]), (1.0, [1e-2, 1e-4])] {
@@ -197,7 +198,8 @@ fn what_is_no_question_is_refused() {
     }
 }
 
-/// Where the map's branches are not known, intervals come from enclosures. A search with sampled branches had 64 to 839 wrong labels here.
+/// Where the map's branches are not known, intervals come from enclosures. A search with sampled branches had 64 to
+/// 839 wrong labels here.
 #[test]
 fn basins_as_intervals_have_no_wrong_label_at_any_mass_ratio() {
     for (m, undecided) in [(0.95, 0.5), (2.0, 2.0), (5.0, 5.0), (20.0, 8.0)] {

@@ -109,7 +109,8 @@ fn strips_hold_the_cells() {
     assert!(count > 20, "{count}");
 }
 
-/// The image of the middle of an interval lies in an interval of the same label, or in none: a swapped label is seen by one hop.
+/// The image of the middle of an interval lies in an interval of the same label, or in none: a swapped label is
+/// seen by one hop.
 #[test]
 fn images_of_intervals_have_their_label() {
     let found = ProvedFractions::new(0.2, 1e-3).unwrap();

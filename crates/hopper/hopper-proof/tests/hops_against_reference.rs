@@ -53,7 +53,8 @@ fn boxes() -> u32 {
 /// Boxes of one strip. The turns of a strip are found once.
 const BOXES_OF_A_STRIP: u32 = 20;
 
-/// One strip of so many is as wide as a tenth of its mass ratio. The others are narrower than their intervals of speeds.
+/// One strip of so many is as wide as a tenth of its mass ratio. The others are narrower than their intervals of
+/// speeds.
 const WIDE: u32 = 10;
 
 /// The strip of some boxes, and the width of their intervals of speeds.
@@ -72,7 +73,8 @@ fn end(images: &ProvedImages, speed: f64) -> ImagedSpeed {
     ImagedSpeed { speed, reached: images.of_speed(speed) }
 }
 
-/// How far the image of one speed, over a strip, may reach beyond the images at the mass ratios of the strip, downwards and upwards.
+/// How far the image of one speed, over a strip, may reach beyond the images at the mass ratios of the strip,
+/// downwards and upwards.
 fn excess(images: &ProvedImages, speed: f64) -> [f64; 2] {
     let SpeedImage::Within(low, high) = images.of_speed(speed) else { return [f64::INFINITY; 2] };
     let ratios = images.strip().mass_ratios;
@@ -93,10 +95,12 @@ fn is_inside(part: SpeedImage, whole: SpeedImage) -> bool {
     }
 }
 
-/// The image of the part between two speeds reaches beyond that of the whole by no more than the images of these speeds have in excess.
+/// The image of the part between two speeds reaches beyond that of the whole by no more than the images of these
+/// speeds have in excess.
 ///
-/// The image of an interval is bounded by the images of its ends, and these are not exact: those of single mass ratios have rounding errors,
-/// and those of strips a bound on the change with κ. Both differ from speed to speed, so that the ends of a part may have more of it.
+/// The image of an interval is bounded by the images of its ends, and these are not exact: those of single mass
+/// ratios have rounding errors, and those of strips a bound on the change with κ. Both differ from speed to speed,
+/// so that the ends of a part may have more of it.
 fn is_inside_but_for_ends(
     images: &ProvedImages,
     ends: [f64; 2],
@@ -110,8 +114,8 @@ fn is_inside_but_for_ends(
     low - from <= a[0].max(b[0]) && to - high <= a[1].max(b[1])
 }
 
-/// The images of single speeds of an interval, at single mass ratios of a strip, lie in the image of all; and so does the image of a part of
-/// the interval.
+/// The images of single speeds of an interval, at single mass ratios of a strip, lie in the image of all; and so
+/// does the image of a part of the interval.
 #[test]
 fn images_of_intervals_hold_those_of_their_speeds() {
     let (mut known, mut beyond, mut count) = (0, 0, 0);
@@ -161,7 +165,8 @@ fn images_of_intervals_hold_those_of_their_speeds() {
     assert!(3 * known > 2 * count, "{known} of {count}");
 }
 
-/// An image of a narrow interval is at most some parts wider than the images of its ends: the median of the ratio is below 2.
+/// An image of a narrow interval is at most some parts wider than the images of its ends: the median of the ratio
+/// is below 2.
 #[test]
 fn narrow_intervals_have_sharp_images() {
     let mut ratios = Vec::new();

@@ -4,8 +4,8 @@ use passive_hopper::Slopes;
 
 /// Units of error that α′ may have for each flight of its hop.
 ///
-/// Chosen by measurement: the worst of the 3222 reference hops has 2.4 units a flight. A larger limit would hide the loss
-/// of a digit.
+/// Chosen by measurement: the worst of the 3222 reference hops has 2.4 units a flight. A larger limit would hide
+/// the loss of a digit.
 pub const UNITS_PER_FLIGHT: f64 = 4.0;
 
 /// The unit of the error of `next` = α′: the effect on α′ of half an ulp in each of α, M, α′ and α², added up.

@@ -16,8 +16,9 @@ pub(crate) struct Job {
 }
 
 impl Job {
-    /// A run that stores its scans in a folder beside its results, which exists. Each build of the program has its own
-    /// folder: a scan rests on most functions of all libraries, and no version says whether one of them has changed. While the run lasts, another run with the same results folder is an error.
+    /// A run that stores its scans in a folder beside its results, which exists. Each build of the program has its
+    /// own folder: a scan rests on most functions of all libraries, and no version says whether one of them has
+    /// changed. While the run lasts, another run with the same results folder is an error.
     pub(crate) fn new(results: &Path) -> Result<Self, Error> {
         let lock = Lock::take(results, "scans")?;
         let build = program_digest()?;
@@ -42,8 +43,9 @@ impl Job {
         Ok(rows)
     }
 
-    /// Rows that are computed one after the other, each depending on those before it. Rows that an earlier run finished are read: it
-    /// asked for the same ones in the same order. The name has the parameters, if the rows depend on some.
+    /// Rows that are computed one after the other, each depending on those before it. Rows that an earlier run
+    /// finished are read: it asked for the same ones in the same order. The name has the parameters, if the rows
+    /// depend on some.
     pub(crate) fn rows(&self, name: &str) -> Result<Rows<'_>, Error> {
         Ok(Rows { job: self, kept: self.pieces(name)?, finished: 0 })
     }

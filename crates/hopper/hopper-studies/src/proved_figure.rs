@@ -19,7 +19,8 @@ pub(crate) fn fig_6() -> FigureWindow {
     ((0.02, 1.0), (speeds.left, speeds.right))
 }
 
-/// The strips of a raster. Each is computed once and stored, and read when it is needed again: all together need more memory than cells do.
+/// The strips of a raster. Each is computed once and stored, and read when it is needed again: all together need
+/// more memory than cells do.
 pub(crate) struct StoredStrips<'a> {
     job: &'a Job,
     name: &'static str,
@@ -55,7 +56,8 @@ impl<'a> StoredStrips<'a> {
         Ok((0..self.number_of_blocks()).map(block))
     }
 
-    /// The cells, with their picture: a colour mixes those of the basins by their proved shares, and yellow by the share that is open.
+    /// The cells, with their picture: a colour mixes those of the basins by their proved shares, and yellow by the
+    /// share that is open.
     pub(crate) fn cells(
         &self,
         figure: &'static str,

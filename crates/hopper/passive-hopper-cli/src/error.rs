@@ -78,7 +78,8 @@ pub(crate) enum Error {
 }
 
 impl Error {
-    /// The exit status: 1 for a failure, 2 for a wrong call, 0 if the reader of the output has gone, 130 or 143 after a signal.
+    /// The exit status: 1 for a failure, 2 for a wrong call, 0 if the reader of the output has gone, 130 or 143
+    /// after a signal.
     pub(crate) fn exit_status(&self) -> u8 {
         match self {
             Error::ClosedOutput => 0,

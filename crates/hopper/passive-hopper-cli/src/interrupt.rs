@@ -32,8 +32,8 @@ impl Interrupt {
                 flag::register(number, Arc::clone(&second))?;
                 flag::register_usize(number, Arc::clone(&interrupt.signal), number as usize)?;
             }
-            // Without this a file that is larger than the system allows would kill the program without a message. With it, the
-            // writing fails, as on a full disk.
+            // Without this a file that is larger than the system allows would kill the program without a message.
+            // With it, the writing fails, as on a full disk.
             #[cfg(unix)]
             flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)))?;
             Ok(())

@@ -4,7 +4,8 @@
 //!   arguments ──► cli.rs ──► commands/NAME.rs ──► a library ──► Table ──► plain text, CSV or JSON
 //! ```
 //!
-//! The program holds no mathematics: a command reads its arguments, asks a library, and prints tables or writes figures.
+//! The program holds no mathematics: a command reads its arguments, asks a library, and prints tables or writes
+//! figures.
 //!
 //! | item | role |
 //! |---|---|
@@ -25,7 +26,8 @@
 //! ```
 //!
 //! # Exit status
-//! 0: done. 1: failed. 2: the call or its input is wrong. 130 and 143: interrupted; the same call continues, or begins anew if it writes no folder.
+//! 0: done. 1: failed. 2: the call or its input is wrong. 130 and 143: interrupted; the same call continues, or
+//! begins anew if it writes no folder.
 
 mod basins;
 mod cli;

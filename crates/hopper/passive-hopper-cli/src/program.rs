@@ -23,7 +23,8 @@ pub fn main() -> ExitCode {
 
 /// Runs one call, and returns its exit status. The first argument is the name of the program.
 ///
-/// A refusal or a failure is one line on [`Streams::messages`]. A reader that closes the output ends the call without an error.
+/// A refusal or a failure is one line on [`Streams::messages`]. A reader that closes the output ends the call
+/// without an error.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, streams: Streams<'_>) -> u8 {
     let Streams { input, input_is_terminal, output, messages } = streams;
     let mut output = BufWriter::new(output);

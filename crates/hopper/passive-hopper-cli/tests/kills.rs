@@ -1,5 +1,5 @@
-//! Calls of `hopper basins` that are killed at any instant, beside others or alone, and full disks: no result has wrong bytes, and
-//! no exit status is wrong.
+//! Calls of `hopper basins` that are killed at any instant, beside others or alone, and full disks: no result has
+//! wrong bytes, and no exit status is wrong.
 //!
 //! `HOPPER_KILLS=200 cargo test -p hopper --test kills -- --nocapture` kills 200 calls, and prints what happened.
 
@@ -242,7 +242,8 @@ fn with_small_files(out: &Path, blocks: usize) -> Output {
     command.stdout(Stdio::null()).output().unwrap()
 }
 
-/// The call on a disk of so many kilobytes, whose contents are copied to `out` at its end. `None` if a user may not have such a disk.
+/// The call on a disk of so many kilobytes, whose contents are copied to `out` at its end. `None` if a user may not
+/// have such a disk.
 fn on_small_disk(out: &Path, kilobytes: usize) -> Option<Output> {
     std::fs::create_dir_all(out).unwrap();
     let script = format!(

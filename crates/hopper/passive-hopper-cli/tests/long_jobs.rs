@@ -1,4 +1,5 @@
-//! Long jobs of `hopper basins`: signals, damaged tiles, parts, other jobs in a folder, closed and full outputs, wrong calls.
+//! Long jobs of `hopper basins`: signals, damaged tiles, parts, other jobs in a folder, closed and full outputs,
+//! wrong calls.
 
 #![cfg(unix)]
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]

@@ -28,11 +28,12 @@ pub enum HopperSurface {
 /// may pull the lower mass off again at once (a sudden lift-off: the event leads back to flight). Otherwise the contact
 /// phase follows.
 ///
-/// A landing after a lift-off is [`Certainty::Certain`]: that it is the first, and whether a sudden lift-off follows, are
-/// decided from the given state with bounds on all errors, in up to 1024 bits. If these do not suffice, the result is an
-/// error. There are two exceptions, which are [`Certainty::Exact`]: a landing at a stretch so near to 1 that the rounded
-/// state is on the other side, and a landing after a start in the air. The latter is solved for in `f64` without bounds
-/// on its errors: if a flight from the air nearly touches the ground, its landing may be missed or found in error.
+/// A landing after a lift-off is [`Certainty::Certain`]: that it is the first, and whether a sudden lift-off
+/// follows, are decided from the given state with bounds on all errors, in up to 1024 bits. If these do not
+/// suffice, the result is an error. There are two exceptions, which are [`Certainty::Exact`]: a landing at a
+/// stretch so near to 1 that the rounded state is on the other side, and a landing after a start in the air. The
+/// latter is solved for in `f64` without bounds on its errors: if a flight from the air nearly touches the ground,
+/// its landing may be missed or found in error.
 ///
 /// At an event the energy never grows by more than rounding. In the tests it is below 10⁻¹³ of
 /// (1+M)α² + α⁴ + 10 (`energy_is_lost_at_landings_only`), and below 10⁻¹² of the energy after a fall at a speed of 10¹²
@@ -80,8 +81,8 @@ impl Hopper {
             lower_position: 0.0,
             lower_velocity: -landing.closing_speed / (1.0 + self.mass_ratio.value()),
         };
-        // The sum 1 + x′ may round to 1, or `reset` may see the other sign for another reason: then the next phase is not
-        // the one that was decided.
+        // The sum 1 + x′ may round to 1, or `reset` may see the other sign for another reason: then the next phase
+        // is not the one that was decided.
         let kept = is_sudden(state.upper_position - 1.0, landing.velocity) == landing.sudden;
         let certainty = if kept { Certainty::Certain } else { Certainty::Exact };
         Ok((landing.time, state, certainty))

@@ -9,8 +9,8 @@
 //!   ▔▔▔▔▔▔▔▔▔▔▔▔
 //! ```
 //!
-//! The motion is described by one map, α′ = f(α; M), from one gradual lift-off speed to the next. Lengths are in units of
-//! m₂g/k and times in units of 1/ω, with ω² = k(1+M)/m₂.
+//! The motion is described by one map, α′ = f(α; M), from one gradual lift-off speed to the next. Lengths are in
+//! units of m₂g/k and times in units of 1/ω, with ω² = k(1+M)/m₂.
 //!
 //! | item | role |
 //! |---|---|
@@ -56,16 +56,18 @@
 //! errors on ten million hops and fails if one exceeds its bound (docs/accuracy.md has the ratios).
 //!
 //! # Decisions
-//! A *decision* of a hop (sudden or not, on which branch, grounded or not) is the sign of a computed number. The methods
-//! of [`LiftOffMap`] return a result only if every decision of the hop is larger than the bound on its error. If 53 bits do
-//! not suffice, the hop is computed with 106, and then with up to 1024 bits. If these do not suffice either, or would take
-//! too long, the result is [`Error::Undecided`]. This holds for [`hop`](LiftOffMap::hop), [`image`](LiftOffMap::image),
-//! [`images`](LiftOffMap::images), [`images_of_pairs`](LiftOffMap::images_of_pairs), [`landings`](LiftOffMap::landings),
-//! [`slopes`](LiftOffMap::slopes) and [`hop_near_fixed_point`](LiftOffMap::hop_near_fixed_point). [`printed_image`] has no
-//! bounds: next to a change of branch it may decide wrongly.
+//! A *decision* of a hop (sudden or not, on which branch, grounded or not) is the sign of a computed number. The
+//! methods of [`LiftOffMap`] return a result only if every decision of the hop is larger than the bound on its
+//! error. If 53 bits do not suffice, the hop is computed with 106, and then with up to 1024 bits. If these do not
+//! suffice either, or would take too long, the result is [`Error::Undecided`]. This holds for
+//! [`hop`](LiftOffMap::hop), [`image`](LiftOffMap::image), [`images`](LiftOffMap::images),
+//! [`images_of_pairs`](LiftOffMap::images_of_pairs), [`landings`](LiftOffMap::landings),
+//! [`slopes`](LiftOffMap::slopes) and [`hop_near_fixed_point`](LiftOffMap::hop_near_fixed_point). [`printed_image`]
+//! has no bounds: next to a change of branch it may decide wrongly.
 //!
-//! Near a fixed point [`LiftOffMap::hop_near_fixed_point`] gives δ′ to 8 ulps of δ′ itself. Sines and cosines come from
-//! `pxfm`, correctly rounded, or from the kernel, to 2 ulps (docs/theory.md, Lemma 57). Results have the same bits on every x86-64 machine.
+//! Near a fixed point [`LiftOffMap::hop_near_fixed_point`] gives δ′ to 8 ulps of δ′ itself. Sines and cosines come
+//! from `pxfm`, correctly rounded, or from the kernel, to 2 ulps (docs/theory.md, Lemma 57). Results have the same
+//! bits on every x86-64 machine.
 //!
 //! # Speed
 //! A hop of the paper's window takes as long as eight `f64::sin_cos`, or a quarter of that among many hops; `cargo
@@ -73,8 +75,9 @@
 //! computes the table of that interval.
 //!
 //! # Not here
-//! Integrators (every phase has a closed form), basins (`hopper-basin`), expansions (`hopper-asymptotics`), lift-off
-//! speeds above [`LARGEST_LIFT_OFF_SPEED`] = 2⁴³, where neighbouring `f64` are too far apart to resolve the spring's phase.
+//! Integrators (every phase has a closed form), basins (`hopper-basin`), expansions (`hopper-asymptotics`),
+//! lift-off speeds above [`LARGEST_LIFT_OFF_SPEED`] = 2⁴³, where neighbouring `f64` are too far apart to resolve
+//! the spring's phase.
 //!
 //! # References
 //! C. K. Reddy, R. Pratap, *Multimodal map and complex basin of attraction of a simple hopper*,

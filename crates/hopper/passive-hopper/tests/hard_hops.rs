@@ -1,7 +1,7 @@
 //! Hops on which earlier versions of the solvers decided wrongly, with the right values.
 //!
-//! All seven numbers come from `xtask/generators/hop.py`, which shares no code with this crate: mpmath at rising precision
-//! until 40 digits agree. The 512 bits of [`Solver::Bits512`] give the same hops.
+//! All seven numbers come from `xtask/generators/hop.py`, which shares no code with this crate: mpmath at rising
+//! precision until 40 digits agree. The 512 bits of [`Solver::Bits512`] give the same hops.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // digits of the independent computation, as it prints them
@@ -10,7 +10,8 @@ use passive_hopper::{LiftOffMap, MassRatio, Solver};
 
 /// M, α, the number of sudden lift-offs, α′.
 const HOPS: [(f64, f64, usize, f64); 7] = [
-    // The first landing is sudden by a stretch of 8e-14 and 1e-16. Without the flights after it α′ would be 37.461… and 54.614….
+    // The first landing is sudden by a stretch of 8e-14 and 1e-16. Without the flights after it α′ would be 37.461…
+    // and 54.614….
     (5.698491118684765, 53.40707511102649, 1, 26.489000894171255258810),
     (3.9933127775792583, 91.106186954104, 3, 30.452309399070653163660),
     // Left of a fixed point.
@@ -70,7 +71,8 @@ fn every_shorter_way_decides_these_hops_as_512_bits_do_or_not_at_all() {
     assert!(compared >= 2 * HOPS.len(), "{compared}");
 }
 
-/// In 106 bits the product of two numbers splits its factors, and M = 4·10³⁰⁷ times 2²⁷ is infinite: such a hop did not end.
+/// In 106 bits the product of two numbers splits its factors, and M = 4·10³⁰⁷ times 2²⁷ is infinite: such a hop did
+/// not end.
 #[test]
 fn hops_at_the_largest_mass_ratios_end() {
     for exponent in [300, 301, 307] {

@@ -49,8 +49,8 @@ fn hard_decisions_are_right() {
     check_hops(include_str!("data/hops_hard_verdicts.jsonl"));
 }
 
-/// Speeds just above nπ, where x′ of a landing is as small as the rounding of V. These hops once gave 37.461 and 54.61. The
-/// values have 60 and 100 equal digits in the generator of the references.
+/// Speeds just above nπ, where x′ of a landing is as small as the rounding of V. These hops once gave 37.461 and
+/// 54.61. The values have 60 and 100 equal digits in the generator of the references.
 #[test]
 fn small_stretches_after_a_landing_do_not_change_the_branch() {
     for (m, alpha, sudden, next) in [

@@ -14,8 +14,8 @@ pub(crate) struct Candidate {
 }
 
 impl Candidate {
-    /// True if this event comes before the other one: at an earlier double, or at the same one if the model lists its guard
-    /// first. The errors of the two times do not count: both are on one computed trajectory.
+    /// True if this event comes before the other one: at an earlier double, or at the same one if the model lists
+    /// its guard first. The errors of the two times do not count: both are on one computed trajectory.
     pub(crate) fn is_sooner_than(&self, other: &Candidate) -> bool {
         self.time < other.time || self.time == other.time && self.index < other.index
     }

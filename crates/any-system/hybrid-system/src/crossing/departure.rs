@@ -20,27 +20,28 @@ use crate::error::Error;
 use crate::looked::Looked;
 use crate::state::StateVector;
 
-/// The first of the times after the start at which a guard is evaluated if the model gives no derivatives, relative to
-/// the longest one, or to the last arc or the sampling interval if that is shorter. Each further time is twice as long. 2⁻³⁹ is 2·10⁻¹², near the
-/// rounding of a guard that moves at a rate of 1. The last arc counts because the bounces of a ball become shorter and
-/// shorter: a look behind the end of the next bounce would show the wrong side.
+/// The first of the times after the start at which a guard is evaluated if the model gives no derivatives, relative
+/// to the longest one, or to the last arc or the sampling interval if that is shorter. Each further time is twice
+/// as long. 2⁻³⁹ is 2·10⁻¹², near the rounding of a guard that moves at a rate of 1. The last arc counts because
+/// the bounces of a ball become shorter and shorter: a look behind the end of the next bounce would show the wrong
+/// side.
 const SHORTEST_LOOK: f64 = 1.0 / 549_755_813_888.0;
 
 /// The longest of these times, unless the limit on time comes earlier: one unit of time, because the scale of the model
 /// is not known.
 const LONGEST_LOOK: f64 = 1.0;
 
-/// A guard has left its surface when its value is this many times its error. A margin of a factor 4 over the error at the
-/// time 0: the error of the later value, and that of the flow in between, are not known here. A smaller number may take
-/// rounding for a side; a larger one looks later, when the guard may have come back.
+/// A guard has left its surface when its value is this many times its error. A margin of a factor 4 over the error
+/// at the time 0: the error of the later value, and that of the flow in between, are not known here. A smaller
+/// number may take rounding for a side; a larger one looks later, when the guard may have come back.
 const LEFT_SURFACE: f64 = 4.0;
 
-/// The growth of a guard between two looks, from a value that rounding hides: 2⁸ for a zero of order eight. A guard that grows
-/// faster has stayed at zero for a while. A smaller number would take zeros of high order for that.
+/// The growth of a guard between two looks, from a value that rounding hides: 2⁸ for a zero of order eight. A guard
+/// that grows faster has stayed at zero for a while. A smaller number would take zeros of high order for that.
 const LARGEST_GROWTH: f64 = 256.0;
 
-/// A contact that jumps at its surface turns back over it within so many times the shortest look. A larger number would take a later
-/// crossing for that; a smaller one would miss a slow return.
+/// A contact that jumps at its surface turns back over it within so many times the shortest look. A larger number
+/// would take a later crossing for that; a smaller one would miss a slow return.
 const MOST_LOOKS_BACK: f64 = 1024.0;
 
 /// How a guard leaves its zero.
@@ -52,10 +53,10 @@ pub(crate) enum Departure {
     Stays,
 }
 
-/// How the guard of `surface` leaves its zero at the start of a flow. Its value there is zero with this `error`. The part
-/// `rounding` of the error differs from state to state. The rest, by the error of the time of a crossing, is the same
-/// for states next to each other, and hides no rate. `short` is the duration of the arc
-/// before or the sampling interval, or infinite. The guard `bounds_flow` if it is a contact or a switch.
+/// How the guard of `surface` leaves its zero at the start of a flow. Its value there is zero with this `error`.
+/// The part `rounding` of the error differs from state to state. The rest, by the error of the time of a crossing,
+/// is the same for states next to each other, and hides no rate. `short` is the duration of the arc before or the
+/// sampling interval, or infinite. The guard `bounds_flow` if it is a contact or a switch.
 ///
 /// # Errors
 /// [`Error::UndecidedSign`], [`Error::UndecidedStart`] for a guard that stays at zero for a while, and

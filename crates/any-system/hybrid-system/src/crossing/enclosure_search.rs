@@ -23,9 +23,9 @@ const HIGHEST_ORDER: u32 = 16;
 /// these roundings together. A larger margin would only make the tests slightly weaker.
 const RADIUS_MARGIN: f64 = 4.0 * f64::EPSILON;
 
-/// An interval is hidden if the enclosure at its middle holds zero, and the guard stays within this many half widths of that
-/// enclosure. A smaller number would halve intervals on which the enclosure of one point is not narrower; a larger one
-/// would hide zeros that shorter intervals show.
+/// An interval is hidden if the enclosure at its middle holds zero, and the guard stays within this many half
+/// widths of that enclosure. A smaller number would halve intervals on which the enclosure of one point is not
+/// narrower; a larger one would hide zeros that shorter intervals show.
 const HIDDEN: f64 = 4.0;
 
 /// A guard along a flow: its values, and its enclosures by order and interval.
@@ -158,8 +158,8 @@ where
         Ok(Leave::Hidden)
     }
 
-    /// With the rate s at `time` and e = 2|g(time)|/s: if |g′| ≥ s/2 within e of `time`, g reaches zero within e. Else the
-    /// interval is the bound.
+    /// With the rate s at `time` and e = 2|g(time)|/s: if |g′| ≥ s/2 within e of `time`, g reaches zero within e.
+    /// Else the interval is the bound.
     fn root_error(&self, time: f64, left: f64, right: f64) -> Result<f64, Error> {
         let here = self.around(0, time)?.magnitude();
         let slope = self.around(1, time)?;

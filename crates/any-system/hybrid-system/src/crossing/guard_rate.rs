@@ -2,13 +2,13 @@
 
 use crate::state::StateVector;
 
-/// The state is moved along the field by this distance, relative to its components, to compute the rate of a guard. The distance
-/// is about √ε, as for finite differences: the rounding of the difference is 1e-8 of it, and so is the effect of the
-/// guard's second derivative.
+/// The state is moved along the field by this distance, relative to its components, to compute the rate of a guard.
+/// The distance is about √ε, as for finite differences: the rounding of the difference is 1e-8 of it, and so is the
+/// effect of the guard's second derivative.
 const DIFFERENCE_REACH: f64 = 1e-8;
 
-/// A guard has a visible rate if its change over both sides exceeds this multiple of its bend. Where the bend is as large
-/// as the change, the guard may fall on one side and rise on the other, and the difference has no meaning.
+/// A guard has a visible rate if its change over both sides exceeds this multiple of its bend. Where the bend is as
+/// large as the change, the guard may fall on one side and rise on the other, and the difference has no meaning.
 const STRAIGHT: f64 = 1.0;
 
 /// ġ = ∇g·f at `state` by a central difference along the field f.
@@ -21,7 +21,8 @@ pub(crate) fn guard_rate<X: StateVector>(
     rounding: f64,
     guard: impl Fn(&X) -> f64,
 ) -> Option<f64> {
-    // The shortest reach first: on a longer one a component that is large, and moves slowly, would carry the others far.
+    // The shortest reach first: on a longer one a component that is large, and moves slowly, would carry the others
+    // far.
     let by_component = state.components().iter().zip(field.components());
     let shortest = by_component
         .map(|(component, rate)| (1.0 + component.abs()) / rate.abs())

@@ -1,9 +1,9 @@
 //! The part of a guard's value that may be rounding.
 //!
-//! The computed value ĝ(x) of a guard is wrong for two reasons: the state x is rounded, and so is every operation of the
-//! guard. The first error is the change of ĝ when the components change by an ulp or two. The second error is the scatter
-//! of ĝ around a smooth function: along a line through x the third differences of a smooth function at distances δ are
-//! of order δ³, far below an ulp, so that they contain only rounding.
+//! The computed value ĝ(x) of a guard is wrong for two reasons: the state x is rounded, and so is every operation
+//! of the guard. The first error is the change of ĝ when the components change by an ulp or two. The second error
+//! is the scatter of ĝ around a smooth function: along a line through x the third differences of a smooth function
+//! at distances δ are of order δ³, far below an ulp, so that they contain only rounding.
 //!
 //! ```text
 //!   hypot(x − 2, y) − d,  x ≈ 10⁻³:    an ulp of x changes ĝ by 2·10⁻¹⁹, but x − 2 alone is rounded to 2·10⁻¹⁶
@@ -13,13 +13,13 @@
 
 use crate::state::StateVector;
 
-/// The change of each component, in units of ε times its size. A component that was computed is wrong by an ulp or two. A
-/// smaller number would take rounding for a distance from the surface; a larger one would take small distances for
-/// zero.
+/// The change of each component, in units of ε times its size. A component that was computed is wrong by an ulp or
+/// two. A smaller number would take rounding for a distance from the surface; a larger one would take small
+/// distances for zero.
 const COMPONENT_ULPS: f64 = 2.0;
 
-/// The second distance, in units of the first: a power of two, so that the difference of both is exact for a straight guard. A
-/// larger number would take a bend of the guard for rounding.
+/// The second distance, in units of the first: a power of two, so that the difference of both is exact for a
+/// straight guard. A larger number would take a bend of the guard for rounding.
 const FARTHER: f64 = 8.0;
 
 /// Factor on the sum of the changes, for the interplay of the components. It is an estimate, not a bound.
@@ -38,23 +38,23 @@ const RANDOM_MOVES: u32 = 4;
 /// even in a guard sin(1000 t) at t = 10⁸. The second is used only where the first does not change the value at all.
 const COMPONENT_DISTANCES: [f64; 2] = [256.0 * f64::EPSILON, 4_194_304.0 * f64::EPSILON];
 
-/// The distance if neither of these changes the value: 4096 ulps, relative to the value of the guard, then to its square
-/// root beside the largest component, then to the largest component. It shows the rounding in a guard whose own terms are
-/// much larger than the components that it uses. The shortest distance that changes the value is taken, so that a large
-/// component does not hide a guard on another one.
+/// The distance if neither of these changes the value: 4096 ulps, relative to the value of the guard, then to its
+/// square root beside the largest component, then to the largest component. It shows the rounding in a guard whose
+/// own terms are much larger than the components that it uses. The shortest distance that changes the value is
+/// taken, so that a large component does not hide a guard on another one.
 const LARGEST_DISTANCE: f64 = 4096.0 * f64::EPSILON;
 
 /// The scatter in units of the largest third difference. A third difference of errors up to e is 2.6 e in the mean; one
 /// of two is often less than half of that. With this factor the scatter is 1 to 8 times the error.
 const SCATTER: f64 = 2.0;
 
-/// If the estimate on one side of the state is so many times larger than on the other side, the guard jumps or bends there,
-/// which says nothing about its rounding. Estimates of the same rounding differ by less, in all but one case of some
-/// hundreds. A larger number would take more jumps for rounding.
+/// If the estimate on one side of the state is so many times larger than on the other side, the guard jumps or
+/// bends there, which says nothing about its rounding. Estimates of the same rounding differ by less, in all but
+/// one case of some hundreds. A larger number would take more jumps for rounding.
 const ONE_SIDED: f64 = 16.0;
 
-/// A guard is clearly off its surface if moving the components by about [`FAR_MOVE`] of the largest one changes the guard
-/// by at most this many times its value. The rounding would have to be 10⁷ times larger than usual to matter.
+/// A guard is clearly off its surface if moving the components by about [`FAR_MOVE`] of the largest one changes the
+/// guard by at most this many times its value. The rounding would have to be 10⁷ times larger than usual to matter.
 const FAR: f64 = 1e3;
 
 /// See [`FAR`]: about 10⁻³, a power of two.
@@ -78,8 +78,8 @@ pub(crate) fn guard_rounding<X: StateVector>(
     })
 }
 
-/// The rounding that is measured on one side of a state, unless it would hide the guard's `value`, and is much smaller on the
-/// other side: then a jump or a kink of the guard next to the state was measured.
+/// The rounding that is measured on one side of a state, unless it would hide the guard's `value`, and is much
+/// smaller on the other side: then a jump or a kink of the guard next to the state was measured.
 fn smaller_side(value: f64, on_side: impl Fn(f64) -> f64) -> f64 {
     let finite = |side: f64| {
         let sum = on_side(side);
@@ -108,8 +108,8 @@ pub(crate) fn stated_or_measured<X: StateVector>(
     }
 }
 
-/// The rounding of the guard's own operations at a zero: as the model has `stated` it, or as it is measured before and behind
-/// the zero. At the zero itself a jump of the guard would count as rounding.
+/// The rounding of the guard's own operations at a zero: as the model has `stated` it, or as it is measured before
+/// and behind the zero. At the zero itself a jump of the guard would count as rounding.
 pub(crate) fn rounding_beside_zero<X: StateVector>(
     stated: Option<f64>,
     beside: [&X; 2],
@@ -123,8 +123,8 @@ pub(crate) fn rounding_beside_zero<X: StateVector>(
     })
 }
 
-/// An estimate of the error of `guard` at `state` by the rounding of the state. The components of `size` are |state| for a
-/// state that is given, and larger for a state that was computed from larger numbers.
+/// An estimate of the error of `guard` at `state` by the rounding of the state. The components of `size` are
+/// |state| for a state that is given, and larger for a state that was computed from larger numbers.
 pub(crate) fn rounding_of_state<X: StateVector>(
     state: &X,
     size: &X,
@@ -258,8 +258,8 @@ fn random_sign(axis: usize, joint: u32) -> f64 {
     if (mixed ^ (mixed >> 32)).wrapping_mul(MULTIPLIER) >> 63 == 0 { 1.0 } else { -1.0 }
 }
 
-/// The scatter of the guard's values around a smooth function, at five states on a line from `state`, upwards or downwards by
-/// the sign of `side`.
+/// The scatter of the guard's values around a smooth function, at five states on a line from `state`, upwards or
+/// downwards by the sign of `side`.
 fn scatter<X: StateVector>(state: &X, side: f64, guard: impl Fn(&X) -> f64) -> f64 {
     let (value, largest) = (guard(state).abs(), state.largest());
     let by_component = COMPONENT_DISTANCES.map(|distance| (distance, 0.0));

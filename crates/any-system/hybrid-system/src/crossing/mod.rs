@@ -10,10 +10,10 @@
 //! | values along a step of an integrated flow | `ode/followed_guard` | polynomials through the values show it; an estimate, no bound |
 //! | values only | `sampled` | no guarantee between two samples |
 //!
-//! `bounded` is what a source of bounds gives, and `zero_search` the search that uses it, also along integrated flows. Where
-//! rounding hides a function, the search decides behind the hidden interval: a crossing or a touch. `under_bounds` chooses
-//! the source for one guard. `bracketed_root` refines a change of sign. `departure` tells to which side a guard leaves its
-//! zero.
+//! `bounded` is what a source of bounds gives, and `zero_search` the search that uses it, also along integrated
+//! flows. Where rounding hides a function, the search decides behind the hidden interval: a crossing or a touch.
+//! `under_bounds` chooses the source for one guard. `bracketed_root` refines a change of sign. `departure` tells to
+//! which side a guard leaves its zero.
 
 mod bounded;
 mod candidate;

@@ -23,11 +23,11 @@ pub struct Crossing<S, X> {
     pub surface: S,
     /// Time since the start of the arc.
     pub time: f64,
-    /// How far `time` may be from the zero of the guard along the *computed* trajectory, by rounding: a few ulps, or more
-    /// where rounding hides the guard. The order of events follows from it alone.
+    /// How far `time` may be from the zero of the guard along the *computed* trajectory, by rounding: a few ulps,
+    /// or more where rounding hides the guard. The order of events follows from it alone.
     pub time_rounding: f64,
-    /// How far `time` may be from the event of the *true* trajectory: at least `time_rounding`; a bound for closed forms,
-    /// an estimate from the tolerances for integrated flows. It is stated, and decides nothing.
+    /// How far `time` may be from the event of the *true* trajectory: at least `time_rounding`; a bound for closed
+    /// forms, an estimate from the tolerances for integrated flows. It is stated, and decides nothing.
     pub time_error: f64,
     /// The state on the surface, before any reset. A model that solves its crossings may know this state more
     /// accurately than its flow gives it at the rounded time.

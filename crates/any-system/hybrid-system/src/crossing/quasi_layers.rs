@@ -24,8 +24,8 @@ const ROUNDINGS_OF_EXPONENTIAL: f64 = 2.0;
 /// The unit of time lies between 2⁻¹⁰⁰⁰ and 2¹⁰⁰⁰, so that its inverse is a double.
 const LARGEST_EXPONENT: i32 = 1000;
 
-/// Coefficients in units of time are below 2⁶⁶⁴ ≈ 1e200. A horizon so long that one would be larger gets a shorter unit.
-/// A larger number would leave no room for the derivatives of a function of high frequency.
+/// Coefficients in units of time are below 2⁶⁶⁴ ≈ 1e200. A horizon so long that one would be larger gets a shorter
+/// unit. A larger number would leave no room for the derivatives of a function of high frequency.
 const COEFFICIENT_EXPONENT: i32 = 664;
 
 /// Frequencies and rates in units of time are below 2¹⁰⁰ ≈ 1e30, so that third derivatives do not overflow.
@@ -176,12 +176,12 @@ impl Layers {
 
     /// Bounds on the first K derivatives from order `first` on, over [left, right], 0 ≤ left.
     ///
-    /// In units of ε times the bound of each term, the rounding error of a value is: two roundings for each coefficient
-    /// (Horner's product and sum) and two for each term of the sum; four for the sine, the cosine and the two products
-    /// with them; two for the exponential; |ωt| and |σt| for the rounding of the phase and of the exponent. Each rounding
-    /// is ε/2 at most. The other half covers the products of roundings and the rounding of this bound itself, as long as
-    /// there are fewer than some 10⁷ of them. To this the errors of the coefficients, of the frequencies and of the rates
-    /// are added.
+    /// In units of ε times the bound of each term, the rounding error of a value is: two roundings for each
+    /// coefficient (Horner's product and sum) and two for each term of the sum; four for the sine, the cosine and
+    /// the two products with them; two for the exponential; |ωt| and |σt| for the rounding of the phase and of the
+    /// exponent. Each rounding is ε/2 at most. The other half covers the products of roundings and the rounding of
+    /// this bound itself, as long as there are fewer than some 10⁷ of them. To this the errors of the coefficients,
+    /// of the frequencies and of the rates are added.
     pub(crate) fn sizes<const K: usize>(&self, first: usize, left: f64, right: f64) -> [Size; K] {
         let mut sums = [Size::default(); K];
         for (term, Kind { sigma, omega }) in self.kinds.iter().enumerate() {

@@ -4,13 +4,14 @@ use super::quasi_term::Term;
 use super::rounded::Rounded;
 use crate::error::Error;
 
-/// A quasi-polynomial: g(t) = Σ exp(σₖt) (pₖ(t) cos ωₖt + qₖ(t) sin ωₖt), a sum of polynomials times exponentials, sines and
-/// cosines. Quasi-polynomials are the solutions of linear differential equations with constant coefficients. Along the
-/// flow of constant forces, springs and linear dampers, and of harmonic excitation, a guard is a quasi-polynomial.
+/// A quasi-polynomial: g(t) = Σ exp(σₖt) (pₖ(t) cos ωₖt + qₖ(t) sin ωₖt), a sum of polynomials times exponentials,
+/// sines and cosines. Quasi-polynomials are the solutions of linear differential equations with constant
+/// coefficients. Along the flow of constant forces, springs and linear dampers, and of harmonic excitation, a guard
+/// is a quasi-polynomial.
 ///
-/// Sums, products and derivatives of quasi-polynomials are quasi-polynomials. Their coefficients give bounds over an
-/// interval of time, so that the first zero is found with [certainty](crate::Certainty::Certain). Each coefficient carries
-/// a bound on its rounding error. The coefficients given by the caller count as exact.
+/// Sums, products and derivatives of quasi-polynomials are quasi-polynomials. Their coefficients give bounds over
+/// an interval of time, so that the first zero is found with [certainty](crate::Certainty::Certain). Each
+/// coefficient carries a bound on its rounding error. The coefficients given by the caller count as exact.
 ///
 /// ```
 /// use hybrid_system::{Direction, FirstCrossing, QuasiPolynomial};

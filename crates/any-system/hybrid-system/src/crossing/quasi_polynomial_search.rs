@@ -8,8 +8,8 @@
 //!   else                                                     the interval is halved
 //! ```
 //!
-//! These are statements (2) and (3) of [mathematics](crate::mathematics), with |g″| ≤ |g″(m)| + C r. Statements (4) and (5)
-//! tell how the function leaves a start at zero.
+//! These are statements (2) and (3) of [mathematics](crate::mathematics), with |g″| ≤ |g″(m)| + C r. Statements (4)
+//! and (5) tell how the function leaves a start at zero.
 
 use super::bounded::{Bounded, Leave};
 use super::first_crossing::FirstCrossing;
@@ -27,9 +27,9 @@ use interval_arithmetic::Enclosure;
 /// these roundings together. A larger margin would only make the tests slightly weaker.
 const RADIUS_MARGIN: f64 = 4.0 * f64::EPSILON;
 
-/// An interval is hidden if the function is within rounding of zero at its middle, and changes by no more than this many
-/// rounding errors on it. A smaller number needs shorter intervals; a larger one hides zeros that shorter intervals
-/// show.
+/// An interval is hidden if the function is within rounding of zero at its middle, and changes by no more than this
+/// many rounding errors on it. A smaller number needs shorter intervals; a larger one hides zeros that shorter
+/// intervals show.
 const HIDDEN: f64 = 4.0;
 
 /// Highest order of a zero at the start that is tested. The test cases go to order 8; the limit only bounds the array
@@ -70,8 +70,8 @@ impl QuasiPolynomial {
         self.first_crossing_within(direction, horizon, MOST_INTERVALS)
     }
 
-    /// As [`first_crossing`](Self::first_crossing), with another budget of intervals. Every oscillation up to the crossing
-    /// takes several intervals.
+    /// As [`first_crossing`](Self::first_crossing), with another budget of intervals. Every oscillation up to the
+    /// crossing takes several intervals.
     ///
     /// # Errors
     /// As for `first_crossing`; [`Error::IntervalBudget`] after this number of intervals.
@@ -104,8 +104,8 @@ impl QuasiPolynomial {
         })
     }
 
-    /// The side to which the function leaves its zero at the start, ±1; `None` if it is zero everywhere. The value at the
-    /// start is zero with this `error`.
+    /// The side to which the function leaves its zero at the start, ±1; `None` if it is zero everywhere. The value
+    /// at the start is zero with this `error`.
     pub(crate) fn side_after_zero(&self, horizon: f64, error: f64) -> Result<Option<f64>, Error> {
         // The usual case, order 1, needs no bounds.
         let slope = self.slope_at_start();
@@ -165,8 +165,8 @@ impl Bounded for BoundedQuasiPolynomial<'_> {
         let radius = (right - middle).max(middle - left) * (1.0 + RADIUS_MARGIN);
         let [value, slope, bend] = self.layers.values(0, middle);
         let value = value - level;
-        // Without the bounds on roundings and on g‴ each condition below holds more easily. Most intervals are too long, and
-        // fail already here.
+        // Without the bounds on roundings and on g‴ each condition below holds more easily. Most intervals are too
+        // long, and fail already here.
         let least_reach = (slope.abs() + 0.5 * bend.abs() * radius) * radius;
         if !(value.abs() > least_reach || slope.abs() > bend.abs() * radius) {
             let [Size { rounding, .. }] = self.layers.sizes(0, left, right);
@@ -207,8 +207,8 @@ impl Bounded for BoundedQuasiPolynomial<'_> {
         }
     }
 
-    /// With s ≤ |g′(time)| and e = 2|g(time)|/s: if g′ changes by no more than s/2 within e of `time`, then |g′| ≥ s/2 there,
-    /// and g reaches zero within e. Else the interval is the bound.
+    /// With s ≤ |g′(time)| and e = 2|g(time)|/s: if g′ changes by no more than s/2 within e of `time`, then |g′| ≥
+    /// s/2 there, and g reaches zero within e. Else the interval is the bound.
     fn root_error(&self, time: f64, left: f64, right: f64) -> Result<f64, Error> {
         let here = self.at(time)?.magnitude();
         let time = self.layers.in_units(time);
@@ -227,8 +227,8 @@ impl Bounded for BoundedQuasiPolynomial<'_> {
     }
 }
 
-/// How the function leaves its zero at `from`; `None` if the derivatives up to `highest` do not decide. The list must have
-/// one derivative more.
+/// How the function leaves its zero at `from`; `None` if the derivatives up to `highest` do not decide. The list
+/// must have one derivative more.
 fn leave(layers: &Layers, highest: usize, (from, until): (f64, f64), error: f64) -> Option<Leave> {
     let (from, until) = (layers.in_units(from), layers.in_units(until));
     let mut factorial = 1.0; // k!
@@ -263,16 +263,16 @@ fn leave(layers: &Layers, highest: usize, (from, until): (f64, f64), error: f64)
         if order == 0 || !(until > from) {
             return Some(Leave::To { time: from * layers.unit(), side });
         }
-        // (4): with c = g⁽ᵏ⁾/k! and |g⁽ᵏ⁺¹⁾| ≤ M on the next t, |c| ≥ 2 M t/(k+1)! leaves at least ½|c|tᵏ of the leading
-        // term. Halving t finds such a time.
+        // (4): with c = g⁽ᵏ⁾/k! and |g⁽ᵏ⁺¹⁾| ≤ M on the next t, |c| ≥ 2 M t/(k+1)! leaves at least ½|c|tᵏ of the
+        // leading term. Halving t finds such a time.
         let leading = (value.abs() - rounding) / factorial;
         let mut time = until - from;
         while time > 0.0 && !(leading > 2.0 * next(time) * time / (factorial * (order + 1) as f64))
         {
             time *= 0.5;
         }
-        // (5): from `clear` on, each of the lower terms (fewer than k) is at most |c|tᵏ/(2k): together they are less than
-        // ½|c|tᵏ.
+        // (5): from `clear` on, each of the lower terms (fewer than k) is at most |c|tᵏ/(2k): together they are
+        // less than ½|c|tᵏ.
         let ratio = 2.0 * order as f64 / leading;
         let clear = (1..order)
             .map(|j| pxfm::f_pow(ratio * lower[j], 1.0 / (order - j) as f64))

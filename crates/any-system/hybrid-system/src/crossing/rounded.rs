@@ -5,8 +5,8 @@ const SMALLEST: f64 = f64::from_bits(1);
 
 /// A number and a bound on its distance from the exact one.
 ///
-/// Each operation adds ε times its result, twice its own rounding error. The other half covers the roundings of the bound
-/// itself.
+/// Each operation adds ε times its result, twice its own rounding error. The other half covers the roundings of the
+/// bound itself.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Rounded {
     /// The computed number.

@@ -11,18 +11,18 @@ use crate::looked::Looked;
 use interval_arithmetic::root_beyond;
 use std::fmt::Debug;
 
-/// Most samples of one search, unless the budget of steps is smaller: a limit for a search that would take days. At some
-/// 30 ns for a flow in closed form these samples take half a minute. The search then ends unfinished, and can go on. A
-/// smaller number would end searches that a user is willing to wait for.
+/// Most samples of one search, unless the budget of steps is smaller: a limit for a search that would take days. At
+/// some 30 ns for a flow in closed form these samples take half a minute. The search then ends unfinished, and can
+/// go on. A smaller number would end searches that a user is willing to wait for.
 const MOST_SAMPLES: u64 = 1_000_000_000;
 
-/// The rounding of a guard's own arithmetic is measured this far from a zero, in units of the sampling interval: far enough
-/// that a jump at the zero does not count, and near enough that the guard has terms of the same size.
+/// The rounding of a guard's own arithmetic is measured this far from a zero, in units of the sampling interval:
+/// far enough that a jump at the zero does not count, and near enough that the guard has terms of the same size.
 const BESIDE: f64 = 1e-4;
 
-/// Most halvings of the first sampling interval, down to 2⁻⁵² of it. They look for a time in a flight that starts on the
-/// surface and ends before the first sample. A larger number would find shorter flights. A guard of ordinary rate and bend
-/// is hidden by rounding in a flight that short.
+/// Most halvings of the first sampling interval, down to 2⁻⁵² of it. They look for a time in a flight that starts
+/// on the surface and ends before the first sample. A larger number would find shorter flights. A guard of ordinary
+/// rate and bend is hidden by rounding in a flight that short.
 const MOST_HALVINGS: u32 = 52;
 
 /// The result of a search by samples.
@@ -37,8 +37,8 @@ pub(crate) struct SampledEvent {
 ///
 /// # Errors
 /// [`Error::BadSamplingInterval`] if the samples would not advance to the end; [`Error::NotFinite`] for a guard that is
-/// not finite at a sample; [`Error::UndecidedStart`] as for [`SampledGuard::advance`], and for a flight before the first
-/// sample that rounding hides.
+/// not finite at a sample; [`Error::UndecidedStart`] as for [`SampledGuard::advance`], and for a flight before the
+/// first sample that rounding hides.
 pub(crate) fn sampled_event<F: GuardedFlow>(
     flow: &F,
     search: &Search<F::Surface>,
@@ -156,10 +156,10 @@ fn crossing<F: GuardedFlow>(
 
 /// Two times with their values: on `side` at the first, and no longer at the second.
 ///
-/// A guard that leaves its zero at the start may not have the sign of its side there yet. If it has come back before the
-/// first sample, a time on its side lies in between. Halving from the sample towards the start finds such a time for
-/// every flight of one hump: the halved times t/2ᵏ have one in the second half of the flight. A side counts only
-/// where it is clear of rounding; `None` if there is no such time.
+/// A guard that leaves its zero at the start may not have the sign of its side there yet. If it has come back
+/// before the first sample, a time on its side lies in between. Halving from the sample towards the start finds
+/// such a time for every flight of one hump: the halved times t/2ᵏ have one in the second half of the flight. A
+/// side counts only where it is clear of rounding; `None` if there is no such time.
 fn bracket<F: GuardedFlow>(
     flow: &F,
     surface: F::Surface,
@@ -271,8 +271,8 @@ impl<S: Copy + Debug> SampledGuard<S> {
                 let last = zero.map_or(since, |zero| zero.1);
                 Ok(Sample::ThroughZeros { since, zero: last, beyond: time })
             }
-            // A sample that is exactly zero is the first root. With this sample as right end the bracket returns it; the
-            // root finder could return a later one otherwise.
+            // A sample that is exactly zero is the first root. With this sample as right end the bracket returns
+            // it; the root finder could return a later one otherwise.
             Some(side) if direction.admits(side, now) => {
                 Ok(Sample::Crossing { left: since, right: zero.map_or(time, |zero| zero.0), side })
             }

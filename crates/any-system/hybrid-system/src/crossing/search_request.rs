@@ -21,15 +21,16 @@ pub struct Leaving<S> {
     /// The side to which the guard leaves its zero, ±1; 0 if it stays there, as far as the start shows. If the zero is
     /// `ahead`, the side on which the guard is.
     pub side: f64,
-    /// True if the flow has brought the state next to the surface, and the guard has not had its zero yet: its value counts,
-    /// however small.
+    /// True if the flow has brought the state next to the surface, and the guard has not had its zero yet: its
+    /// value counts, however small.
     pub ahead: bool,
 }
 
 /// What a search for the next event is told.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search<'a, S> {
-    /// The search ends at this time after the start of the arc. It may be infinite for a model that solves its crossings.
+    /// The search ends at this time after the start of the arc. It may be infinite for a model that solves its
+    /// crossings.
     pub horizon: f64,
     /// The interval at which guards without bounds are sampled.
     pub sampling_interval: Option<f64>,
@@ -39,8 +40,8 @@ pub struct Search<'a, S> {
     pub steps: usize,
     /// Continuous time t at the start of the arc.
     pub time: f64,
-    /// The guards on whose surfaces the arc starts within rounding. Their values at the start count as zero, unless their
-    /// zero is still ahead.
+    /// The guards on whose surfaces the arc starts within rounding. Their values at the start count as zero, unless
+    /// their zero is still ahead.
     pub leaving: &'a [Leaving<S>],
 }
 
@@ -67,8 +68,8 @@ impl<S> Search<'static, S> {
 }
 
 impl<S: Copy + PartialEq> Search<'_, S> {
-    /// The side to which the guard of this surface leaves its zero at the start, or 0 if it stays there; `None` if it does
-    /// not start there.
+    /// The side to which the guard of this surface leaves its zero at the start, or 0 if it stays there; `None` if
+    /// it does not start there.
     pub fn side(&self, surface: S) -> Option<f64> {
         let mut past = self.leaving.iter().filter(|leaving| !leaving.ahead);
         past.find(|leaving| leaving.surface == surface).map(|leaving| leaving.side)

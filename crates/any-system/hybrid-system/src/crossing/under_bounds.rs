@@ -49,9 +49,9 @@ pub(crate) fn event_under_bounds<F: GuardedFlow>(
     first_event(flow, guard, search, &EnclosedGuard { value, enclosure }, until).map(Some)
 }
 
-/// The bounds at the start and the value of the guard there may differ by this part of the guard's size: a model may compute
-/// both in different ways. A larger number would let more wrong bounds pass; a smaller one would refuse models that lose
-/// digits.
+/// The bounds at the start and the value of the guard there may differ by this part of the guard's size: a model
+/// may compute both in different ways. A larger number would let more wrong bounds pass; a smaller one would refuse
+/// models that lose digits.
 const AGREEMENT: f64 = 1e-6;
 
 /// An error if the bounds at the start do not contain the value of the guard. Wrong bounds elsewhere are not seen.

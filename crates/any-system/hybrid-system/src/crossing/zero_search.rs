@@ -1,8 +1,8 @@
 //! The zeros of a function with bounds, one after the other.
 //!
-//! The search tests intervals from left to right. An interval is passed if it has no zero, or if the function is monotone
-//! on it and its signs at both ends are clear of rounding; else it is halved. Where rounding hides the function, halving
-//! does not help: the search passes the hidden interval, and decides behind it.
+//! The search tests intervals from left to right. An interval is passed if it has no zero, or if the function is
+//! monotone on it and its signs at both ends are clear of rounding; else it is halved. Where rounding hides the
+//! function, halving does not help: the search passes the hidden interval, and decides behind it.
 //!
 //! ```text
 //!      before     hidden     after
@@ -12,8 +12,8 @@
 //!        +      │   ?    │  (horizon)    undecided
 //! ```
 //!
-//! A function may be given in pieces, such as the steps of an integrated flow. [`ZeroSearch`] is what the search knows at
-//! the end of a piece.
+//! A function may be given in pieces, such as the steps of an integrated flow. [`ZeroSearch`] is what the search
+//! knows at the end of a piece.
 
 use super::bounded::{Bounded, Leave};
 use super::found::Found;
@@ -69,8 +69,8 @@ impl ZeroSearch {
         self.time
     }
 
-    /// The side of zero just after [`time`](Self::time), ±1; `None` if the function has not left its start, or if rounding
-    /// hides it.
+    /// The side of zero just after [`time`](Self::time), ±1; `None` if the function has not left its start, or if
+    /// rounding hides it.
     #[cfg(feature = "ode")]
     pub(crate) fn clear_side(&self) -> Option<f64> {
         self.side.filter(|_| !self.leaving && self.hidden.is_none())
@@ -259,8 +259,8 @@ impl ZeroSearch {
             self.pass(function, right, side)?;
             return Ok(touch);
         }
-        // Rounding hid how the function leaves its start, and now it is on the other side than its caller expected. If both
-        // directions count, no side is beyond the surface, and this is the side to which it left.
+        // Rounding hid how the function leaves its start, and now it is on the other side than its caller expected.
+        // If both directions count, no side is beyond the surface, and this is the side to which it left.
         let at_start = self.leaving && self.direction == Direction::Either;
         self.left_hidden = self.leaving;
         let passes = std::mem::take(&mut self.passes);
@@ -288,8 +288,8 @@ impl ZeroSearch {
         Ok(found)
     }
 
-    /// The first of some times from `left` to `right` at which the function is clear of rounding behind a hidden interval.
-    /// It is monotone or clear there, and clear at `right`.
+    /// The first of some times from `left` to `right` at which the function is clear of rounding behind a hidden
+    /// interval. It is monotone or clear there, and clear at `right`.
     fn clear_again(
         &self,
         function: &impl Bounded,

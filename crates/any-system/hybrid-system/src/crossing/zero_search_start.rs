@@ -23,8 +23,9 @@ impl ZeroSearch {
         }
     }
 
-    /// Starts at `time` on a zero: the computed `value` counts as zero, with an error of at least its size. The function
-    /// leaves to `side`, if that is known; a side of 0 says that it stays there, as far as the start shows.
+    /// Starts at `time` on a zero: the computed `value` counts as zero, with an error of at least its size. The
+    /// function leaves to `side`, if that is known; a side of 0 says that it stays there, as far as the start
+    /// shows.
     pub(crate) fn leaving(
         direction: Direction,
         (time, value): (f64, f64),
@@ -47,13 +48,14 @@ impl ZeroSearch {
         ZeroSearch { unclear: true, level_error: error, ..Self::on_side(direction, time, side) }
     }
 
-    /// Starts at `time` on `side`, ±1, behind a zero that the function has had, at a jump: it passes to its other side first.
+    /// Starts at `time` on `side`, ±1, behind a zero that the function has had, at a jump: it passes to its other
+    /// side first.
     pub(crate) fn passing(direction: Direction, time: f64, side: f64) -> Self {
         ZeroSearch { passes: true, ..Self::on_side(direction, time, side) }
     }
 
-    /// Starts at `time`, where `at` encloses the function and `value` is the computed one, wrong by `error` at most. The
-    /// side to which the function leaves a zero there may be known.
+    /// Starts at `time`, where `at` encloses the function and `value` is the computed one, wrong by `error` at
+    /// most. The side to which the function leaves a zero there may be known.
     pub(crate) fn new(
         direction: Direction,
         (time, value): (f64, f64),

@@ -15,7 +15,8 @@ pub(crate) enum ZeroTest {
         /// A number with the sign of the derivative.
         slope: f64,
     },
-    /// The function is within a few rounding errors of zero on the whole interval: shorter intervals would show no more.
+    /// The function is within a few rounding errors of zero on the whole interval: shorter intervals would show no
+    /// more.
     Hidden,
     /// The bounds are too wide for any result: the interval must be halved.
     Undecided,

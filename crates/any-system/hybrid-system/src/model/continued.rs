@@ -1,5 +1,5 @@
-//! Parts that say how an execution continues where no event leads on: after a Zeno limit, and at a sliding point. The field
-//! of a flow in closed form, which a sliding point needs.
+//! Parts that say how an execution continues where no event leads on: after a Zeno limit, and at a sliding point.
+//! The field of a flow in closed form, which a sliding point needs.
 
 use super::part::Part;
 use crate::sliding::Sliding;

@@ -9,8 +9,8 @@ where
     M: Copy + Eq,
     S: Copy + Eq + Debug,
 {
-    /// Declares the guard that was added last a contact that holds, such as a floor: the mode flows on one side of it, and a
-    /// jump to a state beyond it is an event at once.
+    /// Declares the guard that was added last a contact that holds, such as a floor: the mode flows on one side of
+    /// it, and a jump to a state beyond it is an event at once.
     ///
     /// Without this word, and without [`crossing`](Self::crossing), such a jump is the error
     /// [`LandsBeyond`](crate::Error::LandsBeyond).

@@ -9,9 +9,9 @@ use crate::system::{HybridSystem, Reset};
 use nalgebra::SMatrix;
 use std::fmt::Debug;
 
-/// Half the distance of the two values of a difference quotient, for a component of size 1: ε^⅓. The curvature of the
-/// function gives an error of order h² = 4·10⁻¹¹, the rounding of its values one of order ε/h, which is equal. A function
-/// whose scale is smaller than 10⁻³ needs the derivatives of the trait.
+/// Half the distance of the two values of a difference quotient, for a component of size 1: ε^⅓. The curvature of
+/// the function gives an error of order h² = 4·10⁻¹¹, the rounding of its values one of order ε/h, which is equal.
+/// A function whose scale is smaller than 10⁻³ needs the derivatives of the trait.
 const REACH: f64 = 6e-6;
 
 /// The Jacobian of `function` at `state`, by central differences: about ten digits for a smooth function whose scale is

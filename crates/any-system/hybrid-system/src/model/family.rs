@@ -16,10 +16,10 @@ const REACH: f64 = 6e-6;
 
 /// A model that depends on P parameters, with its derivatives by them.
 ///
-/// The derivatives of field, guards and resets are central differences between the models at neighbouring parameters, with
-/// about ten digits if the model changes smoothly on the scale of max(1, |p|). So are those of a flow in closed form. An
-/// integrated flow has its variational equation by the parameters, and so has the sliding motion of a
-/// `Filippov` of an integrated model.
+/// The derivatives of field, guards and resets are central differences between the models at neighbouring
+/// parameters, with about ten digits if the model changes smoothly on the scale of max(1, |p|). So are those of a
+/// flow in closed form. An integrated flow has its variational equation by the parameters, and so has the sliding
+/// motion of a `Filippov` of an integrated model.
 ///
 /// [`parameter_sensitivity`](crate::parameter_sensitivity) and
 /// [`event_parameter_sensitivity`](crate::event_parameter_sensitivity) use it.

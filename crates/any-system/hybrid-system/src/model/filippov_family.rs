@@ -1,8 +1,8 @@
 //! Derivatives by parameters for models written with closures that slide.
 //!
-//! Along a sliding motion ẋ = f_s(x, p), and g(x, p) = 0: the surface may depend on the parameters. A change δx that keeps
-//! the state on the surface of the changed model has δẋ = ∂f_s/∂x δx + ∂f_s/∂p δp, with the derivatives of the formula for f_s
-//! at a fixed state. No projection enters: it would keep the state on one surface.
+//! Along a sliding motion ẋ = f_s(x, p), and g(x, p) = 0: the surface may depend on the parameters. A change δx
+//! that keeps the state on the surface of the changed model has δẋ = ∂f_s/∂x δx + ∂f_s/∂p δp, with the derivatives
+//! of the formula for f_s at a fixed state. No projection enters: it would keep the state on one surface.
 
 use super::derivatives::state_after;
 use super::family::Family;

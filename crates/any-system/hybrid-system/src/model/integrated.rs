@@ -7,8 +7,9 @@ use crate::ode::{Tolerances, integrated_crossing, integrated_flow, integrated_st
 use crate::state::StateVector;
 use crate::system::HybridSystem;
 
-/// The tolerance of a model that states none, relative and absolute: far below what a plot shows or an experiment measures,
-/// and far above the rounding of an integration. A smaller number costs steps; one below 1e-13 is lost in rounding.
+/// The tolerance of a model that states none, relative and absolute: far below what a plot shows or an experiment
+/// measures, and far above the rounding of an integration. A smaller number costs steps; one below 1e-13 is lost in
+/// rounding.
 const TOLERANCE: f64 = 1e-10;
 
 /// A motion ẋ = f(x) that is integrated: a closure gives f(x) from the mode and the state.

@@ -12,8 +12,8 @@ use nalgebra::{RowSVector, SMatrix};
 use std::fmt::Debug;
 
 impl<T, const P: usize> Family<T, P> {
-    /// The derivative of an integrated flow by the parameters, from the `field` of each model. All entries are NaN if the
-    /// integration fails, or a model has no field.
+    /// The derivative of an integrated flow by the parameters, from the `field` of each model. All entries are NaN
+    /// if the integration fails, or a model has no field.
     pub(super) fn integrated_flow<const N: usize>(
         &self,
         (mode, start, time): (T::Mode, &State<N>, f64),

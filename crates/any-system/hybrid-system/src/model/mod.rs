@@ -1,12 +1,12 @@
 //! How is a model written with closures?
 //!
-//! A [`Model`] has a motion (`motion`: a flow in closed form, or a field that is integrated) and parts: guards with their
-//! resets and clocks (`guarded`), bounds on guards (`bounds`), the modes after Zeno limits and sliding points
+//! A [`Model`] has a motion (`motion`: a flow in closed form, or a field that is integrated) and parts: guards with
+//! their resets and clocks (`guarded`), bounds on guards (`bounds`), the modes after Zeno limits and sliding points
 //! (`continued`). Each part has a type of its own, and a model contains the nested pairs of its parts (`part`). The
-//! compiler therefore sees every closure: no call goes through a pointer. `guard_lists`
-//! has the guards of each mode. `system` implements [`HybridSystem`](crate::HybridSystem), `derivatives` and
-//! `integrated_derivatives` [`Differentiable`](crate::Differentiable); `family`, `integrated_family` and `filippov_family`
-//! have derivatives by parameters.
+//! compiler therefore sees every closure: no call goes through a pointer. `guard_lists` has the guards of each
+//! mode. `system` implements [`HybridSystem`](crate::HybridSystem), `derivatives` and `integrated_derivatives`
+//! [`Differentiable`](crate::Differentiable); `family`, `integrated_family` and `filippov_family` have derivatives
+//! by parameters.
 
 mod bounds;
 mod continued;

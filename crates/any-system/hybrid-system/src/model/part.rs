@@ -6,7 +6,8 @@ use crate::sliding::Sliding;
 use crate::system::Reset;
 use interval_arithmetic::Enclosure;
 
-/// A part of a [`Model`](crate::Model). Each method answers for the surfaces of the part, and with `None` for all others.
+/// A part of a [`Model`](crate::Model). Each method answers for the surfaces of the part, and with `None` for all
+/// others.
 pub trait Part<M, S, X> {
     /// g(x).
     #[inline]

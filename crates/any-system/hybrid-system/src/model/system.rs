@@ -86,7 +86,8 @@ where
 
     /// Finds surfaces that are used twice, clocks without times, and bounds on a guard that the model does not have.
     ///
-    /// Guard functions are compared at the initial state and beside it: at a start on both surfaces all of them are zero.
+    /// Guard functions are compared at the initial state and beside it: at a start on both surfaces all of them are
+    /// zero.
     ///
     /// # Errors
     /// [`Error::SurfaceTwice`], [`Error::ClockWithoutTimes`], [`Error::NoSuchGuard`] and [`Error::TwoGuardFunctions`].
@@ -119,8 +120,8 @@ where
     }
 }
 
-/// A component is moved by about this part of its size, each by another one. A larger number could leave the region in which the guards are
-/// defined; a smaller one would lose digits of the difference.
+/// A component is moved by about this part of its size, each by another one. A larger number could leave the region
+/// in which the guards are defined; a smaller one would lose digits of the difference.
 const BESIDE: f64 = 1.0 / 64.0;
 
 /// A state beside `state`.

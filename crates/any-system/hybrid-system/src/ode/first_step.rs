@@ -37,8 +37,9 @@ const TRIES: usize = 17;
 /// rejected and shortened. After a first step that is too short the integration needs a few more steps. Neither costs
 /// accuracy. `order` is the higher order of the pair: the lower order plus 1, as in the book's exponent.
 ///
-/// `slope_after` writes the slope after an explicit Euler step of a length, and returns whether the field is finite there. The
-/// Euler step is shortened then, as the steps of the integration would be. No step is longer than `longest`.
+/// `slope_after` writes the slope after an explicit Euler step of a length, and returns whether the field is finite
+/// there. The Euler step is shortened then, as the steps of the integration would be. No step is longer than
+/// `longest`.
 pub(super) fn first_step(
     start: &[f64],
     slope: &[f64],

@@ -31,8 +31,8 @@ pub fn integrated_flow<T: HybridSystem + ?Sized>(
 /// The states at many times along ẋ = f(x), in one integration: the value that
 /// [`HybridSystem::flow_at`](crate::HybridSystem::flow_at) returns in a mode without closed form.
 ///
-/// The times are in one order, from zero on: 0 ≤ t₀ ≤ t₁ ≤ …, or 0 ≥ t₀ ≥ t₁ ≥ … for the flow backward in time. The last
-/// state is the end of a step, the others are values of interpolants, with errors like those of the steps.
+/// The times are in one order, from zero on: 0 ≤ t₀ ≤ t₁ ≤ …, or 0 ≥ t₀ ≥ t₁ ≥ … for the flow backward in time. The
+/// last state is the end of a step, the others are values of interpolants, with errors like those of the steps.
 ///
 /// # Errors
 /// [`Error::BadLimit`] for times that are not finite or not in order, [`Error::NoVectorField`] for a mode without field,
@@ -145,17 +145,20 @@ fn between(a: f64, x: f64, b: f64) -> bool {
 /// # Ok::<(), Error>(())
 /// ```
 ///
-/// If the steps of the [`Search`] or of the [`Tolerances`] end, or the intervals of the search, the result is [`NextEvent::Unfinished`](crate::NextEvent::Unfinished)
-/// with the time and the state up to which there is no event. This is no error: a search from there goes on.
+/// If the steps of the [`Search`] or of the [`Tolerances`] end, or the intervals of the search, the result is
+/// [`NextEvent::Unfinished`](crate::NextEvent::Unfinished) with the time and the state up to which there is no
+/// event. This is no error: a search from there goes on.
 ///
 /// # Errors
-/// * [`Error::Grazing`] for a touch of a guard whose [`Touch`](crate::Touch) is an error: the guard comes within rounding of its
-///   surface, and its sign is the same before and behind.
+/// * [`Error::Grazing`] for a touch of a guard whose [`Touch`](crate::Touch) is an error: the guard comes within
+///   rounding of its surface, and its sign is the same before and behind.
 /// * [`Error::UndecidedStart`], [`Error::UndecidedSign`] if rounding hides how a guard leaves a start on its surface.
-/// * [`Error::NotFinite`] where a guard is infinite or NaN and no event comes before; [`Error::FieldNotFinite`] where the field
-///   is, also in a mode for which the model gives no field; [`Error::StateNotFinite`] for such a start.
-/// * [`Error::Integration`] if no step is short enough for the tolerances; [`Error::BadTolerance`], [`Error::BadLimit`],
-///   [`Error::Dimension`] for tolerances, a horizon or a field that are not valid, as in [`Integration`].
+/// * [`Error::NotFinite`] where a guard is infinite or NaN and no event comes before; [`Error::FieldNotFinite`]
+///   where the field is, also in a mode for which the model gives no field; [`Error::StateNotFinite`] for such a
+///   start.
+/// * [`Error::Integration`] if no step is short enough for the tolerances; [`Error::BadTolerance`],
+///   [`Error::BadLimit`], [`Error::Dimension`] for tolerances, a horizon or a field that are not valid, as in
+///   [`Integration`].
 pub fn integrated_crossing<T>(
     system: &T,
     mode: T::Mode,

@@ -7,13 +7,15 @@ use crate::error::Error;
 use interval_arithmetic::Enclosure;
 use std::cell::{Cell, OnceCell};
 
-/// On intervals shorter than this part of the step, 2⁻³⁰, a smooth guard is a straight line within rounding: its bend is
-/// 2⁻⁶⁰ of its size on the step. What else its values show is the rounding of its own arithmetic. On longer intervals
-/// a kink or a narrow bump could be taken for rounding. Shorter ones would take more halvings to the same result.
+/// On intervals shorter than this part of the step, 2⁻³⁰, a smooth guard is a straight line within rounding: its
+/// bend is 2⁻⁶⁰ of its size on the step. What else its values show is the rounding of its own arithmetic. On longer
+/// intervals a kink or a narrow bump could be taken for rounding. Shorter ones would take more halvings to the same
+/// result.
 const STRAIGHT: f64 = 1.0 / 1_073_741_824.0;
 
-/// On intervals shorter than this many ulps of time the nodes are rounded, and neighbouring ones may be the same time: what
-/// the values show is the rounding of the time. A larger number would hide rounding of guards on short steps.
+/// On intervals shorter than this many ulps of time the nodes are rounded, and neighbouring ones may be the same
+/// time: what the values show is the rounding of the time. A larger number would hide rounding of guards on short
+/// steps.
 const NODE_ULPS: f64 = 1024.0;
 
 /// A guard that is not a number somewhere on an interval is searched on shorter ones, down to this part of the step:
@@ -21,21 +23,22 @@ const NODE_ULPS: f64 = 1024.0;
 /// region.
 const SHORTEST_WITHOUT_VALUES: f64 = 1.0 / 1_099_511_627_776.0;
 
-/// A guard that started at zero has left it when a value on the interval exceeds its rounding error by this factor. Below
-/// it no test shows a side. A larger factor needs a longer interval, which may hold the next crossing already.
+/// A guard that started at zero has left it when a value on the interval exceeds its rounding error by this factor.
+/// Below it no test shows a side. A larger factor needs a longer interval, which may hold the next crossing
+/// already.
 const LEFT_ZERO: f64 = 16.0;
 
 /// The distance between two neighbouring nodes in the middle of an interval, relative to its length: sin(π/32). A guard
 /// is looked at this often at least.
 const NODE_DISTANCE: f64 = 0.098;
 
-/// Rounding may be the reason why a test of an interval fails if the values are below this many times their error: the test of
-/// the slope multiplies the error by 1240. Larger values fail for another reason, and the error of the interval alone,
-/// which takes some evaluations, is not computed.
+/// Rounding may be the reason why a test of an interval fails if the values are below this many times their error:
+/// the test of the slope multiplies the error by 1240. Larger values fail for another reason, and the error of the
+/// interval alone, which takes some evaluations, is not computed.
 const NOISE_MATTERS: f64 = 1e5;
 
-/// Most intervals at a start on the surface: 53 halvings to the rounding of the time, and as many steps back. A guard that
-/// shows no side then is hidden.
+/// Most intervals at a start on the surface: 53 halvings to the rounding of the time, and as many steps back. A
+/// guard that shows no side then is hidden.
 const MOST_INTERVALS: usize = 128;
 
 /// A guard as a function of time on one step: values on the interpolant of the step, with their rounding.
@@ -53,8 +56,8 @@ pub(super) struct GuardOnStep<A, R> {
 }
 
 impl<A: Fn(f64) -> f64, R: Fn(f64, f64) -> f64> GuardOnStep<A, R> {
-    /// The guard `along` the step [`from`, `to`]. `rounding(left, right)` estimates the error of its values there by the
-    /// rounding of the state. The guard is evaluated at least every `check_interval`.
+    /// The guard `along` the step [`from`, `to`]. `rounding(left, right)` estimates the error of its values there
+    /// by the rounding of the state. The guard is evaluated at least every `check_interval`.
     pub(super) fn new(along: A, rounding: R, (from, to): (f64, f64), check_interval: f64) -> Self {
         let longest = check_interval / NODE_DISTANCE;
         let (known_rounding, own) = (OnceCell::new(), Cell::new(0.0));
@@ -66,13 +69,14 @@ impl<A: Fn(f64) -> f64, R: Fn(f64, f64) -> f64> GuardOnStep<A, R> {
         self.known_rounding.get_or_init(|| (self.rounding)(self.from, self.to)).max(self.own.get())
     }
 
-    /// The same for an interval. Where the guard is flat, rounding of the state changes it less than elsewhere on the step.
+    /// The same for an interval. Where the guard is flat, rounding of the state changes it less than elsewhere on
+    /// the step.
     fn error_on(&self, left: f64, right: f64) -> f64 {
         (self.rounding)(left, right).max(self.own.get())
     }
 
-    /// The values at the nodes of an interval minus `level`; `None` if the interval is to be halved because one of them is
-    /// not a number.
+    /// The values at the nodes of an interval minus `level`; `None` if the interval is to be halved because one of
+    /// them is not a number.
     fn values_at_nodes(
         &self,
         left: f64,

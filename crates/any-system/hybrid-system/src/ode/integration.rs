@@ -6,11 +6,10 @@ use super::tolerances::Tolerances;
 use crate::error::Error;
 use crate::state::StateVector;
 
-/// A solution of ẋ = f(t, x), followed step by step.
-/// The scheme is Verner's pair of orders 9 and 8, of orders 8 and 7, or of orders 6 and 5, by the relative tolerance. The
-/// tolerance bounds the estimated error of each step. The flow propagates these errors, and they add up. If the field
-/// gives the same results on every machine, so does the integration. For states of up to eight components it allocates
-/// no memory, for longer ones only at the start.
+/// A solution of ẋ = f(t, x), followed step by step. The scheme is Verner's pair of orders 9 and 8, of orders 8 and
+/// 7, or of orders 6 and 5, by the relative tolerance. The tolerance bounds the estimated error of each step. The
+/// flow propagates these errors, and they add up. If the field gives the same results on every machine, so does the
+/// integration. For states of up to eight components it allocates no memory, for longer ones only at the start.
 ///
 /// A step that meets a field which is infinite or NaN is shortened. So the field need not be defined behind the event
 /// that ends an arc.

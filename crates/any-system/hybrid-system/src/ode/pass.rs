@@ -15,10 +15,10 @@ use crate::state::StateVector;
 use crate::system::HybridSystem;
 use smallvec::SmallVec;
 
-/// Rounding error of an interpolant, in units of that of the largest state on its step. The value is an estimate, not
-/// derived: with the factors of `guard_rounding` it is 6·10⁻¹⁴ of the state. Measured on the problem of `schemes`, steps of
-/// 1/16 and 1/32: the pair 9(8) is wrong by 2·10⁻¹⁶. If the value is too small, rounding is taken for a crossing; if it is
-/// too large, touches are reported too early.
+/// Rounding error of an interpolant, in units of that of the largest state on its step. The value is an estimate,
+/// not derived: with the factors of `guard_rounding` it is 6·10⁻¹⁴ of the state. Measured on the problem of
+/// `schemes`, steps of 1/16 and 1/32: the pair 9(8) is wrong by 2·10⁻¹⁶. If the value is too small, rounding is
+/// taken for a crossing; if it is too large, touches are reported too early.
 const INTERPOLANT_ROUNDING: f64 = 64.0;
 
 /// A step is skipped if the guard's smallest distance from zero is more than one half of its variation.
@@ -131,10 +131,12 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         away
     }
 
-    /// Another guard that has its zero before the event of `surface`, if any, at `time`, on the step as it is corrected there.
+    /// Another guard that has its zero before the event of `surface`, if any, at `time`, on the step as it is
+    /// corrected there.
     ///
-    /// The search compares zeros along the interpolant. The correction may exchange two of them that are nearer to each other
-    /// than it is large. The next arc begins on the corrected step: a guard that has changed its sign there has had its zero.
+    /// The search compares zeros along the interpolant. The correction may exchange two of them that are nearer to
+    /// each other than it is large. The next arc begins on the corrected step: a guard that has changed its sign
+    /// there has had its zero.
     pub(super) fn sooner_on(
         &self,
         on_step: &CorrectedStep<T::State>,
@@ -169,8 +171,8 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         stated: f64,
     ) -> GuardOnStep<impl Fn(f64) -> f64, impl Fn(f64, f64) -> f64> {
         let value = move |state: &T::State| self.system.guard_value(surface, state);
-        // The middle one of three places stands for the interval: at one of them a guard may have a rate of zero, and at
-        // another one it may jump.
+        // The middle one of three places stands for the interval: at one of them a guard may have a rate of zero,
+        // and at another one it may jump.
         let rounding = move |left: f64, right: f64| {
             let magnitude = step.magnitude();
             let size = magnitude.filled(|axis| INTERPOLANT_ROUNDING * magnitude.components()[axis]);
@@ -211,8 +213,8 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         }
     }
 
-    /// No event before the horizon. A guard on its way to the surface that is nearer to it than its rounding has its event
-    /// on the horizon: the field is not evaluated beyond.
+    /// No event before the horizon. A guard on its way to the surface that is nearer to it than its rounding has
+    /// its event on the horizon: the field is not evaluated beyond.
     pub(super) fn at_horizon<F>(
         &self,
         followed: &[Followed<T::Surface>],

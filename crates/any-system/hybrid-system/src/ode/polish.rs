@@ -1,5 +1,5 @@
-//! The time and the state of a crossing without the rounding of the interpolant, and two errors of the time: by rounding,
-//! and by the error of the flow.
+//! The time and the state of a crossing without the rounding of the interpolant, and two errors of the time: by
+//! rounding, and by the error of the flow.
 
 use super::integration::Integration;
 use super::step::Step;
@@ -23,9 +23,9 @@ const RATE_REACH: f64 = 1e-4;
 /// the guard between the crossing and that place.
 const CLEAR: f64 = 0.75;
 
-/// A guard jumps at its zero if it changes there, between two neighbouring doubles, this many times more than by its rate.
-/// A smaller number would take the rounding of a guard for a jump, which costs some evaluations; a larger one would give a
-/// jump an error of up to this many ulps too much.
+/// A guard jumps at its zero if it changes there, between two neighbouring doubles, this many times more than by
+/// its rate. A smaller number would take the rounding of a guard for a jump, which costs some evaluations; a larger
+/// one would give a jump an error of up to this many ulps too much.
 const JUMP: f64 = 1e3;
 
 /// How accurate a flow is: its tolerances, and the number of steps from the start.
@@ -36,8 +36,8 @@ pub(super) struct Accuracy {
 }
 
 impl Accuracy {
-    /// An estimate of the error of a guard by the error of the flow: the change of the guard if each component changes by
-    /// its tolerance on every step. Growth or decay of these errors along the flow is not known here.
+    /// An estimate of the error of a guard by the error of the flow: the change of the guard if each component
+    /// changes by its tolerance on every step. Growth or decay of these errors along the flow is not known here.
     pub(super) fn guard_error<V: StateVector>(&self, state: &V, guard: impl Fn(&V) -> f64) -> f64 {
         let unit = |axis: usize| self.tolerances.of(axis, state.components()[axis].abs());
         change_by_components(state, |axis| self.steps as f64 * unit(axis), guard)
@@ -71,8 +71,8 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
         self.step.from
     }
 
-    /// The first zero of a guard that is on `side` where the step begins and no longer so at a time with this value; `None` if
-    /// the values show no side before.
+    /// The first zero of a guard that is on `side` where the step begins and no longer so at a time with this
+    /// value; `None` if the values show no side before.
     pub(super) fn first_zero(
         &self,
         (until, at_until): (f64, f64),
@@ -98,9 +98,10 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
         [(time - reach).max(from), (time + reach).min(to)].map(|time| self.state(time))
     }
 
-    /// The distance in time at which the guard differs from zero by more than its `error` there, at both sides of its zero
-    /// at `time`. It is at most the length of the step: farther away the guard is not looked at. If the search has seen that
-    /// rounding hides the guard for the time `hidden` before the crossing, also on earlier steps, it is no less.
+    /// The distance in time at which the guard differs from zero by more than its `error` there, at both sides of
+    /// its zero at `time`. It is at most the length of the step: farther away the guard is not looked at. If the
+    /// search has seen that rounding hides the guard for the time `hidden` before the crossing, also on earlier
+    /// steps, it is no less.
     fn clear_distance(
         &self,
         (time, hidden, first): (f64, f64, f64),
@@ -133,8 +134,8 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
 
     /// How far the event of the true trajectory may be from `time`: where the guard is clear of the error of the flow.
     ///
-    /// For a guard that is crossed at the rate ġ this is the error over |ġ|. At a touch it is about the root of the error.
-    /// At a jump it is the time in which the flow moves by its own error.
+    /// For a guard that is crossed at the rate ġ this is the error over |ġ|. At a touch it is about the root of the
+    /// error. At a jump it is the time in which the flow moves by its own error.
     pub(super) fn time_error(
         &self,
         (time, time_rounding): (f64, f64),
@@ -153,10 +154,10 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
 
 /// A crossing without the rounding error of the interpolant, and the step on which it lies.
 ///
-/// A separate step from the start of the last step to `time` gives the state without that error. The difference between
-/// the two states changes little around `time`. Therefore it is added to the interpolant, and the crossing is searched
-/// again next to the old one. The rounding of the interpolant may hide the guard for a time `hidden` around the crossing:
-/// the values with the correction show a change of sign there.
+/// A separate step from the start of the last step to `time` gives the state without that error. The difference
+/// between the two states changes little around `time`. Therefore it is added to the interpolant, and the crossing
+/// is searched again next to the old one. The rounding of the interpolant may hide the guard for a time `hidden`
+/// around the crossing: the values with the correction show a change of sign there.
 pub(super) fn polished<'a, F, V: StateVector>(
     integration: &mut Integration<F, V>,
     step: &'a Step<V>,

@@ -79,9 +79,9 @@ pub(super) fn scatter(values: &[f64; NODES]) -> f64 {
 
 /// True if the guard jumps or has a kink among the nodes, on an interval on which a smooth guard is a straight line.
 ///
-/// The distances of the values from the straight lines through their neighbours tell: at a jump or a kink most of their sum
-/// belongs to three neighbouring nodes, and the lines before and behind them differ. Rounding moves all values; if it
-/// moves only one, the lines are the same.
+/// The distances of the values from the straight lines through their neighbours tell: at a jump or a kink most of
+/// their sum belongs to three neighbouring nodes, and the lines before and behind them differ. Rounding moves all
+/// values; if it moves only one, the lines are the same.
 pub(super) fn is_broken(values: &[f64; NODES]) -> bool {
     let nodes = &CHEBYSHEV.nodes;
     let line = |a: usize, b: usize, at: usize| {

@@ -48,9 +48,9 @@ const TOGETHER: usize = 4;
 
 /// Calls `$block::<M>(axis, …)` for all components below n, M ≤ [`TOGETHER`] components at a time.
 ///
-/// The functions that use it are always inlined: the compiler knows the dimension of a [`State<N>`](crate::state::State)
-/// then, and keeps the blocks of that dimension alone. As separate functions they take a third more time for the whole
-/// integration of a state with three components.
+/// The functions that use it are always inlined: the compiler knows the dimension of a
+/// [`State<N>`](crate::state::State) then, and keeps the blocks of that dimension alone. As separate functions they
+/// take a third more time for the whole integration of a state with three components.
 macro_rules! in_blocks {
     ($n:expr, $block:ident($($argument:expr),*)) => {{
         let (n, mut axis) = ($n, 0);

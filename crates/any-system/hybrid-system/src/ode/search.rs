@@ -12,10 +12,10 @@ use crate::looked::Looked;
 use crate::system::HybridSystem;
 use smallvec::SmallVec;
 
-/// If rounding hides the guard at a time on the first step, and this multiple of the time is shorter than the step, the
-/// search is repeated with a first step of that length: the rounding of an interpolant shrinks with its step, until only
-/// the rounding of the state is left. The hidden time then lies in the middle of the step. A smaller number might end
-/// the step before it, a larger one leaves more rounding.
+/// If rounding hides the guard at a time on the first step, and this multiple of the time is shorter than the step,
+/// the search is repeated with a first step of that length: the rounding of an interpolant shrinks with its step,
+/// until only the rounding of the state is left. The hidden time then lies in the middle of the step. A smaller
+/// number might end the step before it, a larger one leaves more rounding.
 const SHORTER_FIRST_STEP: f64 = 2.0;
 
 /// A repetition must shorten the first step by this factor at least, so that the repetitions end.
@@ -154,8 +154,8 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         self.at_horizon(&followed, integration, steps).map(Outcome::Finished)
     }
 
-    /// The first crossing or touch of all guards on a step, no later than `until`. Of two at the same instant, that of the
-    /// guard that is listed first.
+    /// The first crossing or touch of all guards on a step, no later than `until`. Of two at the same instant, that
+    /// of the guard that is listed first.
     fn first_on_step<'a>(
         &self,
         followed: &'a mut [Followed<T::Surface>],

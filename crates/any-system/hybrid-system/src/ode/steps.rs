@@ -29,9 +29,9 @@ const SMALLEST_STEP: f64 = 1e-14;
 /// integration ends with [`Error::Integration`].
 const MOST_TRIALS: usize = 100;
 
-/// A trial whose error exceeds the tolerance by this factor makes the next steps cautious. The controller aims at less than
-/// half of the tolerance. With 3 van der Pol's oscillator takes up to 7 % more evaluations, and the worst errors at kinks
-/// stay the same; with 1.5 the pendulum takes up to 17 % more.
+/// A trial whose error exceeds the tolerance by this factor makes the next steps cautious. The controller aims at
+/// less than half of the tolerance. With 3 van der Pol's oscillator takes up to 7 % more evaluations, and the worst
+/// errors at kinks stay the same; with 1.5 the pendulum takes up to 17 % more.
 const ROUGH: f64 = 10.0;
 
 /// The reason of the error of an integration that has used its budget.
@@ -81,8 +81,8 @@ pub(super) struct Steps<F, V> {
     pub(super) next: Option<f64>,
     /// A bound on the length of the first step.
     pub(super) longest_first: f64,
-    /// A kink of the field lies perhaps before this time: steps that start earlier, in the direction of the integration,
-    /// estimate their errors by [`Scheme::kinks`] as well.
+    /// A kink of the field lies perhaps before this time: steps that start earlier, in the direction of the
+    /// integration, estimate their errors by [`Scheme::kinks`] as well.
     pub(super) kink_until: f64,
     /// The last rejected trial ended here: steps that start earlier must meet a tolerance that is smaller by
     /// [`Scheme::kink_ratio`].
@@ -270,7 +270,8 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
     }
 
     /// Tries a step of this size from now to `to`. Its result is the norm of the estimated error in units of the
-    /// tolerances, the largest component: of the usual estimate, and of the one that decides. At most 1 means that the rows `AFTER` and `SLOPE_AFTER` are the next state.
+    /// tolerances, the largest component: of the usual estimate, and of the one that decides. At most 1 means that
+    /// the rows `AFTER` and `SLOPE_AFTER` are the next state.
     fn trial(&mut self, size: f64, to: f64, caution: Caution) -> Result<(f64, f64), Failed> {
         let n = self.n();
         self.slopes.row_mut(0, n).copy_from_slice(self.vectors.row(SLOPE, n));

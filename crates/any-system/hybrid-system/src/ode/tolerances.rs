@@ -5,9 +5,10 @@ use crate::error::Error;
 /// How accurately a flow is integrated, and how far a step may reach.
 ///
 /// # Kinks
-/// The estimate of the error of a step takes the field to be smooth. A step over a kink of the field is recognised by a
-/// large estimate, and repeated with shorter steps. At some places in the step the estimate is small by chance, and the kink
-/// stays hidden. Measured: the largest of 200 errors, each for another place of the kink, in units of the tolerance:
+/// The estimate of the error of a step takes the field to be smooth. A step over a kink of the field is recognised
+/// by a large estimate, and repeated with shorter steps. At some places in the step the estimate is small by
+/// chance, and the kink stays hidden. Measured: the largest of 200 errors, each for another place of the kink, in
+/// units of the tolerance:
 ///
 /// | field | 1e-5 | 1e-6 | 1e-8 | 1e-9 | 3e-10 | 1e-10 | 3e-11 | 1e-12 |
 /// |---|---:|---:|---:|---:|---:|---:|---:|---:|
@@ -15,9 +16,8 @@ use crate::error::Error;
 /// | a contact with the force 30 max(0, −x)^1.5 | 47 | 96 | 46 | 51 | 32 | 30 | 43 | 19 |
 /// | the same, the contact is a surface | 12 | 5.9 | 0.2 | 0.3 | 0.6 | 0.2 | 3.3 | 0.3 |
 ///
-/// The last row is the remedy, and it is exact: the kink is a surface of the model. A guard there,
-/// or an observer, ends the arc at the kink, and no later step contains it. Best are two modes, each with its own smooth
-/// field.
+/// The last row is the remedy, and it is exact: the kink is a surface of the model. A guard there, or an observer,
+/// ends the arc at the kink, and no later step contains it. Best are two modes, each with its own smooth field.
 ///
 /// # Example
 /// ```
@@ -41,16 +41,16 @@ pub struct Tolerances {
     /// No step is longer, in the unit of time; infinite by default. Something that the field does only for a short time
     /// (a pulse of a forcing) is seen by every step if this is shorter than that time.
     pub longest_step: f64,
-    /// Every guard is looked at this often at least, in the unit of time; infinite by default. A guard that is beyond its
-    /// surface for a longer time is then found, however long the steps are.
+    /// Every guard is looked at this often at least, in the unit of time; infinite by default. A guard that is
+    /// beyond its surface for a longer time is then found, however long the steps are.
     pub check_interval: f64,
     /// Most steps of one integration, rejected ones included.
     pub steps: usize,
 }
 
-/// Most steps by default. It limits the time that an integration takes, not its accuracy. A field that needs more steps
-/// is probably stiff: near a stable equilibrium with the rate λ the steps of an explicit method are no longer than about
-/// 5/λ, so that this number of them covers 10⁶ times 1/λ and more.
+/// Most steps by default. It limits the time that an integration takes, not its accuracy. A field that needs more
+/// steps is probably stiff: near a stable equilibrium with the rate λ the steps of an explicit method are no longer
+/// than about 5/λ, so that this number of them covers 10⁶ times 1/λ and more.
 const MOST_STEPS: usize = 1_000_000;
 
 impl Tolerances {
@@ -78,9 +78,9 @@ impl Tolerances {
     /// As `self`, with a relative tolerance for each component. A state with another number of components is
     /// [`Error::Dimension`].
     ///
-    /// An angle that turns for ever, or time as a component, has no natural size: its allowed error should not grow with
-    /// it. Such a component has the relative tolerance zero. No absolute tolerance could replace this, because the
-    /// relative part is added to it.
+    /// An angle that turns for ever, or time as a component, has no natural size: its allowed error should not grow
+    /// with it. Such a component has the relative tolerance zero. No absolute tolerance could replace this, because
+    /// the relative part is added to it.
     #[must_use]
     pub const fn relative_each(mut self, relative: &'static [f64]) -> Self {
         self.relative_each = Some(relative);

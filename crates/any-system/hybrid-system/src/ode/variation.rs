@@ -66,8 +66,8 @@ where
 }
 
 /// ∂φ(t; x₀, p)/∂p in an integrated mode, at fixed start and time: the value that
-/// [`Parametric::flow_by_parameters`](crate::Parametric::flow_by_parameters) returns there. `by_parameters` is ∂f/∂p, with
-/// one column for each parameter.
+/// [`Parametric::flow_by_parameters`](crate::Parametric::flow_by_parameters) returns there. `by_parameters` is
+/// ∂f/∂p, with one column for each parameter.
 ///
 /// The tolerances apply to its entries as to the state.
 ///

@@ -10,8 +10,9 @@
 //! | < 0 | < 0 | leaves σ downwards |
 //! | < 0 | > 0 | leaves to either side: not unique |
 //!
-//! If the sliding field behind ρ points back at ρ, the motion stays where both surfaces meet. Filippov's convention gives
-//! no unique field there. The execution recognises this as sliding along ρ between two sliding modes, and ends.
+//! If the sliding field behind ρ points back at ρ, the motion stays where both surfaces meet. Filippov's convention
+//! gives no unique field there. The execution recognises this as sliding along ρ between two sliding modes, and
+//! ends.
 
 use super::detection::{is_unchanged, same_surface};
 use super::filippov::{Filippov, Sides};

@@ -1,11 +1,12 @@
 //! Does an execution reach a surface at which the fields on both sides point?
 //!
-//! An event on the surface σ leads from mode m to m⁺. There an event follows at once, on the same surface. The execution
-//! slides if
+//! An event on the surface σ leads from mode m to m⁺. There an event follows at once, on the same surface. The
+//! execution slides if
 //!
 //! * the two resets lead back and forth between m and m⁺ and leave the state where it is,
 //! * the state is on the surface, and
-//! * the guard of m rises through σ and that of m⁺ falls through it, or the other way round, by the signs of their rates.
+//! * the guard of m rises through σ and that of m⁺ falls through it, or the other way round, by the signs of their
+//!   rates.
 //!
 //! The decision needs these signs, not a number of bounces. A rate of zero is decided by the second derivative: a field
 //! that is tangent to the surface and bends back to it points at it, too. If rounding hides both, or if the model gives
@@ -19,17 +20,17 @@ use crate::guard::Direction;
 use crate::state::StateVector;
 use crate::system::{HybridSystem, Reset};
 
-/// A reset leaves the state where it is if no component changes by more than this many ulps of its size. A larger number
-/// would take small impacts for roundings; a smaller one would miss resets that compute the state again.
+/// A reset leaves the state where it is if no component changes by more than this many ulps of its size. A larger
+/// number would take small impacts for roundings; a smaller one would miss resets that compute the state again.
 const UNCHANGED_ULPS: f64 = 16.0;
 
-/// A state is on a surface if the guard is within this multiple of its rounding error. A reset may add some roundings to
-/// those of the guard. A larger number would take a state beside the surface for one on it.
+/// A state is on a surface if the guard is within this multiple of its rounding error. A reset may add some
+/// roundings to those of the guard. A larger number would take a state beside the surface for one on it.
 const ON_SURFACE: f64 = 16.0;
 
 /// Two surfaces are the same at a state if the sine of the angle between their gradients is below this number. The
-/// gradients are central differences, with errors of about 10⁻¹⁰. Two surfaces that touch at the state count as the same:
-/// to first order the fields cannot tell them apart.
+/// gradients are central differences, with errors of about 10⁻¹⁰. Two surfaces that touch at the state count as the
+/// same: to first order the fields cannot tell them apart.
 const SAME_ANGLE: f64 = 1e-6;
 
 /// Displacement for the gradients, relative to the size of a component: ε^(1/3), which makes truncation and rounding
@@ -134,8 +135,8 @@ fn fires_towards<T: HybridSystem>(
     })
 }
 
-/// True if the state is on the surface: within rounding of the guard, or as close as the crossing before, or so close that
-/// a motion at this rate of the guard takes less than some roundings of the time.
+/// True if the state is on the surface: within rounding of the guard, or as close as the crossing before, or so
+/// close that a motion at this rate of the guard takes less than some roundings of the time.
 fn is_on_surface<T: HybridSystem>(
     system: &T,
     surface: T::Surface,

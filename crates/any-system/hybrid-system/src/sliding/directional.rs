@@ -41,8 +41,8 @@ const AGREEMENT: f64 = 8.0;
 /// Relative rounding of a difference: the products and sums with the four weights.
 const RELATIVE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// The derivative of `function` at `state` along `direction`, d/ds f(x + s d) at s = 0. The `rounding` of a value of the
-/// function enters the error; with 0 only the roundings of sums and products enter.
+/// The derivative of `function` at `state` along `direction`, d/ds f(x + s d) at s = 0. The `rounding` of a value
+/// of the function enters the error; with 0 only the roundings of sums and products enter.
 ///
 /// A direction of zeros gives exactly 0. A function or direction that is not finite gives NaN.
 pub(crate) fn slope_along<X: StateVector>(

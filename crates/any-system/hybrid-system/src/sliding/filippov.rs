@@ -14,17 +14,18 @@ use crate::system::HybridSystem;
 type Gradient<T> =
     fn(&T, <T as HybridSystem>::Surface, &<T as HybridSystem>::State) -> <T as HybridSystem>::State;
 
-/// A system that goes on along a surface at which the fields of both sides point, by Filippov's convention: with the mean
-/// of both fields that is tangent to the surface.
+/// A system that goes on along a surface at which the fields of both sides point, by Filippov's convention: with
+/// the mean of both fields that is tangent to the surface.
 ///
-/// The modes are [`FilippovMode::Free`](crate::FilippovMode::Free), the modes of the model, and [`FilippovMode::Sliding`](crate::FilippovMode::Sliding). A sliding mode ends where
-/// the field of one side turns tangent, a [`FilippovSurface::Tangent`](crate::FilippovSurface::Tangent), and at the other surfaces of both sides.
-/// [Filippov's convention](crate::sliding_motion) has the mathematics.
+/// The modes are [`FilippovMode::Free`](crate::FilippovMode::Free), the modes of the model, and
+/// [`FilippovMode::Sliding`](crate::FilippovMode::Sliding). A sliding mode ends where the field of one side turns
+/// tangent, a [`FilippovSurface::Tangent`](crate::FilippovSurface::Tangent), and at the other surfaces of both
+/// sides. [Filippov's convention](crate::sliding_motion) has the mathematics.
 ///
 /// Where the model has a [mode of its own](HybridSystem::slide) for a surface, the execution goes on in that one.
 ///
-/// The model must give its [fields](HybridSystem::vector_field). Its free modes may be integrated or in closed form. The
-/// sliding motion is integrated with the tolerances of this type.
+/// The model must give its [fields](HybridSystem::vector_field). Its free modes may be integrated or in closed
+/// form. The sliding motion is integrated with the tolerances of this type.
 ///
 /// Dry friction: a mass on a spring, on a belt of speed 1, which pulls with a force of at most 2.
 ///
@@ -57,15 +58,16 @@ type Gradient<T> =
 /// ```
 ///
 /// # Accuracy
-/// The states that `flow` and events return are on the surface, within the rounding of its guard. Inside an integration
-/// they may be off it by some errors of the steps: the integrated field leads back to the surface. At an exit the free mode
-/// starts on the surface, with a rate that is zero within the errors; the next derivative decides that it leaves.
+/// The states that `flow` and events return are on the surface, within the rounding of its guard. Inside an
+/// integration they may be off it by some errors of the steps: the integrated field leads back to the surface. At
+/// an exit the free mode starts on the surface, with a rate that is zero within the errors; the next derivative
+/// decides that it leaves.
 ///
 /// # Degenerate cases
 /// Where two sliding surfaces meet the convention gives no unique field: the execution ends there, in
-/// [`ArcEnd::Sliding`](crate::ArcEnd::Sliding) with `after: None`. Where both fields turn tangent together, or the resets
-/// of both sides disagree, the search returns [`Error::SlidingNotUnique`](crate::Error::SlidingNotUnique). A model whose
-/// fields point away from the surface on both sides flows in the mode in which it starts.
+/// [`ArcEnd::Sliding`](crate::ArcEnd::Sliding) with `after: None`. Where both fields turn tangent together, or the
+/// resets of both sides disagree, the search returns [`Error::SlidingNotUnique`](crate::Error::SlidingNotUnique). A
+/// model whose fields point away from the surface on both sides flows in the mode in which it starts.
 pub struct Filippov<T: HybridSystem> {
     pub(super) system: T,
     pub(super) tolerances: Tolerances,
@@ -102,14 +104,14 @@ pub(super) struct Fields<X> {
 impl<T: HybridSystem> Filippov<T> {
     /// The system with sliding modes, integrated to these tolerances.
     ///
-    /// The rates ∇g·f are computed by differences of order eight: exact to rounding for linear and quadratic guards, and to
-    /// about 10⁻¹⁴ for guards that change over distances of the size of the state.
+    /// The rates ∇g·f are computed by differences of order eight: exact to rounding for linear and quadratic
+    /// guards, and to about 10⁻¹⁴ for guards that change over distances of the size of the state.
     pub const fn new(system: T, tolerances: Tolerances) -> Self {
         Filippov { system, tolerances, gradient: None, follows: true, guards: GuardTable::new() }
     }
 
-    /// Whether executions go on along surfaces, as they do unless this is false. A program whose users choose has one type
-    /// for both: without it an execution ends where it would slide, as an execution of the model does.
+    /// Whether executions go on along surfaces, as they do unless this is false. A program whose users choose has
+    /// one type for both: without it an execution ends where it would slide, as an execution of the model does.
     #[must_use]
     pub const fn following(mut self, follows: bool) -> Self {
         self.follows = follows;
@@ -231,10 +233,11 @@ impl<T: HybridSystem> Filippov<T> {
     ///   f_s(P(x)) + κ (P(x) − x)      κ = |f_s|/(1 + |x|)
     /// ```
     ///
-    /// Off the surface the convention defines no field. Without the second term the distance δ from the surface would grow
-    /// with the errors of the steps. On a curved surface it would change the speed along the surface by a part δ. With it
-    /// the distance stays at a few errors of a step. κ is the inverse of the time in which the state changes by its own
-    /// size: a larger one would make the field stiff, a smaller one would return more slowly than the state moves.
+    /// Off the surface the convention defines no field. Without the second term the distance δ from the surface
+    /// would grow with the errors of the steps. On a curved surface it would change the speed along the surface by
+    /// a part δ. With it the distance stays at a few errors of a step. κ is the inverse of the time in which the
+    /// state changes by its own size: a larger one would make the field stiff, a smaller one would return more
+    /// slowly than the state moves.
     pub(super) fn integrated_field(
         &self,
         sides: &Sides<T::Mode, T::Surface>,

@@ -28,7 +28,8 @@ pub enum FilippovMode<M, S> {
 pub enum FilippovSurface<M, S> {
     /// A surface of the model.
     Model(S),
-    /// The field of `mode` is tangent to `surface`: ∇g·f = 0. The sliding motion leaves the surface there, into that mode.
+    /// The field of `mode` is tangent to `surface`: ∇g·f = 0. The sliding motion leaves the surface there, into
+    /// that mode.
     Tangent {
         /// The surface along which the state slides.
         surface: S,

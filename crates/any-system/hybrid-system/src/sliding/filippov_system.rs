@@ -121,8 +121,8 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
         Some((FilippovMode::Free(mode), state))
     }
 
-    /// The model's own mode if it gives one, else the sliding mode on the surface. `None` where two sliding surfaces meet, and
-    /// for a model without fields.
+    /// The model's own mode if it gives one, else the sliding mode on the surface. `None` where two sliding
+    /// surfaces meet, and for a model without fields.
     fn slide(
         &self,
         sliding: &Sliding<Self::Mode, Self::Surface, T::State>,

@@ -2,9 +2,9 @@
 
 use crate::state::StateVector;
 
-/// Most steps onto the surface. A step leaves rounding, relative to the distance: on a surface like {x : x₁ = 0} the
-/// component shrinks by a factor of 10⁻¹⁶ in each step, and is exactly 0 after 20 of them. Elsewhere the steps end earlier, at
-/// the rounding of the guard. The number only limits a search that converges slowly.
+/// Most steps onto the surface. A step leaves rounding, relative to the distance: on a surface like {x : x₁ = 0}
+/// the component shrinks by a factor of 10⁻¹⁶ in each step, and is exactly 0 after 20 of them. Elsewhere the steps
+/// end earlier, at the rounding of the guard. The number only limits a search that converges slowly.
 const MOST_CORRECTIONS: usize = 40;
 
 /// The point of the surface next to `state` along f⁺ − f⁻.

@@ -14,8 +14,8 @@ pub(crate) struct GuardRates {
 }
 
 impl GuardRates {
-    /// The side to which the guard leaves a zero, ±1: the sign of the first derivative that is not zero within its error.
-    /// `None` if both are hidden.
+    /// The side to which the guard leaves a zero, ±1: the sign of the first derivative that is not zero within its
+    /// error. `None` if both are hidden.
     pub(crate) fn side(&self) -> Option<f64> {
         if self.first.is_hidden() {
             return self.second.and_then(Estimate::sign);
@@ -24,8 +24,8 @@ impl GuardRates {
     }
 }
 
-/// The rates of the guard of `surface` along the flow of `mode` at `state`, with errors that contain the rounding of the
-/// state. `None` if the model gives neither a quasi-polynomial nor enclosures nor a field.
+/// The rates of the guard of `surface` along the flow of `mode` at `state`, with errors that contain the rounding
+/// of the state. `None` if the model gives neither a quasi-polynomial nor enclosures nor a field.
 ///
 /// | the model gives | ġ | error |
 /// |---|---|---|

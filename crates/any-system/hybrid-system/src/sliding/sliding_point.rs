@@ -2,8 +2,8 @@
 
 /// A point of a surface at which the fields on both sides point: ġ > 0 below the surface, where g < 0, and ġ < 0 above.
 ///
-/// The execution cannot leave the surface to either side. Filippov's convention gives it the field f_s, the mean of both
-/// fields that is tangent to the surface.
+/// The execution cannot leave the surface to either side. Filippov's convention gives it the field f_s, the mean of
+/// both fields that is tangent to the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sliding<M, S, X> {
     /// The surface.

@@ -16,7 +16,8 @@ use std::sync::Arc;
 #[pyclass(frozen, get_all, module = "passive_hopper.hybrid")]
 #[derive(Debug)]
 pub(crate) struct Event {
-    /// The name of the guard; "NAME: end of sliding" where the field of one side turns tangent to the guard of this name.
+    /// The name of the guard; "NAME: end of sliding" where the field of one side turns tangent to the guard of this
+    /// name.
     surface: String,
     /// The time.
     time: f64,
@@ -121,7 +122,8 @@ impl HybridArc {
         }
     }
 
-    /// How certain it is that no event is missed: "exact", "certain", "interpolated" or "sampled"; None at a Zeno limit and where it slides.
+    /// How certain it is that no event is missed: "exact", "certain", "interpolated" or "sampled"; None at a Zeno
+    /// limit and where it slides.
     #[getter]
     fn certainty(&self) -> Option<&'static str> {
         match &self.own.end {

@@ -1,7 +1,8 @@
 //! A model during one call: the hybrid system of the library, whose functions are those of Python.
 //!
-//! The library has no way to pass an exception through its searches. The first exception is therefore kept, all later values are NaN without a call
-//! of Python, the search ends at once on them, and the caller raises the exception that is kept.
+//! The library has no way to pass an exception through its searches. The first exception is therefore kept, all
+//! later values are NaN without a call of Python, the search ends at once on them, and the caller raises the
+//! exception that is kept.
 
 use super::guards::{After, Times};
 use super::model::{Model, Watched};

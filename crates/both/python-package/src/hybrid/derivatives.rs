@@ -1,6 +1,7 @@
 //! Derivatives through arcs and events: state transition and saltation matrices.
 //!
-//! The library has them for states whose dimension is known when it is compiled. Arcs of a user are converted to one of these.
+//! The library has them for states whose dimension is known when it is compiled. Arcs of a user are converted to
+//! one of these.
 
 use super::arcs::{HybridArc, OwnArc};
 use super::callables::Callables;
@@ -178,9 +179,10 @@ impl Derivative for AtTheEvent {
 
 /// The derivative of the state at the end of the last arc, after its event, by the start of the first one: a matrix.
 ///
-/// arcs are consecutive ones of one execution. Orbits with other starts are compared at the same time: an event that comes later by δτ changes the
-/// state after it (saltation). The derivatives of the functions are central differences, with about ten digits; a field has its variational
-/// equation. The model needs field=, also beside a flow in closed form. A parameter is a component of the state that never changes.
+/// arcs are consecutive ones of one execution. Orbits with other starts are compared at the same time: an event
+/// that comes later by δτ changes the state after it (saltation). The derivatives of the functions are central
+/// differences, with about ten digits; a field has its variational equation. The model needs field=, also beside a
+/// flow in closed form. A parameter is a component of the state that never changes.
 ///
 /// >>> from passive_hopper.hybrid import Guard, HybridSystem, sensitivity
 /// >>> ball = HybridSystem(
@@ -191,7 +193,8 @@ impl Derivative for AtTheEvent {
 /// >>> round(float(sensitivity(arcs[:1])[1, 1]), 6)    # faster by δ: it leaves faster by δ/2, and 2δ later
 /// 2.5
 ///
-/// ValueError where there is no derivative: an event that only touches its surface, two surfaces reached at one instant, a Zeno limit.
+/// ValueError where there is no derivative: an event that only touches its surface, two surfaces reached at one
+/// instant, a Zeno limit.
 #[pyfunction]
 pub(crate) fn sensitivity<'py>(
     py: Python<'py>,
@@ -214,8 +217,9 @@ pub(crate) fn sensitivity<'py>(
     shaped(py, matrix, &[dimension, dimension])
 }
 
-/// The derivatives of the event that ends an arc by the start of the arc: the matrix ∂x⁺/∂x₀ of the state right after the event, and the row
-/// ∂τ/∂x₀ of its time. States of different orbits are compared at their events, and sensitivity() compares them at one time.
+/// The derivatives of the event that ends an arc by the start of the arc: the matrix ∂x⁺/∂x₀ of the state right
+/// after the event, and the row ∂τ/∂x₀ of its time. States of different orbits are compared at their events, and
+/// sensitivity() compares them at one time.
 ///
 /// ValueError as for sensitivity(), and if no event ends the arc, or the event ends the execution.
 #[pyfunction]

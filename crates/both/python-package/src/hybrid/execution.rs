@@ -105,9 +105,9 @@ impl Execution {
 
     /// The rest of the execution as a dictionary of arrays, with states at the times of `grid`, which rises.
     ///
-    /// Every arc has a row at its start and at its end: each event has the states before and after it. times, jumps, modes, states and on_grid
-    /// have one entry for each row. event_times, event_surfaces, event_modes, event_next_modes, event_before, event_after, event_kinds and
-    /// event_certainties have one for each event.
+    /// Every arc has a row at its start and at its end: each event has the states before and after it. times,
+    /// jumps, modes, states and on_grid have one entry for each row. event_times, event_surfaces, event_modes,
+    /// event_next_modes, event_before, event_after, event_kinds and event_certainties have one for each event.
     fn trajectory<'py>(
         &self,
         py: Python<'py>,
@@ -168,7 +168,8 @@ impl Execution {
         self.seen(Checkpoint::jump)
     }
 
-    /// Why it ended: "time limit", "event limit", "terminal", "no further event", "zeno", "sliding", "unfinished" or "failed"; None while it goes on.
+    /// Why it ended: "time limit", "event limit", "terminal", "no further event", "zeno", "sliding", "unfinished"
+    /// or "failed"; None while it goes on.
     #[getter]
     fn stop(&self) -> PyResult<Option<&'static str>> {
         let name = |stop| match stop {

@@ -23,17 +23,19 @@ pub(crate) enum After {
 
 /// A surface g(x) = 0, and what happens when a state crosses it.
 ///
-/// name names its events. value(x) is g. direction is "rising" (g goes from negative to positive), "falling" or "either".
-/// reset(mode, x) returns the next mode and state as a pair, or None to end the execution.
+/// name names its events. value(x) is g. direction is "rising" (g goes from negative to positive), "falling" or
+/// "either". reset(mode, x) returns the next mode and state as a pair, or None to end the execution.
 ///
-/// role is "switch": an event where the flow crosses the surface, with a reset. If a jump can lead to the far side, the guard must say
-/// what that means: "contact", a floor that holds, where the event is at once; or "crossing", which counts only when the flow crosses it.
-/// "observer": a crossing without a reset. "terminal": its event ends the execution. touch says what happens where g comes within rounding of zero and goes back: "error", "event" or "ignore".
-/// modes is a list of the modes that have the guard; None for all.
+/// role is "switch": an event where the flow crosses the surface, with a reset. If a jump can lead to the far side,
+/// the guard must say what that means: "contact", a floor that holds, where the event is at once; or "crossing",
+/// which counts only when the flow crosses it. "observer": a crossing without a reset. "terminal": its event ends
+/// the execution. touch says what happens where g comes within rounding of zero and goes back: "error", "event" or
+/// "ignore". modes is a list of the modes that have the guard; None for all.
 ///
-/// Two optional functions make its crossings certain: signal(mode, x) returns g along the flow from x as a QuasiPolynomial, or None;
-/// enclosure(mode, x, order, times) returns bounds (low, high) on a derivative of g along the flow over the times (from, to), or None.
-/// Without them a guard of a closed-form flow is sampled, and one of an integrated flow is followed along the steps.
+/// Two optional functions make its crossings certain: signal(mode, x) returns g along the flow from x as a
+/// QuasiPolynomial, or None; enclosure(mode, x, order, times) returns bounds (low, high) on a derivative of g along
+/// the flow over the times (from, to), or None. Without them a guard of a closed-form flow is sampled, and one of
+/// an integrated flow is followed along the steps.
 #[pyclass(frozen, module = "passive_hopper.hybrid")]
 #[derive(Debug)]
 pub(crate) struct Guard {
@@ -162,8 +164,9 @@ pub(crate) enum Times {
 
 /// Events at preset times.
 ///
-/// name names them. reset(mode, x) is as that of a Guard; without it nothing changes. The times are one of: times, a rising sequence,
-/// or a function from a time to the next event strictly after it, or None; period, with the time of the first event in first.
+/// name names them. reset(mode, x) is as that of a Guard; without it nothing changes. The times are one of: times,
+/// a rising sequence, or a function from a time to the next event strictly after it, or None; period, with the time
+/// of the first event in first.
 #[pyclass(frozen, module = "passive_hopper.hybrid")]
 #[derive(Debug)]
 pub(crate) struct Clock {

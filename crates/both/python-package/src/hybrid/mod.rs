@@ -4,10 +4,11 @@
 //!   guards, names ─► model ─► callables ─► arcs ─► execution ─► system
 //! ```
 //!
-//! A `model` is what a user has given to a `system`, with the `names` of its modes and its `guards`. During one call a `callables` object is
-//! the hybrid system of the library: it calls the functions, turns `vectors` to arrays of NumPy and back, and keeps the first exception.
-//! An `execution` is an iterator over `arcs`. `derivatives` go through
-//! arcs and events. A `sliding` point is one of a surface at which the fields on both sides point, and a `sliding_mode` the motion along it.
+//! A `model` is what a user has given to a `system`, with the `names` of its modes and its `guards`. During one
+//! call a `callables` object is the hybrid system of the library: it calls the functions, turns `vectors` to arrays
+//! of NumPy and back, and keeps the first exception. An `execution` is an iterator over `arcs`. `derivatives` go
+//! through arcs and events. A `sliding` point is one of a surface at which the fields on both sides point, and a
+//! `sliding_mode` the motion along it.
 
 mod arcs;
 mod callables;

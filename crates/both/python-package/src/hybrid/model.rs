@@ -177,8 +177,8 @@ impl Model {
         self.lists.get(mode.0).unwrap_or(&self.everywhere)
     }
 
-    /// The exception of an error: UndecidedError where rounding hides what happens, ArithmeticError where a computation cannot go on,
-    /// ValueError for wrong input. Modes and guards have their names in the message.
+    /// The exception of an error: UndecidedError where rounding hides what happens, ArithmeticError where a
+    /// computation cannot go on, ValueError for wrong input. Modes and guards have their names in the message.
     pub(crate) fn exception(&self, py: Python<'_>, error: &Error, cause: Option<String>) -> PyErr {
         let mut text = error.to_string();
         for number in 0..self.modes.count() {

@@ -9,8 +9,8 @@ use pyo3::types::PyTuple;
 
 /// A sum of polynomials times exponentials, sines and cosines of time: g(t) = Σ exp(σt) (p(t) cos ωt + q(t) sin ωt).
 ///
-/// Along the flow of constant forces, springs and linear dampers a guard is such a function. A Guard with a signal= has crossings that
-/// are certain: none is missed.
+/// Along the flow of constant forces, springs and linear dampers a guard is such a function. A Guard with a signal=
+/// has crossings that are certain: none is missed.
 ///
 /// >>> from passive_hopper.hybrid import QuasiPolynomial as Q
 /// >>> height = Q.polynomial([0, -4, 0.5]) + Q.sine(5, 1)      # t²/2 − 4t + 5 sin t
@@ -59,7 +59,8 @@ impl QuasiPolynomial {
         self.own.derivative().into()
     }
 
-    /// The time of the first crossing of zero in a direction ("rising", "falling" or "either") up to a horizon; None if there is none.
+    /// The time of the first crossing of zero in a direction ("rising", "falling" or "either") up to a horizon;
+    /// None if there is none.
     fn first_crossing(&self, direction: &str, horizon: f64) -> PyResult<Option<f64>> {
         let found = self.own.first_crossing(direction_of(direction)?, horizon);
         match found.map_err(value_error)? {

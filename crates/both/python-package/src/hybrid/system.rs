@@ -16,16 +16,19 @@ use std::sync::Arc;
 
 /// A hybrid system: a flow that is interrupted by events.
 ///
-/// The motion is either flow(mode, x, t), the state after the time t ≥ 0 from x in closed form, or field(mode, x), the right-hand side of
-/// ẋ = f(x), which is integrated with this tolerance. (A flow may have a field as well, which sliding needs.) x is an array; a function returns a
-/// list, a tuple or an array. A mode is any hashable object. guards is a list of Guard and Clock.
+/// The motion is either flow(mode, x, t), the state after the time t ≥ 0 from x in closed form, or field(mode, x),
+/// the right-hand side of ẋ = f(x), which is integrated with this tolerance. (A flow may have a field as well,
+/// which sliding needs.) x is an array; a function returns a list, a tuple or an array. A mode is any hashable
+/// object. guards is a list of Guard and Clock.
 ///
-/// rest(mode, x) returns the mode and the state after infinitely many events in finite time (Zeno), or None; slide(sliding) those on a
-/// surface at which the fields on both sides point. Without them the execution ends there. With slide="filippov" it goes on along the surface,
-/// in a SlidingMode, by the mean of both fields that is tangent to it (Filippov's convention), until the field of one side turns tangent.
+/// rest(mode, x) returns the mode and the state after infinitely many events in finite time (Zeno), or None;
+/// slide(sliding) those on a surface at which the fields on both sides point. Without them the execution ends
+/// there. With slide="filippov" it goes on along the surface, in a SlidingMode, by the mean of both fields that is
+/// tangent to it (Filippov's convention), until the field of one side turns tangent.
 ///
-/// sampled is the interval at which guards of a flow in closed form are looked at, unless they have a signal or an enclosure.
-/// longest_step and check_interval bound the steps of an integration, and the distance of two looks at its guards.
+/// sampled is the interval at which guards of a flow in closed form are looked at, unless they have a signal or an
+/// enclosure. longest_step and check_interval bound the steps of an integration, and the distance of two looks at
+/// its guards.
 ///
 /// >>> from passive_hopper.hybrid import Guard, HybridSystem
 /// >>> ball = HybridSystem(

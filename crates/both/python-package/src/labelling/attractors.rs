@@ -63,14 +63,16 @@ impl PythonMap {
 
 /// The attractors of a map of several variables, found by recurrences to cells of a grid and tested as traps.
 ///
-/// map(x) is a step: a map, a return map, or a flow over some time. It takes an array, and returns a list, a tuple or an array, or
-/// None where it has no value. region has the ends of each coordinate; starts is an array with one start a row. The basins have the labels 1, 2, … in
-/// the order in which the attractors are found; ESCAPED is the label of an orbit that passes the distance `escape` from the origin.
+/// map(x) is a step: a map, a return map, or a flow over some time. It takes an array, and returns a list, a tuple
+/// or an array, or None where it has no value. region has the ends of each coordinate; starts is an array with one
+/// start a row. The basins have the labels 1, 2, … in the order in which the attractors are found; ESCAPED is the
+/// label of an orbit that passes the distance `escape` from the origin.
 ///
-/// cells along every side of the region locate an attractor; an orbit of `recurrences` steps within visited cells is a candidate, which is
-/// followed ten times as long as it took to be found, and which `tests` random orbits test. No orbit takes more than `budget` steps to a
-/// candidate. Attractors closer than three cells of the finest grid tried, of 16 times as many cells, may be found as one. If no
-/// attractor is found, `remedy` says what would help.
+/// cells along every side of the region locate an attractor; an orbit of `recurrences` steps within visited cells
+/// is a candidate, which is followed ten times as long as it took to be found, and which `tests` random orbits
+/// test. No orbit takes more than `budget` steps to a candidate. Attractors closer than three cells of the finest
+/// grid tried, of 16 times as many cells, may be found as one. If no attractor is found, `remedy` says what would
+/// help.
 ///
 /// >>> from passive_hopper.labelling import Attractors
 /// >>> newton = lambda x: (x - (x ** 2 - 2) / (2 * x)) if x[0] else None
@@ -136,15 +138,16 @@ impl Attractors {
         self.found.positions().into_iter().map(rows).collect()
     }
 
-    /// The starts whose orbits belong to no attractor, each with the reason: "left the region: …", "cut by the region: …", "stopped",
-    /// "not settled: …" with the drift a step, or "no trap".
+    /// The starts whose orbits belong to no attractor, each with the reason: "left the region: …", "cut by the
+    /// region: …", "stopped", "not settled: …" with the drift a step, or "no trap".
     #[getter]
     fn unmatched(&self) -> Vec<(Vec<f64>, String)> {
         let own = self.found.unmatched().iter();
         own.map(|own| (own.start.clone(), own.reason.to_string())).collect()
     }
 
-    /// What would help if no attractor was found: a larger region, more cells, or a larger budget; None if one was found.
+    /// What would help if no attractor was found: a larger region, more cells, or a larger budget; None if one was
+    /// found.
     #[getter]
     fn remedy(&self) -> Option<String> {
         self.found.remedy().map(|remedy| remedy.to_string())

@@ -77,8 +77,8 @@ impl LabelImage {
         self.image.counts().into_iter().map(|(label, count)| (label.code(), count)).collect()
     }
 
-    /// The fraction of each basin with a 95 % interval, as if the pixels were independent random points of the window. Undecided pixels
-    /// widen the intervals; pixels outside are not counted.
+    /// The fraction of each basin with a 95 % interval, as if the pixels were independent random points of the
+    /// window. Undecided pixels widen the intervals; pixels outside are not counted.
     fn fractions(&self) -> PyResult<BTreeMap<u16, Interval>> {
         let found = self.image.fractions_as_random_points().map_err(value_error)?;
         Ok(found.into_iter().map(|(label, interval)| (label.code(), interval.into())).collect())
@@ -108,8 +108,8 @@ impl LabelImage {
         })
     }
 
-    /// Whether the boundary entropy exceeds ln 2 at every size of boxes from two pixels to an eighth of the image: then the boundary is
-    /// fractal at these scales. False says that this is not shown.
+    /// Whether the boundary entropy exceeds ln 2 at every size of boxes from two pixels to an eighth of the image:
+    /// then the boundary is fractal at these scales. False says that this is not shown.
     fn exceeds_ln_2(&self, py: Python<'_>) -> PyResult<bool> {
         let image = Arc::clone(&self.image);
         let work = move |_: &Watch| image.ln_2_criterion();
@@ -117,8 +117,8 @@ impl LabelImage {
         Ok(matches!(found, Ln2Criterion::Fractal { .. }))
     }
 
-    /// The largest fraction of the image that lies on the boundary of one basin and farther than `distance` pixels from the boundary of another
-    /// one: 0 if all basins share one boundary at this distance (Wada).
+    /// The largest fraction of the image that lies on the boundary of one basin and farther than `distance` pixels
+    /// from the boundary of another one: 0 if all basins share one boundary at this distance (Wada).
     fn far_from_other_boundaries(
         &self,
         py: Python<'_>,

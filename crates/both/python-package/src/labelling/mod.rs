@@ -1,7 +1,7 @@
 //! What are the basins of any labelling, and which attractors has any map?
 //!
-//! `label_image` measures an image of labels. `samples` labels random points of a region by a vectorised function of Python.
-//! `attractors` finds those of a map by recurrences. `interval` is a number with its interval.
+//! `label_image` measures an image of labels. `samples` labels random points of a region by a vectorised function
+//! of Python. `attractors` finds those of a map by recurrences. `interval` is a number with its interval.
 
 mod attractors;
 mod interval;

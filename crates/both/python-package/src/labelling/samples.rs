@@ -1,8 +1,9 @@
 //! Random points of a region, labelled by a vectorised function.
 //!
-//! The library asks for one label at a time, on several threads. A function of Python is fast for many points at once. So the sampling is
-//! repeated: a run notes the points whose labels are not known, Python labels all of them in one call, and the last run meets none. The
-//! points depend on the seed alone, so that every run has the same ones.
+//! The library asks for one label at a time, on several threads. A function of Python is fast for many points at
+//! once. So the sampling is repeated: a run notes the points whose labels are not known, Python labels all of them
+//! in one call, and the last run meets none. The points depend on the seed alone, so that every run has the same
+//! ones.
 
 use super::interval::Interval;
 use crate::errors::{of_callback, value_error};
@@ -29,7 +30,8 @@ struct Run<T> {
     columns: Vec<Vec<f64>>,
 }
 
-/// What `sample` finds with the labels of a function. Ctrl-C ends a call at once, also where there are millions of points.
+/// What `sample` finds with the labels of a function. Ctrl-C ends a call at once, also where there are millions of
+/// points.
 fn labelled<T: Send + 'static>(
     py: Python<'_>,
     function: &Bound<'_, PyAny>,
@@ -38,7 +40,8 @@ fn labelled<T: Send + 'static>(
 ) -> PyResult<T> {
     let sample = Arc::new(sample);
     let (mut known, mut labels) = (Known::new(), Vec::<(Vec<f64>, u16)>::new());
-    // Each run but the last adds points: a sampling stops early at a label that it cannot use, and then goes on to the next points.
+    // Each run but the last adds points: a sampling stops early at a label that it cannot use, and then goes on to
+    // the next points.
     loop {
         let sample = Arc::clone(&sample);
         let work = move |watch: &Watch| {
@@ -115,7 +118,8 @@ pub(crate) fn region_fractions(
     counts.basins().map(fraction).collect::<Result<_, Error>>().map_err(value_error)
 }
 
-/// The uncertainty exponent of a labelling: the fraction of pairs of points at a distance ε whose labels differ is ∝ ε^exponent.
+/// The uncertainty exponent of a labelling: the fraction of pairs of points at a distance ε whose labels differ is
+/// ∝ ε^exponent.
 #[pyclass(frozen, get_all, eq, module = "passive_hopper.labelling")]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct UncertaintyExponent {

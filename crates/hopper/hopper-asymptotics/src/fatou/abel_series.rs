@@ -6,8 +6,8 @@
 //!   [(1+g)^{−1/3} − 1]/(A x) + (c/3) ln(1+g) + Σ d_k x^k [(1+g)^{k/3} − 1] = ∓1
 //! ```
 //!
-//! Each d_k makes one coefficient of this equation zero. What is left, r(x), bounds the error of the series: it is the sum of
-//! r along the orbit towards the fixed point (docs/theory.md, Section 16).
+//! Each d_k makes one coefficient of this equation zero. What is left, r(x), bounds the error of the series: it is
+//! the sum of r along the orbit towards the fixed point (docs/theory.md, Section 16).
 
 use crate::coefficients::Coefficients;
 use crate::error::Error;
@@ -21,13 +21,13 @@ use passive_hopper::MassRatio;
 /// Number of terms d_k: the equation has coefficients up to `ORDER` − 2, and the first two vanish by A and c.
 const TERMS: usize = ORDER - 3;
 
-/// The largest A x. The bound on the error is about 10⁻⁶ there, and falls fast towards the fixed point. A larger value would
-/// need more terms.
+/// The largest A x. The bound on the error is about 10⁻⁶ there, and falls fast towards the fixed point. A larger
+/// value would need more terms.
 const NEAREST_TURN: f64 = 0.12;
 
-/// The errors of the series up to which a phase uses it, on the left and on the right. Smaller values leave more hops to be
-/// followed one by one, and each of them adds to the error. With these, a phase errs by at most 10⁻¹² for n ≤ 10 and M from
-/// 0.02 to 50.
+/// The errors of the series up to which a phase uses it, on the left and on the right. Smaller values leave more
+/// hops to be followed one by one, and each of them adds to the error. With these, a phase errs by at most 10⁻¹²
+/// for n ≤ 10 and M from 0.02 to 50.
 const PHASE_ERRORS: [f64; 2] = [4e-13, 5e-13];
 
 /// The error up to which a jump uses the series.
@@ -39,8 +39,8 @@ const BISECTIONS: u32 = 10;
 /// No range is smaller than this part of the whole, where the rounding of the coefficients exceeds the wanted error.
 const LEAST_PART: f64 = 0.25;
 
-/// The largest |t| of the Taylor models on the left and on the right, where the drift is small. Beyond it the series of the
-/// flights determine the error; on the left those of the second flight.
+/// The largest |t| of the Taylor models on the left and on the right, where the drift is small. Beyond it the
+/// series of the flights determine the error; on the left those of the second flight.
 const LARGEST_WIDTHS: [f64; 2] = [0.2, 0.4];
 
 /// Bound on the relative error of A in units of ε (docs/theory.md, Lemma 72: seven for λ, and the factor).
@@ -253,8 +253,8 @@ impl AbelSeries {
         (self.logarithm() - 1.0 / (self.drift * x)) / x + tail / self.width
     }
 
-    /// The x at which Ψ has the value, and a bound on its relative error. The bound is infinite if the value with its error is
-    /// not well within those of the series.
+    /// The x at which Ψ has the value, and a bound on its relative error. The bound is infinite if the value with
+    /// its error is not well within those of the series.
     pub(crate) fn root_at(&self, count: HopCount) -> (f64, f64) {
         // Newton's method for p = 1/(A x): Ψ = p − c ln(A p) + …, whose slope by p is 1 − c A x + …, near 1.
         let smallest = 1.0 / (self.drift * self.whole);
@@ -277,14 +277,15 @@ impl AbelSeries {
             (x, found) = at(p);
         }
         let error = found.error + count.error + (found.hops - count.hops).abs();
-        // The slope by p is at least one half (docs/theory.md, Lemma 92.2): p errs by at most twice as much, and x by r/(1 − r).
+        // The slope by p is at least one half (docs/theory.md, Lemma 92.2): p errs by at most twice as much, and x
+        // by r/(1 − r).
         let relative = 2.0 * error / p;
         let inside = relative <= LARGEST_ERROR && p * (1.0 - relative) >= SHORTEST * smallest;
         (x, if inside { relative / (1.0 - relative) + f64::EPSILON } else { f64::INFINITY })
     }
 
-    /// The offset of a phase mantissa · 2^exponent at x below 2⁻³⁰⁰, where the other terms are below the last digit of 1/(A x),
-    /// and its relative error. `error` is that of the phase, relative to the phase, and at most ½.
+    /// The offset of a phase mantissa · 2^exponent at x below 2⁻³⁰⁰, where the other terms are below the last digit
+    /// of 1/(A x), and its relative error. `error` is that of the phase, relative to the phase, and at most ½.
     pub(crate) fn deep_offset(&self, mantissa: f64, exponent: i64, error: f64) -> (Offset, f64) {
         // ln Ψ, and x = 1/(A Ψ).
         let logarithm = pxfm::f_log(mantissa) + exponent as f64 * std::f64::consts::LN_2;

@@ -52,8 +52,8 @@ impl Escape {
         self.0.phase(delta)
     }
 
-    /// The number of hops from one offset to another, as a phase: an integer, a fraction, and a bound on the error. It is
-    /// negative if the second offset is nearer to α*_n.
+    /// The number of hops from one offset to another, as a phase: an integer, a fraction, and a bound on the error.
+    /// It is negative if the second offset is nearer to α*_n.
     ///
     /// # Errors
     /// As [`FatouCoordinate::phase`].

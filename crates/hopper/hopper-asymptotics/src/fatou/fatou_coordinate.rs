@@ -24,9 +24,9 @@ use std::f64::consts::LN_2;
 ///   Ψ = 1/(A x) + c ln x + d₁ x + d₂ x² + …       x = |δ|^{1/3}
 /// ```
 ///
-/// The equation of the first column is Abel's equation. It has one solution for which Ψ − 1/(Ax) − c ln x → 0 as x → 0
-/// (docs/theory.md, Section 16). The series is asymptotic and does not converge. Here it has a bound on its error, from Taylor
-/// models of the hop.
+/// The equation of the first column is Abel's equation. It has one solution for which Ψ − 1/(Ax) − c ln x → 0 as x
+/// → 0 (docs/theory.md, Section 16). The series is asymptotic and does not converge. Here it has a bound on its
+/// error, from Taylor models of the hop.
 ///
 /// On the left the fate of a point depends on the [fraction](Phase::fraction) of Ψ alone, however near to α*_n it is.
 ///
@@ -53,15 +53,15 @@ pub struct FatouCoordinate {
     pub(crate) series: AbelSeries,
 }
 
-/// Beyond A Ψ = 2^`DEEP_BITS` an offset is found from the leading term alone. The other terms are smaller by a factor of at
-/// least 2²⁰⁰, and x³ is a normal number up to there.
+/// Beyond A Ψ = 2^`DEEP_BITS` an offset is found from the leading term alone. The other terms are smaller by a
+/// factor of at least 2²⁰⁰, and x³ is a normal number up to there.
 const DEEP_BITS: f64 = 300.0;
 
 /// The largest relative error of the x of a phase.
 const LARGEST_ERROR: f64 = 0.5;
 
-/// The largest relative error of an offset that is followed by hops. The slope of the map changes by less than a twentieth over
-/// it.
+/// The largest relative error of an offset that is followed by hops. The slope of the map changes by less than a
+/// twentieth over it.
 const SMALL_ERROR: f64 = 0.05;
 
 impl FatouCoordinate {
@@ -79,8 +79,8 @@ impl FatouCoordinate {
         Ok(FatouCoordinate { n, side, map: LiftOffMap::new(mass_ratio), local, series })
     }
 
-    /// The coordinate on the left of the fixed point that the walk leaves, from the same Taylor models of a hop. It equals that of
-    /// [`new`](Self::new), which makes these models again.
+    /// The coordinate on the left of the fixed point that the walk leaves, from the same Taylor models of a hop. It
+    /// equals that of [`new`](Self::new), which makes these models again.
     ///
     /// # Errors
     /// [`Error::Drift`] as for [`new`](Self::new).
@@ -111,7 +111,8 @@ impl FatouCoordinate {
         self.series.coefficient(k)
     }
 
-    /// The largest |δ| at which the series is used. A point farther away is followed towards α*_n, and its hops are counted.
+    /// The largest |δ| at which the series is used. A point farther away is followed towards α*_n, and its hops are
+    /// counted.
     pub fn range(&self) -> f64 {
         let root = self.series.range();
         root * root * root
@@ -124,7 +125,8 @@ impl FatouCoordinate {
     ///   right   8·10⁻³/λ³, where the loss is a fifth of δ;    at most 0.0046
     /// ```
     ///
-    /// So the error of a phase is at most 10⁻¹² for n ≤ 10 and M from 0.02 to 50. Up to there f rises, and a hop has one sudden lift-off on the left (docs/theory.md, Theorem 81) and none on the right.
+    /// So the error of a phase is at most 10⁻¹² for n ≤ 10 and M from 0.02 to 50. Up to there f rises, and a hop
+    /// has one sudden lift-off on the left (docs/theory.md, Theorem 81) and none on the right.
     pub fn reach(&self) -> f64 {
         let cube = self.local.lambda * self.local.lambda * self.local.lambda;
         let (reach, most) = match self.side {
@@ -139,8 +141,9 @@ impl FatouCoordinate {
     ///
     /// # Errors
     /// [`Error::OutsideRange`] for an offset that is zero, on the other side, or beyond [`reach`](Self::reach), and for one that
-    /// is more than 10 000 hops beyond [`range`](Self::range), which happens for M below some 10⁻⁴; [`Error::Offset`] for an
-    /// exponent beyond [`Offset::LARGEST_EXPONENT`]; [`Error::Hop`] if a hop towards α*_n has no value.
+    /// is more than 10 000 hops beyond [`range`](Self::range), which happens for M below some 10⁻⁴;
+    /// [`Error::Offset`] for an exponent beyond [`Offset::LARGEST_EXPONENT`]; [`Error::Hop`] if a hop towards α*_n
+    /// has no value.
     pub fn phase(&self, delta: Offset) -> Result<Phase, Error> {
         let delta = Offset::new(delta.mantissa(), delta.exponent())?;
         let near = delta.nearest();
@@ -162,8 +165,8 @@ impl FatouCoordinate {
         Phase::new(exact.whole, exact.fraction + rest, error)
     }
 
-    /// Ψ for all offsets within `error` of `delta`, in `f64`: faster than [`phase`](Self::phase), with an error of some ulps of
-    /// the number of hops, and up to 10⁻⁶ at the largest offsets.
+    /// Ψ for all offsets within `error` of `delta`, in `f64`: faster than [`phase`](Self::phase), with an error of
+    /// some ulps of the number of hops, and up to 10⁻⁶ at the largest offsets.
     ///
     /// # Errors
     /// [`Error::OutsideRange`] unless all these offsets are on this side and near enough: up to some 30 times
@@ -229,8 +232,8 @@ impl FatouCoordinate {
         Ok((Offset::from(delta), error))
     }
 
-    /// The offset at which Ψ has this value, from [`turn_of_jumps`](Self::turn_of_jumps) up, and a bound on its error, which is
-    /// infinite if the value is not among those of the series.
+    /// The offset at which Ψ has this value, from [`turn_of_jumps`](Self::turn_of_jumps) up, and a bound on its
+    /// error, which is infinite if the value is not among those of the series.
     pub fn offset_at(&self, count: HopCount) -> (f64, f64) {
         let (root, error) = self.series.root_at(count);
         let cube = root * root * root;

@@ -7,7 +7,8 @@
 //!   1/(A |δ|^{1/3}) = [(1+α²)⁴ (1+M)⁶/(1500 α¹¹ M³ |δ|)]^{1/3}       on the left; ten times as much on the right
 //! ```
 //!
-//! and c = ∓(2 + v), where v = (1+α²) (1+M)²/(5 M α⁴) on the left, and ten times as much on the right. M and δ are rational numbers. Only α*_n is not, and comes from tan α = α as α = q − arctan(1/α), q = (n+½)π.
+//! and c = ∓(2 + v), where v = (1+α²) (1+M)²/(5 M α⁴) on the left, and ten times as much on the right. M and δ are
+//! rational numbers. Only α*_n is not, and comes from tan α = α as α = q − arctan(1/α), q = (n+½)π.
 
 use crate::fatou::local_hop_model::Side;
 use crate::fatou::offset::Offset;
@@ -21,7 +22,8 @@ pub(crate) struct ExactTerms {
     pub(crate) fraction: f64,
 }
 
-/// Bits of the result after the point. 64 are kept; the others hold the errors of α*_n and of the truncated quotient and root.
+/// Bits of the result after the point. 64 are kept; the others hold the errors of α*_n and of the truncated
+/// quotient and root.
 const FRACTION_BITS: u64 = 96;
 
 /// Bits of α*_n beyond those that the result has, for the errors of its series: one unit for each of up to 10⁵ terms.
@@ -30,8 +32,8 @@ const GUARD_BITS: u64 = 32;
 /// Bits of c after the point: ln |δ| has 15 bits before the point at most, and a fraction keeps 64.
 const LOGARITHM_BITS: u64 = 128;
 
-/// 1/(A x) + c ln x at |`delta`| = x³, not zero, where 1/(A x) is about 2^`size`. The error is that of the rounded sum of the
-/// fractions, below 2ε, and |c|/3 times that of [`Offset::logarithm_in_units`].
+/// 1/(A x) + c ln x at |`delta`| = x³, not zero, where 1/(A x) is about 2^`size`. The error is that of the rounded
+/// sum of the fractions, below 2ε, and |c|/3 times that of [`Offset::logarithm_in_units`].
 pub(crate) fn exact_terms(
     n: u64,
     mass_ratio: f64,
@@ -89,8 +91,8 @@ fn fixed_point(n: u64, bits: u64) -> BigUint {
     let pi = arc(5) * 16u32 - arc(239) * 4u32;
     let q: BigUint = (pi * (2 * u128::from(n) + 1)) >> 1;
     let mut alpha = q.clone();
-    // Newton's method on α − q + arctan(1/α), whose slope is α²/(1+α²). The start errs by 1/q < 0.22, and a step squares
-    // the error.
+    // Newton's method on α − q + arctan(1/α), whose slope is α²/(1+α²). The start errs by 1/q < 0.22, and a step
+    // squares the error.
     let mut right = 4;
     loop {
         let above = &alpha + arc_tangent(&((&unit << bits) / &alpha), bits);

@@ -37,8 +37,8 @@ impl Side {
     }
 }
 
-/// Relative radius of a coefficient that is computed by up to ten operations from `a`, which itself errs by half an ulp and
-/// occurs up to fourth power; rounded up.
+/// Relative radius of a coefficient that is computed by up to ten operations from `a`, which itself errs by half an
+/// ulp and occurs up to fourth power; rounded up.
 const COEFFICIENT: f64 = 4.0 * f64::EPSILON;
 
 /// The hop from |t| = `width` · u, 0 ≤ u ≤ 1.
@@ -74,7 +74,8 @@ fn sine_like(width: f64, shift: u32, largest: f64, factor: impl Fn(usize) -> f64
 }
 
 impl LocalHopModel {
-    /// The hop on one side of a fixed point. For the left side |δ| must not exceed 0.0109 up to `width` (docs/theory.md, Theorem 81).
+    /// The hop on one side of a fixed point. For the left side |δ| must not exceed 0.0109 up to `width`
+    /// (docs/theory.md, Theorem 81).
     pub(crate) fn new(local: &Coefficients, mass_ratio: MassRatio, side: Side, width: f64) -> Self {
         let stored = usize::try_from(local.n).ok().and_then(|n| FIRST_FLIGHTS.get(n));
         match (side, stored) {
@@ -142,12 +143,13 @@ impl LocalHopModel {
     }
 }
 
-/// The largest |t| on the left. At 0.3 |δ| is below 2.5·10⁻³: one sudden lift-off follows up to 0.0109 (docs/theory.md, Theorem 81).
-/// The polynomials of a hop err by some 10⁻⁶ there. A larger value would need more terms.
+/// The largest |t| on the left. At 0.3 |δ| is below 2.5·10⁻³: one sudden lift-off follows up to 0.0109
+/// (docs/theory.md, Theorem 81). The polynomials of a hop err by some 10⁻⁶ there. A larger value would need more
+/// terms.
 pub(crate) const LARGEST_LEFT_WIDTH: f64 = 0.3;
 
-/// The first flights on the left of α*_n, n < 64, up to this |t|: they do not depend on the mass ratio. At larger n each hop computes
-/// its own.
+/// The first flights on the left of α*_n, n < 64, up to this |t|: they do not depend on the mass ratio. At larger n
+/// each hop computes its own.
 static FIRST_FLIGHTS: [OnceLock<Box<FirstFlight>>; 64] = [const { OnceLock::new() }; 64];
 
 /// Bound on the relative error of λ/β with three more operations, in units of ε (docs/theory.md, Lemma 72).

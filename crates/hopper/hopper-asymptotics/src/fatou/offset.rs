@@ -27,8 +27,8 @@ pub struct Offset {
 }
 
 impl Offset {
-    /// The largest |`exponent`|. The digits of a phase need a time that grows with the square of the exponent: some tenths of
-    /// a second here. A deeper point is given by its [`Phase`](crate::Phase).
+    /// The largest |`exponent`|. The digits of a phase need a time that grows with the square of the exponent: some
+    /// tenths of a second here. A deeper point is given by its [`Phase`](crate::Phase).
     pub const LARGEST_EXPONENT: i64 = 10_000;
 
     /// `mantissa` · 10^`exponent`.

@@ -1,7 +1,7 @@
 //! Single hops along the slow side, fast and with a tight error: from where a jump ends to where the orbit leaves.
 //!
-//! The hop is a pair of polynomials in |t| (`local_hop_model.rs`). The general bound of a hop doubles the error of the speed
-//! at each of these hops. Here the error grows by the slope of the map, as it does in truth.
+//! The hop is a pair of polynomials in |t| (`local_hop_model.rs`). The general bound of a hop doubles the error of
+//! the speed at each of these hops. Here the error grows by the slope of the map, as it does in truth.
 
 use crate::coefficients::{Coefficients, Form};
 use crate::error::Error;
@@ -13,8 +13,8 @@ use passive_hopper::MassRatio;
 /// The largest A x. Beyond it an orbit leaves within some hops.
 const LARGEST_TURN: f64 = 1.2;
 
-/// Newton steps for |t|. The first guess errs by some 10⁻³ of it, a step squares the error and multiplies it by some hundredths,
-/// and two steps reach the last bit.
+/// Newton steps for |t|. The first guess errs by some 10⁻³ of it, a step squares the error and multiplies it by
+/// some hundredths, and two steps reach the last bit.
 const NEWTON_STEPS: usize = 2;
 
 /// Relative rounding error of a hop's δ′ in ulps: the sums of two polynomials, a cube root, and some products.
@@ -85,13 +85,13 @@ impl OutwardWalk {
         let rise = growth_slope * u * stretch / 3.0;
         let slope = 1.0 + growth + rise;
         let next = delta * (1.0 + growth);
-        // The slope grows by at most 4/3 of a part of δ over the error. A part of u is a part of the growth, whose logarithmic
-        // slope is at most 3.
+        // The slope grows by at most 4/3 of a part of δ over the error. A part of u is a part of the growth, whose
+        // logarithmic slope is at most 3.
         let spread = 1.0 + 2.0 * error / size;
         let power = u.powi(ORDER as i32);
         let [root_error, growth_error] = [0, 1].map(|of| self.radii[of] + self.rests[of] * power);
-        // The exact map differs from the polynomials by this, at the ends of the error by a tenth more: u is larger there by less
-        // than 1 %, and u^ORDER grows most.
+        // The exact map differs from the polynomials by this, at the ends of the error by a tenth more: u is larger
+        // there by less than 1 %, and u^ORDER grows most.
         let model = 1.2 * (3.0 * growth * root_error + growth_error);
         let rounding = HOP_ULPS * f64::EPSILON * (1.0 + growth);
         Some((next, slope * spread * error + size * (model + rounding)))

@@ -6,7 +6,8 @@ use std::fmt;
 
 /// A value of the Fatou coordinate Ψ: the number of hops `whole` + `fraction`.
 ///
-/// At |δ| = 10⁻³⁰⁰ the integer has about a hundred digits. The fraction alone decides the fate (docs/theory.md, Section 16).
+/// At |δ| = 10⁻³⁰⁰ the integer has about a hundred digits. The fraction alone decides the fate (docs/theory.md,
+/// Section 16).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phase {
     whole: BigInt,
@@ -43,8 +44,8 @@ impl Phase {
         self.fraction
     }
 
-    /// Bound on the distance of the exact phase from this one. If it is not far below 1, the digits of the offset do not
-    /// determine the fraction.
+    /// Bound on the distance of the exact phase from this one. If it is not far below 1, the digits of the offset
+    /// do not determine the fraction.
     pub fn error(&self) -> f64 {
         self.error
     }

@@ -1,7 +1,7 @@
 //! Truncated polynomials without bounds, for the first solution of an equation; and what they share with Taylor models.
 
-/// The number of terms. More terms cost time with their square; fewer leave more hops to be followed one by one. With sixteen
-/// the series of a Fatou coordinate has an error of 3·10⁻¹³ at A x ≈ 0.035, and 10⁻⁶ at 0.12.
+/// The number of terms. More terms cost time with their square; fewer leave more hops to be followed one by one.
+/// With sixteen the series of a Fatou coordinate has an error of 3·10⁻¹³ at A x ≈ 0.035, and 10⁻⁶ at 0.12.
 pub(crate) const ORDER: usize = 16;
 
 /// Σ t_k u^k, k < ORDER. Higher terms are dropped.
@@ -22,8 +22,8 @@ pub(crate) trait Truncated: Copy {
     fn negative(&self) -> Self;
     /// (`factor` · u) · self, for an exact factor.
     fn shifted_by(&self, factor: f64) -> Self;
-    /// Σ c_j y^j for coefficients with a relative error of 4ε, from the powers 1, y, … of a y that is O(u²). The last power is
-    /// O(u^ORDER), and the terms beyond it are together at most as large as the last one.
+    /// Σ c_j y^j for coefficients with a relative error of 4ε, from the powers 1, y, … of a y that is O(u²). The
+    /// last power is O(u^ORDER), and the terms beyond it are together at most as large as the last one.
     fn combination(powers: &[Self; EVEN_POWERS], coefficients: [f64; EVEN_POWERS]) -> Self;
 }
 

@@ -17,15 +17,16 @@ pub(crate) fn rational(value: f64) -> (BigUint, BigUint) {
     }
 }
 
-/// The `f64` nearest to p/q, or one next to it if that is below the smallest normal number; ∞ above the largest one, 0 for p = 0.
-/// q is not zero.
+/// The `f64` nearest to p/q, or one next to it if that is below the smallest normal number; ∞ above the largest
+/// one, 0 for p = 0. q is not zero.
 pub(crate) fn nearest_quotient(p: &BigUint, q: &BigUint) -> f64 {
     // p/q = digits · 2^−shift with 64 or 65 bits before the point of the digits.
     let shift = q.bits() as i64 - p.bits() as i64 + 64;
     let size = shift.unsigned_abs();
     let (p, q) = if shift < 0 { (p.clone(), q << size) } else { (p << size, q.clone()) };
     let whole = &p / &q;
-    // One more bit says whether there is a rest: the rounding to 53 bits then knows on which side of a tie the quotient is.
+    // One more bit says whether there is a rest: the rounding to 53 bits then knows on which side of a tie the
+    // quotient is.
     let rest = u128::from(&whole * q != p);
     let digits = u128::try_from(whole).unwrap_or(u128::MAX) << 1 | rest;
     times_power_of_two(digits as f64, -shift - 1)

@@ -18,8 +18,8 @@ pub(crate) struct SecondFlight {
     pub(crate) closing: Model,
 }
 
-/// The bounds on w are tried with this factor. Those that follow are larger than the first ones by the relative size of the
-/// errors, below 10⁻⁶, and by the difference of the two slopes of the equation.
+/// The bounds on w are tried with this factor. Those that follow are larger than the first ones by the relative
+/// size of the errors, below 10⁻⁶, and by the difference of the two slopes of the equation.
 const TRIAL: f64 = 1.1;
 
 /// The start of the second flight, in units of |t| ≤ `width`.
@@ -51,8 +51,8 @@ impl<T: Truncated> Flight<T> {
         Flight { w, third, powers }
     }
 
-    /// Σ_{j ≥ from} (−1)^j factor(j) y^{j − from}/(2j + `shift`)!. The terms alternate and fall, because y < 1: those after the
-    /// last power are together less than the last term.
+    /// Σ_{j ≥ from} (−1)^j factor(j) y^{j − from}/(2j + `shift`)!. The terms alternate and fall, because y < 1:
+    /// those after the last power are together less than the last term.
     fn sum(&self, shift: usize, from: usize, factor: impl Fn(usize) -> f64) -> T {
         let mut factorial = (1..=2 * from + shift).map(|k| k as f64).product::<f64>();
         let coefficients = std::array::from_fn(|i| {
@@ -125,9 +125,9 @@ impl SecondFlight {
         let middle = middle.with_constant(3.0, 0.0);
         let residual = start.equation(&Flight::new(middle, width)).with_constant(0.0, 0.0);
         let trial = middle.with_errors(&residual, &Model::exact(slope)).widened(TRIAL);
-        // With e = w − middle, e = −residual/S, where S is the mean slope between the two. For every e within the trial
-        // bounds S is one of the functions `slope`, and the right side is again within them. So the iteration from e = 0
-        // stays there; it converges, because the residual is small, and its limit is within them too.
+        // With e = w − middle, e = −residual/S, where S is the mean slope between the two. For every e within the
+        // trial bounds S is one of the functions `slope`, and the right side is again within them. So the iteration
+        // from e = 0 stays there; it converges, because the residual is small, and its limit is within them too.
         let f = Flight::new(trial, width);
         if !middle.with_errors(&residual, &start.slope(&f)).lies_in(&trial) {
             return SecondFlight { closing: Model { rest: f64::INFINITY, ..Model::ZERO } };

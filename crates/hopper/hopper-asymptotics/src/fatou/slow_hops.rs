@@ -3,26 +3,26 @@
 use crate::error::Error;
 use passive_hopper::LiftOffMap;
 
-/// Most hops from the reach of a phase to the range of the series. There are some ten to thirty, and more only if the drift is
-/// so small (M below 10⁻⁴) that the range is limited by the series of the flights.
+/// Most hops from the reach of a phase to the range of the series. There are some ten to thirty, and more only if
+/// the drift is so small (M below 10⁻⁴) that the range is limited by the series of the flights.
 pub(crate) const MOST_HOPS: i64 = 10_000;
 
 /// Relative error of δ′ in units of ε (`LiftOffMap::hop_near_fixed_point`).
 const HOP_ULPS: f64 = 8.0;
 
-/// Relative error of a preimage in units of ε: that of the hop, because f moves the preimage by a larger part of itself than its
-/// image, and 2 for the end of the search.
+/// Relative error of a preimage in units of ε: that of the hop, because f moves the preimage by a larger part of
+/// itself than its image, and 2 for the end of the search.
 const PREIMAGE_ULPS: f64 = 10.0;
 
 /// Most steps of the search for a preimage.
 const SEARCH_STEPS: usize = 60;
 
-/// From `delta`, right to an ulp, towards α*_n until |δ| ≤ `range`: the offset, the number of hops, and a bound on the error of
-/// the phase. On the left the hops are inverted.
+/// From `delta`, right to an ulp, towards α*_n until |δ| ≤ `range`: the offset, the number of hops, and a bound on
+/// the error of the phase. On the left the hops are inverted.
 ///
-/// A hop of length L changes Ψ by 1, and |dΨ/dδ| grows towards α*_n, by the factor f′ or 1/f′ from one end to the other. So it
-/// is at most 1/L at the outer end, and at most f′/L or 1/(f′L) at the inner one. To leading order |f′ − 1| is
-/// (4/3) L/|δ|. With 1.5 L/|δ|, where δ is the start of the hop, and L ≤ |δ|/4 on the right,
+/// A hop of length L changes Ψ by 1, and |dΨ/dδ| grows towards α*_n, by the factor f′ or 1/f′ from one end to the
+/// other. So it is at most 1/L at the outer end, and at most f′/L or 1/(f′L) at the inner one. To leading order |f′
+/// − 1| is (4/3) L/|δ|. With 1.5 L/|δ|, where δ is the start of the hop, and L ≤ |δ|/4 on the right,
 ///
 /// ```text
 ///   |δ_inner| |dΨ/dδ| ≤ |δ|/L + 1.5
@@ -52,8 +52,8 @@ pub(crate) fn inward(
     Ok((inner, hops, error))
 }
 
-/// `hops` ≤ [`MOST_HOPS`] hops away from α*_n, from an offset with a relative error; on the right they are inverted. The result
-/// has a relative error as well.
+/// `hops` ≤ [`MOST_HOPS`] hops away from α*_n, from an offset with a relative error; on the right they are
+/// inverted. The result has a relative error as well.
 pub(crate) fn outward(
     map: &LiftOffMap,
     n: u64,
@@ -65,8 +65,8 @@ pub(crate) fn outward(
     for _ in 0..hops {
         let before = outer;
         outer = if delta < 0.0 { next(map, n, outer)? } else { preimage(map, n, outer)? };
-        // f or its inverse multiplies a small error by f′ or 1/f′, where |f′ − 1| is (4/3) L/|δ| to leading order, and less
-        // than 1.5 L/|δ| over the error.
+        // f or its inverse multiplies a small error by f′ or 1/f′, where |f′ − 1| is (4/3) L/|δ| to leading order,
+        // and less than 1.5 L/|δ| over the error.
         let length = outer.abs() - before.abs();
         let factor = if delta < 0.0 {
             (before.abs() + 1.5 * length) / outer.abs()

@@ -25,8 +25,9 @@ const LARGEST_PART: f64 = 0.05;
 const LARGEST_JUMP: f64 = 4.5e15;
 
 impl FatouCoordinate {
-    /// The point with the same fraction that an orbit on the left reaches later: the one of the last turn on which the series
-    /// has an error below 10⁻⁸. `None` if the error of Ψ exceeds `largest`, or the offset is beyond this turn.
+    /// The point with the same fraction that an orbit on the left reaches later: the one of the last turn on which
+    /// the series has an error below 10⁻⁸. `None` if the error of Ψ exceeds `largest`, or the offset is beyond this
+    /// turn.
     pub fn jump(&self, delta: f64, error: f64, largest: f64) -> Option<SlowJump> {
         // The error of Ψ is at least error/(3 A x⁴) (docs/theory.md, after Lemma 92).
         if error > largest * 3.0 * self.drift() * delta.abs() * pxfm::f_cbrt(delta.abs()) {
@@ -53,8 +54,8 @@ impl FatouCoordinate {
         SlowJump { hops, delta, error, count }
     }
 
-    /// As [`jump`](Self::jump), from `delta` + `rest`, at most half an ulp apart, with the longer [`phase`](Self::phase). `None` also
-    /// for an error above a twentieth of |δ|.
+    /// As [`jump`](Self::jump), from `delta` + `rest`, at most half an ulp apart, with the longer
+    /// [`phase`](Self::phase). `None` also for an error above a twentieth of |δ|.
     pub fn long_jump(
         &self,
         (delta, rest): (f64, f64),

@@ -6,12 +6,14 @@
 //!   g(u) = Σ (t_k + e_k) u^k + R(u) u^ORDER      |e_k| ≤ r_k     |R(u)| ≤ rest      0 < u ≤ 1,  k < ORDER
 //! ```
 //!
-//! The radii r_k hold the rounding errors, and the rest holds the terms beyond the polynomial. For a function that is analytic
-//! at 0 the numbers t_k + e_k are its Taylor coefficients. So a coefficient that is known exactly may be put in, with the radius
+//! The radii r_k hold the rounding errors, and the rest holds the terms beyond the polynomial. For a function that
+//! is analytic at 0 the numbers t_k + e_k are its Taylor coefficients. So a coefficient that is known exactly may
+//! be put in, with the radius
 //! 0. Models that contain two functions contain their mean.
 //!
-//! Each operation is computed for the middles t_k, and its rounding errors are added to the radii. Quotients and solutions of
-//! equations are computed for the middles first. The equation is then evaluated as a model, and gives their radii.
+//! Each operation is computed for the middles t_k, and its rounding errors are added to the radii. Quotients and
+//! solutions of equations are computed for the middles first. The equation is then evaluated as a model, and gives
+//! their radii.
 
 use crate::fatou::polynomial::{EVEN_POWERS, ORDER, Polynomial, Truncated};
 use std::ops::{Add, Mul, Neg, Sub};
@@ -24,8 +26,8 @@ pub(crate) struct Model {
     pub(crate) rest: f64,
 }
 
-/// Bound on the relative rounding error of a sum of up to [`ORDER`] products, for each of its terms: one rounding of the
-/// product and fewer than `ORDER` of the sums, each of ½ε; rounded up.
+/// Bound on the relative rounding error of a sum of up to [`ORDER`] products, for each of its terms: one rounding
+/// of the product and fewer than `ORDER` of the sums, each of ½ε; rounded up.
 const SUM: f64 = 0.5 * f64::EPSILON * (ORDER as f64 + 2.0);
 
 /// Makes a sum or product of bounds a bound in spite of its rounding: they have fewer than 40 operations each.
@@ -127,8 +129,8 @@ impl Model {
 
     /// The model with the errors of e, where slope · e = −residual, self is exact, and self + e is the solution.
     ///
-    /// With the coefficients of the slope, S_0 e_k = −res_k − Σ_{j<k} S_{k−j} e_j. The products beyond the polynomial, and the
-    /// rest of the residual, are divided by the slope as a function.
+    /// With the coefficients of the slope, S_0 e_k = −res_k − Σ_{j<k} S_{k−j} e_j. The products beyond the
+    /// polynomial, and the rest of the residual, are divided by the slope as a function.
     pub(crate) fn with_errors(&self, residual: &Model, slope: &Model) -> Self {
         let sizes = slope.sizes();
         let first = sizes[0] - 2.0 * slope.radii[0];
@@ -170,8 +172,8 @@ impl Model {
         inverse.with_errors(&residual, self)
     }
 
-    /// Adds `factor` · `other`, for a factor with the relative error `relative`, where `other` has no term below u^`first`. The
-    /// rounding of up to `ORDER` + 1 such sums is counted, that of their bounds is not.
+    /// Adds `factor` · `other`, for a factor with the relative error `relative`, where `other` has no term below
+    /// u^`first`. The rounding of up to `ORDER` + 1 such sums is counted, that of their bounds is not.
     pub(crate) fn add_multiple(&mut self, first: usize, other: &Model, factor: f64, relative: f64) {
         let (size, relative) = (factor.abs(), relative + SUM);
         let others = other.terms.iter().zip(&other.radii).skip(first);
@@ -183,8 +185,8 @@ impl Model {
         self.rest += size * other.rest * (1.0 + relative);
     }
 
-    /// Σ_{k ≥ 0} c_k z^k for |z| ≤ `size` < 1, from the powers of z, of which the first is z. `coefficient` gives c_k from
-    /// c_{k−1}, which is 1 for k = 0; |c_k| ≤ 1, and c_k is right to 4kε.
+    /// Σ_{k ≥ 0} c_k z^k for |z| ≤ `size` < 1, from the powers of z, of which the first is z. `coefficient` gives
+    /// c_k from c_{k−1}, which is 1 for k = 0; |c_k| ≤ 1, and c_k is right to 4kε.
     pub(crate) fn power_series(
         powers: &[Model; ORDER],
         size: f64,
@@ -197,7 +199,8 @@ impl Model {
             sum.add_multiple(k + 1, power, last, 4.0 * (k + 1) as f64 * f64::EPSILON);
         }
         sum.radii = sum.radii.map(|radius| radius * UP);
-        // Σ_{k > ORDER} |z|^k is at most |z|^ORDER · size/(1 − size), and |z|^ORDER is at most the rest of its model times u^ORDER.
+        // Σ_{k > ORDER} |z|^k is at most |z|^ORDER · size/(1 − size), and |z|^ORDER is at most the rest of its
+        // model times u^ORDER.
         let beyond = if size < 1.0 { size / (1.0 - size) } else { f64::INFINITY };
         sum.rest = (sum.rest + powers[ORDER - 1].rest * beyond) * UP;
         sum
@@ -337,7 +340,8 @@ impl Truncated for Model {
 mod tests {
     use super::*;
 
-    /// The members g = 1 + (½ ± r) u have the reciprocals Σ (−½ ∓ r)^k u^k, whose coefficients err by about k r/2^{k−1}.
+    /// The members g = 1 + (½ ± r) u have the reciprocals Σ (−½ ∓ r)^k u^k, whose coefficients err by about k
+    /// r/2^{k−1}.
     #[test]
     fn reciprocals_bound_each_coefficient() {
         let radius = 1e-3;

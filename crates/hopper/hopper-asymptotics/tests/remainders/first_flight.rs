@@ -1,6 +1,7 @@
 //! The first flight near a fixed point, as Taylor models in |t|.
 //!
-//! The parameter is p = 1/a. All quantities are scaled with a, so that p = 0 is no exception (docs/theory.md, Lemma 34).
+//! The parameter is p = 1/a. All quantities are scaled with a, so that p = 0 is no exception (docs/theory.md, Lemma
+//! 34).
 
 use crate::interval::Interval;
 use crate::model::Model;

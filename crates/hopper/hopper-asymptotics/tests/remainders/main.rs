@@ -1,8 +1,8 @@
 //! The remainders of the expansions, enclosed for all fixed points and mass ratios at once.
 //!
 //! These tests are the computations in the proofs of docs/theory.md, Theorems 67 to 71. They use intervals that are
-//! rounded outwards, and Taylor models. The parameters are p = 1/α*_n, at the first forty fixed points and on an interval
-//! that holds all others and p = 0, and μ or κ in small intervals that cover all mass ratios.
+//! rounded outwards, and Taylor models. The parameters are p = 1/α*_n, at the first forty fixed points and on an
+//! interval that holds all others and p = 0, and μ or κ in small intervals that cover all mass ratios.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 

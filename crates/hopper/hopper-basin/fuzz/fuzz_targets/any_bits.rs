@@ -1,5 +1,5 @@
-//! Gives arbitrary bit patterns to every public function of the hopper's crates. To run it, in `crates/hopper/hopper-basin`:
-//! `cargo +nightly fuzz run any_bits`.
+//! Gives arbitrary bit patterns to every public function of the hopper's crates. To run it, in
+//! `crates/hopper/hopper-basin`: `cargo +nightly fuzz run any_bits`.
 //!
 //! The body is shared with the property test `hopper-basin/tests/any_bits.rs`.
 

@@ -14,7 +14,8 @@ use std::f64::consts::PI;
 /// nearly all of the part.
 const SAMPLES_OF_MONOTONE_PART: usize = 65;
 
-/// Whether the branches of the map up to α*_`to` are proved to be complete: every sudden window below it has one branch.
+/// Whether the branches of the map up to α*_`to` are proved to be complete: every sudden window below it has one
+/// branch.
 pub(crate) fn branches_are_proved(mass_ratio: MassRatio, to: u64) -> bool {
     let rises = |n: u64| {
         rising_window(n).is_some_and(|window| mass_ratio.value() <= window.largest_mass_ratio)
@@ -23,8 +24,8 @@ pub(crate) fn branches_are_proved(mass_ratio: MassRatio, to: u64) -> bool {
     (1..=to).all(rises)
 }
 
-/// Most samples of all windows together: at about a microsecond each they take a minute or two. More are a mistake, such as a range of all
-/// fixed points, and would seem never to end.
+/// Most samples of all windows together: at about a microsecond each they take a minute or two. More are a mistake,
+/// such as a range of all fixed points, and would seem never to end.
 const MOST_SAMPLES: usize = 100_000_000;
 
 /// The monotone branches of the map from α*_`from` to α*_`to`.

@@ -30,7 +30,8 @@ impl BasinFractions {
     }
 }
 
-/// Most points of all intervals together: they take a quarter of an hour. More are a mistake, and would seem never to end.
+/// Most points of all intervals together: they take a quarter of an hour. More are a mistake, and would seem never
+/// to end.
 const MOST_POINTS: usize = 1_000_000_000;
 
 /// The basin fractions on [α*_from, α*_to] by the paper's protocol (Sec. VI).
@@ -39,8 +40,9 @@ const MOST_POINTS: usize = 1_000_000_000;
 /// intervals are averaged with equal weights, although the intervals differ in length.
 ///
 /// # Errors
-/// As [`Fates::new`]; [`Error::NoPoints`] if `points` is zero or `from` is not below `to`; [`Error::Window`] if fixed points
-/// have no labels; [`basin_of_attraction::Error::TooManySamples`] for more than 10⁹ points on all intervals together.
+/// As [`Fates::new`]; [`Error::NoPoints`] if `points` is zero or `from` is not below `to`; [`Error::Window`] if
+/// fixed points have no labels; [`basin_of_attraction::Error::TooManySamples`] for more than 10⁹ points on all
+/// intervals together.
 pub fn basin_fractions(
     mass_ratio: MassRatio,
     from: u64,

@@ -1,4 +1,5 @@
-//! Basin fractions over the mass ratio, with bounds where the branches of the map are proved, and 95 % intervals elsewhere.
+//! Basin fractions over the mass ratio, with bounds where the branches of the map are proved, and 95 % intervals
+//! elsewhere.
 
 use crate::basins::branches::branches_are_proved;
 use crate::basins::intervals::hopper_basins;
@@ -25,8 +26,8 @@ pub struct FractionLimits {
 }
 
 impl Default for FractionLimits {
-    /// Intervals down to 10⁻⁷, which leave some 10⁻⁴ of the window undecided; elsewhere 64 000 points, about as many as in the
-    /// paper. Shorter intervals and more points narrow the ranges, and take longer.
+    /// Intervals down to 10⁻⁷, which leave some 10⁻⁴ of the window undecided; elsewhere 64 000 points, about as
+    /// many as in the paper. Shorter intervals and more points narrow the ranges, and take longer.
     fn default() -> Self {
         let refinement = Refinement { shortest: 1e-7, ..Refinement::default() };
         FractionLimits { refinement, points: 64_000, seed: 2002 }
@@ -42,10 +43,12 @@ pub enum FractionGround {
     Points,
 }
 
-/// Samples of each sudden window for its branches. Where they are used, one branch is proved, and samples find its ends.
+/// Samples of each sudden window for its branches. Where they are used, one branch is proved, and samples find its
+/// ends.
 const SAMPLES: usize = 400;
 
-/// The basin fractions on [α*_`from`, α*_`to`] at one mass ratio, with equal weights of the humps as in the paper (Sec. VI).
+/// The basin fractions on [α*_`from`, α*_`to`] at one mass ratio, with equal weights of the humps as in the paper
+/// (Sec. VI).
 ///
 /// The fractions of all fixed points n ≥ 1 together have the label [`HopperFate::INCESSANT`].
 ///
@@ -144,11 +147,12 @@ fn by_points(
     Ok(Fractions { found, unseen, attractors: BTreeMap::new() })
 }
 
-/// The mass ratios at which fractions of [α*_`from`, α*_`to`] have kinks, in increasing order: the [`crisis`] of each hump, its
-/// [`grounding`], and their inverses.
+/// The mass ratios at which fractions of [α*_`from`, α*_`to`] have kinks, in increasing order: the [`crisis`] of
+/// each hump, its [`grounding`], and their inverses.
 ///
-/// Above a crisis the fraction that falls through grows like a square root (docs/theory.md, Theorems 87 and 88), so that its slope is
-/// infinite there. Other kinks belong to single critical orbits, and are not listed: [`minima_on_fixed_points`] finds them in a short range.
+/// Above a crisis the fraction that falls through grows like a square root (docs/theory.md, Theorems 87 and 88), so
+/// that its slope is infinite there. Other kinks belong to single critical orbits, and are not listed:
+/// [`minima_on_fixed_points`] finds them in a short range.
 ///
 /// [`minima_on_fixed_points`]: crate::minima_on_fixed_points
 ///
@@ -168,13 +172,13 @@ pub fn known_kinks(from: u64, to: u64) -> Result<Vec<f64>, Error> {
     Ok(all)
 }
 
-/// Distance of a mass ratio from its kink, in ln M. At the kink itself rounding decides whether the hump falls through. From here to the kink
-/// fractions change by less than 10⁻³.
+/// Distance of a mass ratio from its kink, in ln M. At the kink itself rounding decides whether the hump falls
+/// through. From here to the kink fractions change by less than 10⁻³.
 const ASIDE: f64 = 1e-9;
 
-/// The basin fractions on [α*_`from`, α*_`to`] over a range of mass ratios: [`hump_fractions`] at mass ratios so close together that
-/// neighbours agree as `curve` says. Steps are those of ln M. Each of [`known_kinks`] has a mass ratio 10⁻⁹ of its value beside it, on
-/// the side on which its hump does not fall through.
+/// The basin fractions on [α*_`from`, α*_`to`] over a range of mass ratios: [`hump_fractions`] at mass ratios so
+/// close together that neighbours agree as `curve` says. Steps are those of ln M. Each of [`known_kinks`] has a
+/// mass ratio 10⁻⁹ of its value beside it, on the side on which its hump does not fall through.
 ///
 /// `fractions` is called for every mass ratio: [`hump_fractions`], or stored results of it.
 ///

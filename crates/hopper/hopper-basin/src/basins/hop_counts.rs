@@ -7,12 +7,13 @@ use basin_of_attraction::Grid;
 use passive_hopper::MassRatio;
 use std::ops::Range;
 
-/// The numbers of hops of some columns of a raster, from the lowest speed up: for each pixel, the hops from its middle until the orbit
-/// is in a trap or grounded, as [`Fates::fate_within`] counts them. An undecided orbit has the number of hops after which it was given
-/// up; [`basin_columns`](crate::basin_columns) says which orbits these are.
+/// The numbers of hops of some columns of a raster, from the lowest speed up: for each pixel, the hops from its
+/// middle until the orbit is in a trap or grounded, as [`Fates::fate_within`] counts them. An undecided orbit has
+/// the number of hops after which it was given up; [`basin_columns`](crate::basin_columns) says which orbits these
+/// are.
 ///
-/// Orbits with one fate and one itinerary can enter the trap after different numbers of hops. Each pixel is therefore followed
-/// alone, which takes more time than its label.
+/// Orbits with one fate and one itinerary can enter the trap after different numbers of hops. Each pixel is
+/// therefore followed alone, which takes more time than its label.
 ///
 /// ```
 /// use basin_of_attraction::{Grid, Interval};

@@ -16,8 +16,9 @@ use std::f64::consts::PI;
 /// All basins between two fixed points, as intervals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HopperBasins {
-    /// The intervals, with labels as in [`HopperFate::label`]. Their [`stop_reason`](IntervalBasins::stop_reason) is
-    /// [`Contradiction`](StopReason::Contradiction) if a probe has another fate than its interval; that has not been seen.
+    /// The intervals, with labels as in [`HopperFate::label`]. Their [`stop_reason`](IntervalBasins::stop_reason)
+    /// is [`Contradiction`](StopReason::Contradiction) if a probe has another fate than its interval; that has not
+    /// been seen.
     pub basins: IntervalBasins,
     /// What the labels of whole intervals stand on.
     pub ground: BranchGround,
@@ -28,14 +29,15 @@ pub struct HopperBasins {
 /// What the labels of whole intervals stand on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum BranchGround {
-    /// On branches of the map that are proved to be all: the critical points of the contact parts are known (docs/theory.md, Corollary 28), and the map rises in the
-    /// sudden windows (docs/theory.md, Theorems 48 and 81). For M ≤ 0.905 with three windows, and for M ≤ 0.9
-    /// with up to ten.
+    /// On branches of the map that are proved to be all: the critical points of the contact parts are known
+    /// (docs/theory.md, Corollary 28), and the map rises in the sudden windows (docs/theory.md, Theorems 48 and
+    /// 81). For M ≤ 0.905 with three windows, and for M ≤ 0.9 with up to ten.
     Proved,
-    /// On the branches of the contact parts, which are known at every M. The sudden windows, where a hop may have several sudden
-    /// lift-offs, stay undecided, and so does what maps into them.
+    /// On the branches of the contact parts, which are known at every M. The sudden windows, where a hop may have
+    /// several sudden lift-offs, stay undecided, and so does what maps into them.
     ContactParts,
-    /// On images of whole intervals, enclosed with rounding outwards; no branch is followed. This is what the crate hopper-proof gives.
+    /// On images of whole intervals, enclosed with rounding outwards; no branch is followed. This is what the crate
+    /// hopper-proof gives.
     Enclosures,
 }
 
@@ -53,8 +55,8 @@ pub struct Probes {
 impl HopperBasins {
     /// Compares the intervals with the fates of `points` random speeds of the window.
     ///
-    /// The fate of a speed needs no branches ([`Fates::fate`]). Without a wrong one among n, the wrong intervals have less than
-    /// 3/n of the decided length in 95 of 100 cases.
+    /// The fate of a speed needs no branches ([`Fates::fate`]). Without a wrong one among n, the wrong intervals
+    /// have less than 3/n of the decided length in 95 of 100 cases.
     ///
     /// # Errors
     /// As [`Fates::fate`].
@@ -80,20 +82,23 @@ impl HopperBasins {
     }
 }
 
-/// Random speeds that test the basins. A thousand find wrong intervals of more than 0.3 % of the decided length in 95 of 100 cases.
-/// More speeds take longer: a fate takes about a microsecond, and some that are close to an edge take milliseconds.
+/// Random speeds that test the basins. A thousand find wrong intervals of more than 0.3 % of the decided length in
+/// 95 of 100 cases. More speeds take longer: a fate takes about a microsecond, and some that are close to an edge
+/// take milliseconds.
 const PROBES: usize = 1000;
 
 /// Seed of these speeds.
 const SEED: u64 = 1;
 
-/// The basins of all fates on [α*_`from`, α*_`to`]. Each sudden window is searched for branches with `samples` points, where it is proved
-/// which there are; elsewhere the windows stay undecided. The crate hopper-proof has the basins at every M.
+/// The basins of all fates on [α*_`from`, α*_`to`]. Each sudden window is searched for branches with `samples`
+/// points, where it is proved which there are; elsewhere the windows stay undecided. The crate hopper-proof has the
+/// basins at every M.
 ///
-/// Every speed between the ends of an interval has its fate: the ends are rounded inwards, and confirmed by bounded hops.
+/// Every speed between the ends of an interval has its fate: the ends are rounded inwards, and confirmed by bounded
+/// hops.
 ///
-/// The result states what it rests on ([`HopperBasins::ground`]), and compares itself with the fates of a thousand speeds
-/// ([`HopperBasins::probes`]).
+/// The result states what it rests on ([`HopperBasins::ground`]), and compares itself with the fates of a thousand
+/// speeds ([`HopperBasins::probes`]).
 ///
 /// ```
 /// use basin_of_attraction::Refinement;
@@ -159,7 +164,8 @@ pub fn hopper_basins(
     Ok(found)
 }
 
-/// The traps of α*_0 … α*_`to`−1 and the gaps between `branches` below `top` in which the hopper is grounded, with labels.
+/// The traps of α*_0 … α*_`to`−1 and the gaps between `branches` below `top` in which the hopper is grounded, with
+/// labels.
 pub(crate) fn traps_and_grounding(
     fates: &Fates,
     branches: &[Branch],
@@ -169,7 +175,8 @@ pub(crate) fn traps_and_grounding(
     traps_and_gaps(fates, grounded(fates, branches, top), to)
 }
 
-/// Whether the trap of each of α*_0 … α*_`to`−1 is its whole hump. Then the traps are the basins, and no branch is followed.
+/// Whether the trap of each of α*_0 … α*_`to`−1 is its whole hump. Then the traps are the basins, and no branch is
+/// followed.
 fn has_whole_humps(fates: &Fates, to: u64) -> Result<bool, Error> {
     for n in 0..to {
         if fates.trap(n)?.edge != TrapEdge::NextFixedPoint {
@@ -194,8 +201,8 @@ fn traps_and_gaps(
         for (gap, _) in traps.iter_mut().filter(|(gap, _)| gap.contains(right)) {
             gap.left = right.next_up();
         }
-        // Some ulps below the onset of grounding the rounding of the map opens a gap inside the trap, of the width of the root of an
-        // ulp. Its speeds belong to the trap, as they do for `Fates::fate`.
+        // Some ulps below the onset of grounding the rounding of the map opens a gap inside the trap, of the width
+        // of the root of an ulp. Its speeds belong to the trap, as they do for `Fates::fate`.
         let inside = Interval::new(trap.fixed_point.value(), right)?;
         traps.retain(|(gap, _)| !(inside.contains(gap.left) && inside.contains(gap.right)));
         traps.push((inside, HopperFate::label_of_fixed_point(n)));

@@ -1,7 +1,7 @@
 //! Ends of intervals, moved inwards until every speed between them has the fate of the interval.
 //!
-//! An interval of level k was found as the preimage of one of level k − 1, by a root that is right to some ulps. Here its ends are
-//! confirmed, from level 0 up:
+//! An interval of level k was found as the preimage of one of level k − 1, by a root that is right to some ulps.
+//! Here its ends are confirmed, from level 0 up:
 //!
 //! ```text
 //!   level 0     the fate of the end itself, followed with a bound on its error
@@ -9,8 +9,8 @@
 //!               k − 1 and the same fate
 //! ```
 //!
-//! The map is monotone between the ends (docs/theory.md, Lemma 50), so that all speeds between them then lead into that interval. In 53
-//! bits the bounds of thousands of levels would add up beside the slow side of a fixed point.
+//! The map is monotone between the ends (docs/theory.md, Lemma 50), so that all speeds between them then lead into
+//! that interval. In 53 bits the bounds of thousands of levels would add up beside the slow side of a fixed point.
 
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
@@ -18,9 +18,9 @@ use crate::fates::hopper_fate::HopperFate;
 use basin_of_attraction::{Interval, IntervalBasins, LabelledInterval};
 use passive_hopper::{Arithmetic, ExtendedOrbit, ExtendedStep};
 
-/// Most doublings of the distance, in ulps, by which an end is moved: 10⁻¹² in all. The true ends lie 6 ulps away at most (M = 0.12, 0.2
-/// and 0.5). An interval that needs more is left out, and stays undecided: it lies beside a critical point, where the map is flat. A
-/// larger number would keep more of those.
+/// Most doublings of the distance, in ulps, by which an end is moved: 10⁻¹² in all. The true ends lie 6 ulps away
+/// at most (M = 0.12, 0.2 and 0.5). An interval that needs more is left out, and stays undecided: it lies beside a
+/// critical point, where the map is flat. A larger number would keep more of those.
 const DOUBLINGS: u32 = 10;
 
 /// The same intervals with confirmed ends. The number of hops of grounded ones has the hop that grounds.

@@ -10,8 +10,8 @@ use basin_of_attraction::{Interval, IntervalSet, preimage_levels};
 /// trap after exactly k hops (paper, Sec. VI A).
 ///
 /// # Errors
-/// As [`branches`] and [`preimage_levels`], which tests the trap and the branches: for M > 0.9056 a branch that was missed shows itself there
-/// as a rule.
+/// As [`branches`] and [`preimage_levels`], which tests the trap and the branches: for M > 0.9056 a branch that was
+/// missed shows itself there as a rule.
 pub fn basin_levels(
     fates: &Fates,
     n: u64,

@@ -9,9 +9,10 @@ use std::collections::BTreeSet;
 
 /// A mass ratio at which an orbit from a minimum of the map falls exactly onto a fixed point.
 ///
-/// On one side of this mass ratio the orbit comes into the trap of α*_n, on the other it leaves α*_n to the left. Speeds next to
-/// the minimum land higher than the minimum by the square of their distance. So basin fractions change there like
-/// C √|M − M₀| on one side: they are continuous (docs/theory.md, Theorem 88), and have an infinite slope.
+/// On one side of this mass ratio the orbit comes into the trap of α*_n, on the other it leaves α*_n to the left.
+/// Speeds next to the minimum land higher than the minimum by the square of their distance. So basin fractions
+/// change there like C √|M − M₀| on one side: they are continuous (docs/theory.md, Theorem 88), and have an
+/// infinite slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MinimumOnFixedPoint {
     /// The mass ratio M₀.
@@ -24,14 +25,16 @@ pub struct MinimumOnFixedPoint {
     pub fixed_point: u64,
 }
 
-/// An orbit that comes this close to a fixed point at one of two neighbouring numbers M falls onto it between them. Above a grounding
-/// it moves by the root of an ulp of M, 10⁻⁸. An orbit that jumps across the fixed point keeps a distance of the size of the jump.
+/// An orbit that comes this close to a fixed point at one of two neighbouring numbers M falls onto it between them.
+/// Above a grounding it moves by the root of an ulp of M, 10⁻⁸. An orbit that jumps across the fixed point keeps a
+/// distance of the size of the jump.
 const ON_FIXED_POINT: f64 = 1e-6;
 
-/// The minima of the humps 0 to `last` that fall onto a fixed point within `hops` hops at a mass ratio of a range, by their number of hops.
+/// The minima of the humps 0 to `last` that fall onto a fixed point within `hops` hops at a mass ratio of a range,
+/// by their number of hops.
 ///
-/// They are found from the ends of the range: a fall is not seen where its orbit lies on the same side of the fixed point at both ends. So
-/// the range must be short. The orbits are computed without error bounds.
+/// They are found from the ends of the range: a fall is not seen where its orbit lies on the same side of the fixed
+/// point at both ends. So the range must be short. The orbits are computed without error bounds.
 ///
 /// ```
 /// use basin_of_attraction::Interval;
@@ -77,12 +80,14 @@ pub fn minima_on_fixed_points(
     Ok(found)
 }
 
-/// The number of fixed points α*_0, α*_1, … that are not above a speed; 0 for the speed −∞ of a hopper that is grounded.
+/// The number of fixed points α*_0, α*_1, … that are not above a speed; 0 for the speed −∞ of a hopper that is
+/// grounded.
 fn fixed_points_up_to(speed: f64) -> Result<u64, Error> {
     if speed < 0.0 { Ok(0) } else { Ok(index_below(speed)? + 1) }
 }
 
-/// The first images of the minimum of a hump, −∞ from where the hopper is grounded; `None` if the map only rises on its contact part.
+/// The first images of the minimum of a hump, −∞ from where the hopper is grounded; `None` if the map only rises on
+/// its contact part.
 fn orbit_of_minimum(m: f64, hump: u64, hops: u8) -> Result<Option<Vec<f64>>, Error> {
     let mass_ratio = MassRatio::new(m)?;
     let Some((_, mut speed)) = Hump::new(hump)?.falling(mass_ratio.mu())? else { return Ok(None) };
@@ -96,8 +101,8 @@ fn orbit_of_minimum(m: f64, hump: u64, hops: u8) -> Result<Option<Vec<f64>>, Err
     Ok(Some(orbit))
 }
 
-/// The mass ratio of a range at which the last of some images of the minimum passes a fixed point, at one end of the range above it and at the other below;
-/// `None` if it jumps across.
+/// The mass ratio of a range at which the last of some images of the minimum passes a fixed point, at one end of
+/// the range above it and at the other below; `None` if it jumps across.
 fn fall(range: Interval, hump: u64, hops: u8, star: f64) -> Result<Option<f64>, Error> {
     let image = |m: f64| {
         let last = orbit_of_minimum(m, hump, hops)?.and_then(|orbit| orbit.last().copied());

@@ -9,10 +9,12 @@ use basin_of_attraction::{Grid, Label, LabelImage, raster_by_strips};
 use passive_hopper::{MassRatio, alpha_star};
 use std::ops::{ControlFlow, Range};
 
-/// The version of the labels of [`basin_raster`] and [`basin_columns`], and of the numbers of [`hop_columns`](crate::hop_columns).
+/// The version of the labels of [`basin_raster`] and [`basin_columns`], and of the numbers of
+/// [`hop_columns`](crate::hop_columns).
 ///
-/// It is raised when a change of the libraries changes one of them in some window, so that finished parts of a raster are not
-/// joined with parts from before the change. A test compares digests of some windows with those of this version.
+/// It is raised when a change of the libraries changes one of them in some window, so that finished parts of a
+/// raster are not joined with parts from before the change. A test compares digests of some windows with those of
+/// this version.
 pub const RASTER_VERSION: u32 = 1;
 
 /// The basins over a window of the (M, α) plane: M to the right, α upwards, labels as in [`HopperFate::label`].
@@ -42,11 +44,12 @@ const LARGEST_STRIP: usize = 16_384;
 /// A raster has at least this many strips, if it has as many columns, so that many threads have work.
 const FEWEST_STRIPS: usize = 16;
 
-/// A raster of fewer columns has no common circles: a circle for many mass ratios takes as long as those of some dozen columns.
+/// A raster of fewer columns has no common circles: a circle for many mass ratios takes as long as those of some
+/// dozen columns.
 const FEWEST_COLUMNS: usize = 32;
 
-/// A taller raster has no common circles. Few of its orbits come near to one fixed point, and a window with M from 0.2 to 0.20002 and
-/// speeds from 8 to 9 takes eight times as long with them.
+/// A taller raster has no common circles. Few of its orbits come near to one fixed point, and a window with M from
+/// 0.2 to 0.20002 and speeds from 8 to 9 takes eight times as long with them.
 const TALLEST: f64 = 0.01;
 
 /// The number of columns whose orbits hop together. It affects the time only.

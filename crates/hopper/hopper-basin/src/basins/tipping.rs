@@ -29,8 +29,8 @@ impl HopperTipping {
 
 /// Tipping between two mass ratios, for a lift-off speed of [α*_`from`, α*_`to`].
 ///
-/// The fixed points do not depend on M, but the basins do. A speed in the basin of α*_n at one mass ratio goes to the fate that it has
-/// at the other.
+/// The fixed points do not depend on M, but the basins do. A speed in the basin of α*_n at one mass ratio goes to
+/// the fate that it has at the other.
 ///
 /// ```
 /// use basin_of_attraction::{Label, Refinement};
@@ -54,7 +54,8 @@ pub fn tipping(
     to: u64,
     refinement: Refinement,
 ) -> Result<HopperTipping, Error> {
-    /// Samples of each sudden window. Where the branches are proved each window has one branch, and samples find its ends.
+    /// Samples of each sudden window. Where the branches are proved each window has one branch, and samples find
+    /// its ends.
     const SAMPLES: usize = 400;
     let [one, other] = [
         hopper_basins(before, from, to, SAMPLES, refinement)?,
@@ -64,8 +65,8 @@ pub fn tipping(
     Ok(HopperTipping { tipping, grounds: [one.ground, other.ground] })
 }
 
-/// Tipping of `count` independent random speeds of a window, by their fates at both mass ratios, with 95 % intervals. It needs no
-/// branches of the map, and holds at all mass ratios as the fates do.
+/// Tipping of `count` independent random speeds of a window, by their fates at both mass ratios, with 95 %
+/// intervals. It needs no branches of the map, and holds at all mass ratios as the fates do.
 ///
 /// ```
 /// use basin_of_attraction::{Interval, Label};
@@ -79,7 +80,8 @@ pub fn tipping(
 /// ```
 ///
 /// # Errors
-/// As [`Fates::labels`]; [`basin_of_attraction::Error::BadInterval`] for a window that is reversed or not finite; [`basin_of_attraction::Error::TooManySamples`] for more than 10⁹ speeds;
+/// As [`Fates::labels`]; [`basin_of_attraction::Error::BadInterval`] for a window that is reversed or not finite;
+/// [`basin_of_attraction::Error::TooManySamples`] for more than 10⁹ speeds;
 /// [`basin_of_attraction::Error::NothingInside`] for none.
 pub fn random_tipping(
     before: &Fates,
@@ -92,11 +94,12 @@ pub fn random_tipping(
     Ok(TippingCounts::new(before.labels(&speeds)?.into_iter().zip(after.labels(&speeds)?))?)
 }
 
-/// Tipping of random speeds along a slow change of the mass ratio: hop k has the mass ratio `drift[k]`, and the fate is that of the last
-/// speed at `after`.
+/// Tipping of random speeds along a slow change of the mass ratio: hop k has the mass ratio `drift[k]`, and the
+/// fate is that of the last speed at `after`.
 ///
-/// The orbits of the drift are computed in `f64`, without a bound on their errors: a start that is close to a boundary may have the
-/// fate of its neighbour. The interval of a fraction does not contain this error, which is of the size of the rounding.
+/// The orbits of the drift are computed in `f64`, without a bound on their errors: a start that is close to a
+/// boundary may have the fate of its neighbour. The interval of a fraction does not contain this error, which is of
+/// the size of the rounding.
 ///
 /// # Errors
 /// As [`random_tipping`].

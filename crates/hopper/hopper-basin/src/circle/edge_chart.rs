@@ -17,10 +17,11 @@ use passive_hopper::{FixedPointSpeed, MassRatio};
 ///   f^k(p + y) = α*_n + δ,    δ = D₁ y (1 + D₂ y/2) + R,    |R| ≤ B |y|³ for |y| ≤ the radius
 /// ```
 ///
-/// On the side with δ > 0 the speeds next to p belong to the basin of α*_n. On the other side they show the circle of fates of α*_n
-/// (docs/theory.md, Lemma 86). So the label of p + y is a look-up, also at y = 10⁻¹⁰⁰⁰.
+/// On the side with δ > 0 the speeds next to p belong to the basin of α*_n. On the other side they show the circle
+/// of fates of α*_n (docs/theory.md, Lemma 86). So the label of p + y is a look-up, also at y = 10⁻¹⁰⁰⁰.
 ///
-/// D₁, D₂ and B come from differences of orbits in 256 bits; the errors of D₁ and B are estimates, from two step lengths and six points.
+/// D₁, D₂ and B come from differences of orbits in 256 bits; the errors of D₁ and B are estimates, from two step
+/// lengths and six points.
 ///
 /// ```
 /// use hopper_asymptotics::Offset;
@@ -57,9 +58,9 @@ pub struct EdgeChart {
 const OWN_RADIUS: f64 = 1e-3;
 
 impl EdgeChart {
-    /// The chart about the boundary point nearest to `guess`, at most 10⁻³ away, which comes to a fixed point α*_n, n ≥ 1, in at
-    /// most 256 hops. A point is passed over if its derivatives cannot be found with steps of 2⁻³⁶ or more. With all digits of an
-    /// edge it takes some tens of milliseconds, with few digits up to seconds.
+    /// The chart about the boundary point nearest to `guess`, at most 10⁻³ away, which comes to a fixed point α*_n,
+    /// n ≥ 1, in at most 256 hops. A point is passed over if its derivatives cannot be found with steps of 2⁻³⁶ or
+    /// more. With all digits of an edge it takes some tens of milliseconds, with few digits up to seconds.
     ///
     /// # Errors
     /// [`Error::NoEdge`] if none is found; the errors of [`Fates::fate`] for a wrong speed.
@@ -77,8 +78,8 @@ impl EdgeChart {
         chart.ok_or(Error::NoEdge { alpha: guess, within: NEAR, hops: MOST_HOPS })
     }
 
-    /// The chart about a boundary point at most 10⁻³ away from `guess` that comes to α*_n, n ≥ 1, in the fewest hops. A guess of some
-    /// digits is enough, where other edges may be nearer.
+    /// The chart about a boundary point at most 10⁻³ away from `guess` that comes to α*_n, n ≥ 1, in the fewest
+    /// hops. A guess of some digits is enough, where other edges may be nearer.
     ///
     /// # Errors
     /// As [`near`](Self::near).
@@ -161,7 +162,8 @@ impl EdgeChart {
         self.mass_ratio
     }
 
-    /// The boundary point p as the sum of two `f64`, the first of them the nearest one, and an estimate of the error of the sum.
+    /// The boundary point p as the sum of two `f64`, the first of them the nearest one, and an estimate of the
+    /// error of the sum.
     pub fn point(&self) -> (f64, f64, f64) {
         (self.point, self.rest, self.error)
     }
@@ -206,8 +208,9 @@ impl EdgeChart {
         Ok((offset, error + self.slope_error + 4.0 * f64::EPSILON))
     }
 
-    /// Ψ of p + `y`, on all of the circle's [domain](PhaseBasins::domain). The relative error of δ is a third of the relative error of
-    /// Ψ: from some 10⁻⁴⁵ on the fraction is not known. Then [`share`](Self::share) still has a value.
+    /// Ψ of p + `y`, on all of the circle's [domain](PhaseBasins::domain). The relative error of δ is a third of
+    /// the relative error of Ψ: from some 10⁻⁴⁵ on the fraction is not known. Then [`share`](Self::share) still has
+    /// a value.
     ///
     /// # Errors
     /// [`Error::OtherCircle`] unless `circle` is that of n at this mass ratio; as [`offset`](Self::offset); [`PhaseBasins::phase`] has no
@@ -240,9 +243,9 @@ impl EdgeChart {
 
     /// The share of every fate between p + `from` and p + `to`, in any order: a pixel.
     ///
-    /// On the side of the circle shares are those of phases ([`PhaseBasins::share`]). From p itself on there are infinitely many
-    /// turns, and the shares are the local fractions. Their error is of the order 1/Ψ at the far end (docs/theory.md, Theorem 87);
-    /// the bounds are widened by 8/Ψ, an estimate.
+    /// On the side of the circle shares are those of phases ([`PhaseBasins::share`]). From p itself on there are
+    /// infinitely many turns, and the shares are the local fractions. Their error is of the order 1/Ψ at the far
+    /// end (docs/theory.md, Theorem 87); the bounds are widened by 8/Ψ, an estimate.
     ///
     /// # Errors
     /// As [`label`](Self::label).
@@ -296,7 +299,8 @@ impl EdgeChart {
                 (shifted(&one, -sign * one_moves), shifted(&other, sign * other_moves));
             return Ok(circle.share_between(&one, &other));
         }
-        // The slope is the same for both ends: the number of turns has its relative error, and only the start is not known.
+        // The slope is the same for both ends: the number of turns has its relative error, and only the start is
+        // not known.
         Ok(circle.fractions_of_turns(one.whole_hops_to(&other)))
     }
 

@@ -33,8 +33,8 @@ pub(crate) struct EdgeDerivatives {
     pub(crate) remainder: f64,
 }
 
-/// Largest and smallest exponent of two of the step h. Wider steps meet other laps; narrower ones are as near to the next
-/// boundary point as a chart in `f64` would ever be.
+/// Largest and smallest exponent of two of the step h. Wider steps meet other laps; narrower ones are as near to
+/// the next boundary point as a chart in `f64` would ever be.
 const STEPS: std::ops::RangeInclusive<i32> = 8..=36;
 
 /// Two derivatives from steps h and h/4 agree to this part, or h is divided further: a few ulps.

@@ -6,8 +6,9 @@
 //!   derivatives along the orbit:   by_speed ← f′ · by_speed      by_mass_ratio ← ∂f/∂M + f′ · by_mass_ratio
 //! ```
 //!
-//! α*_n does not depend on M. While ∂f^k/∂α ≠ 0 and no hop of the orbit comes to an end of a lap, p(M) is one smooth branch. A step
-//! predicts p along its tangent, corrects it by Newton's method, and is halved until the two tangents agree with the corrected point.
+//! α*_n does not depend on M. While ∂f^k/∂α ≠ 0 and no hop of the orbit comes to an end of a lap, p(M) is one
+//! smooth branch. A step predicts p along its tangent, corrects it by Newton's method, and is halved until the two
+//! tangents agree with the corrected point.
 
 use crate::circle::edge_chart::EdgeChart;
 use crate::circle::edge_search::Approach;
@@ -38,15 +39,17 @@ const NEWTON_STEPS: usize = 8;
 /// A correction of so many ulps of p ends Newton's method: the rounding of the hops, times 1/slope, moves p by as much.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// The corrected point differs from the mean of both tangents by less than this part of the difference of the two. On a smooth branch
-/// the part tends to 0 with the step. With a larger part a step could leave the branch near a fold.
+/// The corrected point differs from the mean of both tangents by less than this part of the difference of the two.
+/// On a smooth branch the part tends to 0 with the step. With a larger part a step could leave the branch near a
+/// fold.
 const AGREEMENT: f64 = 0.1;
 
-/// A step shorter than this part of the way to the next mass ratio ends the branch: it folds, or an end of a lap is there.
+/// A step shorter than this part of the way to the next mass ratio ends the branch: it folds, or an end of a lap is
+/// there.
 const SHORTEST_STEP: f64 = 1e-7;
 
-/// Most steps from one mass ratio to the next. A step is halved some 23 times before it is too short, so that this budget ends only
-/// a branch whose steps stay short.
+/// Most steps from one mass ratio to the next. A step is halved some 23 times before it is too short, so that this
+/// budget ends only a branch whose steps stay short.
 const MOST_STEPS: usize = 4096;
 
 impl FollowedEdge {
@@ -61,8 +64,8 @@ impl FollowedEdge {
         found.ok_or(Error::NoEdge { alpha: point, within: ROUNDING * point, hops })
     }
 
-    /// The same boundary point at another mass ratio; `None` if the branch ends before it: where two preimages meet and vanish, as at
-    /// a crisis, or where a hop of its orbit comes to the end of a lap.
+    /// The same boundary point at another mass ratio; `None` if the branch ends before it: where two preimages meet
+    /// and vanish, as at a crisis, or where a hop of its orbit comes to the end of a lap.
     ///
     /// The steps are chosen so that the branch is not left at a fold. This is a test at each step, not a proof.
     ///
@@ -104,8 +107,9 @@ impl FollowedEdge {
         Ok(None)
     }
 
-    /// The same boundary point at increasing mass ratios; `None` where the branch does not reach, as in [`at`](Self::at). It is followed
-    /// from its own mass ratio outwards in both directions, from each mass ratio to the next.
+    /// The same boundary point at increasing mass ratios; `None` where the branch does not reach, as in
+    /// [`at`](Self::at). It is followed from its own mass ratio outwards in both directions, from each mass ratio
+    /// to the next.
     ///
     /// # Errors
     /// [`passive_hopper::Error`] if one of the mass ratios is none that a hopper has.
@@ -172,8 +176,8 @@ impl FollowedEdge {
     }
 }
 
-/// dp/dM of the point of a chart, with a bound on its error; `None` if a hop of its orbit is not certain for all speeds within the error of the
-/// point.
+/// dp/dM of the point of a chart, with a bound on its error; `None` if a hop of its orbit is not certain for all
+/// speeds within the error of the point.
 pub fn enclosed_edge_slope(map: &LiftOffMap, chart: &EdgeChart) -> Option<Enclosed> {
     let (point, rest, error) = chart.point();
     let mut speed = Enclosed { value: point, error: rest.abs() + error };
@@ -192,8 +196,8 @@ pub fn enclosed_edge_slope(map: &LiftOffMap, chart: &EdgeChart) -> Option<Enclos
     found.error.is_finite().then_some(found)
 }
 
-/// f^k at a speed, with its derivatives by the speed and by the mass ratio; `None` if the orbit ends, or a derivative is not finite
-/// or 0.
+/// f^k at a speed, with its derivatives by the speed and by the mass ratio; `None` if the orbit ends, or a
+/// derivative is not finite or 0.
 fn derivatives(map: &LiftOffMap, hops: usize, start: f64) -> Option<(f64, f64, f64)> {
     let (mut speed, mut slope, mut by_mass_ratio) = (start, 1.0, 0.0);
     for _ in 0..hops {

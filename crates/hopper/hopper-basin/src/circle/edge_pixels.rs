@@ -8,24 +8,25 @@ use crate::fates::fates_at_mass_ratio::Fates;
 use basin_of_attraction::Label;
 use hopper_asymptotics::Offset;
 
-/// Offsets up to this use the chart. There the orders of a chart beyond the second are small, and single speeds would show a part of
-/// the structure only. Farther away the single speeds cost little.
+/// Offsets up to this use the chart. There the orders of a chart beyond the second are small, and single speeds
+/// would show a part of the structure only. Farther away the single speeds cost little.
 pub(crate) const CHART: f64 = 1e-5;
 
 /// Speeds of a pixel farther away: a share is known to about an eighth.
 const SPEEDS: usize = 8;
 
-/// Bounds of the chart that leave more of a pixel undecided are wide because the pixel reaches to the edge itself, or to the end of
-/// the trap. Single speeds then tell more.
+/// Bounds of the chart that leave more of a pixel undecided are wide because the pixel reaches to the edge itself,
+/// or to the end of the trap. Single speeds then tell more.
 const UNDECIDED: f64 = 0.02;
 
 /// Offsets below this part of p have fewer than a thousand `f64` beside them: single speeds tell less than the bounds.
 const SPACING: f64 = 1e-13;
 
-/// The shares of the fates from p + `from` to p + `to` for each pair; p is the point of `chart`. The pair is in any order.
+/// The shares of the fates from p + `from` to p + `to` for each pair; p is the point of `chart`. The pair is in any
+/// order.
 ///
-/// Where the chart and its circle tell the share, it is that of all speeds ([`EdgeChart::share`]); over the mass ratios of a pixel ln Ψ
-/// moves by `moved`. Elsewhere it is that of eight speeds.
+/// Where the chart and its circle tell the share, it is that of all speeds ([`EdgeChart::share`]); over the mass
+/// ratios of a pixel ln Ψ moves by `moved`. Elsewhere it is that of eight speeds.
 pub(crate) fn edge_pixels(
     fates: &Fates,
     chart: &EdgeChart,
@@ -54,7 +55,8 @@ pub(crate) fn edge_pixels(
         .collect())
 }
 
-/// The share by the chart; `None` where single speeds tell more: its circle has no phase, its trap ends, or the bounds are wide.
+/// The share by the chart; `None` where single speeds tell more: its circle has no phase, its trap ends, or the
+/// bounds are wide.
 fn by_chart(
     chart: &EdgeChart,
     circle: &PhaseBasins,

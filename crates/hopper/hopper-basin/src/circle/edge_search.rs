@@ -1,6 +1,7 @@
 //! Which speeds near a given one come to a fixed point exactly?
 //!
-//! The orbit of the given speed tells after how many hops it is near a fixed point, and Newton's method finds the speed.
+//! The orbit of the given speed tells after how many hops it is near a fixed point, and Newton's method finds the
+//! speed.
 
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
@@ -24,8 +25,8 @@ pub(crate) struct Approach {
     pub(crate) point: f64,
 }
 
-/// The zeros of f^k − α*_n near `guess`, for each k at which its orbit comes near an α*_n, until `see` returns `None`. It returns
-/// the distance from which on zeros are of interest.
+/// The zeros of f^k − α*_n near `guess`, for each k at which its orbit comes near an α*_n, until `see` returns
+/// `None`. It returns the distance from which on zeros are of interest.
 pub(crate) fn approaches(
     fates: &Fates,
     guess: f64,

@@ -17,16 +17,18 @@ use hopper_asymptotics::Offset;
 /// Most pixels of a frame each way: its shares then take a gigabyte.
 const MOST_PIXELS: usize = 1 << 13;
 
-/// Below the scale of the chart a pixel is the mean of so many strips, each cut into so many cells: 16 levels at an oblique edge.
+/// Below the scale of the chart a pixel is the mean of so many strips, each cut into so many cells: 16 levels at an
+/// oblique edge.
 const CELLS: usize = 4;
 
 /// Above it a pixel is the mean of 2 × 2 fates.
 const FATES: usize = 2;
 
-/// The shares of the fates in `rows` equal pixels from p − h to p + h, h = 10^{−`depth`}, from below; p is the point of `chart`.
+/// The shares of the fates in `rows` equal pixels from p − h to p + h, h = 10^{−`depth`}, from below; p is the
+/// point of `chart`.
 ///
-/// Up to 10⁻⁵ from p, and within the chart's radius, a pixel has the shares of all its speeds ([`EdgeChart::share`]). Farther away it
-/// has the fates of eight speeds.
+/// Up to 10⁻⁵ from p, and within the chart's radius, a pixel has the shares of all its speeds
+/// ([`EdgeChart::share`]). Farther away it has the fates of eight speeds.
 ///
 /// ```
 /// use hopper_basin::{CircleLimits, EdgeChart, Fates, PhaseBasins, edge_window};
@@ -60,19 +62,20 @@ pub fn edge_window(
 
 /// The half width of an [`edge_frame`] in mass ratio, divided by its half height in speed.
 ///
-/// Both sides are the same part of their middle, M/p, unless the edge would then cross more than a half of the half height: in a
-/// narrower frame it crosses a half of it.
+/// Both sides are the same part of their middle, M/p, unless the edge would then cross more than a half of the half
+/// height: in a narrower frame it crosses a half of it.
 pub fn frame_slant(edge: &FollowedEdge) -> f64 {
     (edge.mass_ratio / edge.point).min(0.5 / edge.by_mass_ratio.abs())
 }
 
-/// The shares of the fates in a window of the (M, α) plane about a boundary point: M to the right, h = 10^{−`depth`} upwards from its
-/// middle, and h times [`frame_slant`] to the right.
+/// The shares of the fates in a window of the (M, α) plane about a boundary point: M to the right, h =
+/// 10^{−`depth`} upwards from its middle, and h times [`frame_slant`] to the right.
 ///
-/// Down to h = 10⁻⁵ (or the chart's radius) a pixel has 2 × 2 fates. Below, a pixel has the shares of all its speeds in four strips of
-/// its width, at any depth: the edge is the straight line α − p = p′ (M − M₀), and the offset from it gives the share. What this
-/// leaves out, the bend of the edge and the movement of phases by the part (M − M₀)/M of Ψ, has the order h of a pixel and h^{2/3} of
-/// a turn. Both vanish with h, because the sides of the window shrink alike.
+/// Down to h = 10⁻⁵ (or the chart's radius) a pixel has 2 × 2 fates. Below, a pixel has the shares of all its
+/// speeds in four strips of its width, at any depth: the edge is the straight line α − p = p′ (M − M₀), and the
+/// offset from it gives the share. What this leaves out, the bend of the edge and the movement of phases by the
+/// part (M − M₀)/M of Ψ, has the order h of a pixel and h^{2/3} of a turn. Both vanish with h, because the sides of
+/// the window shrink alike.
 ///
 /// The axes of the raster count in half heights and half widths from −1 to 1.
 ///
@@ -135,7 +138,8 @@ fn oblique(
     (mantissa, exponent): (f64, i64),
     grid: &Grid,
 ) -> Result<Vec<ShareColumn>, Error> {
-    // Cells of equal height in the offset from the edge, from −3/2 to 3/2 half heights; the edge lies between two of them.
+    // Cells of equal height in the offset from the edge, from −3/2 to 3/2 half heights; the edge lies between two
+    // of them.
     let (within, beside) = (CELLS * grid.rows, (CELLS * grid.rows).div_ceil(4));
     let middle = within / 2 + beside;
     let place = |cell: usize| 2.0 * (cell as f64 - middle as f64) / within as f64;

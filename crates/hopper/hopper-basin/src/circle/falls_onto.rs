@@ -1,7 +1,7 @@
 //! What does the orbit of a boundary point come to?
 //!
-//! Two speeds on both sides of one boundary point visit the same laps of the map until their orbits part. They part at a fixed
-//! point, which then lies between them, or at a zero of F, beyond which the hopper is grounded.
+//! Two speeds on both sides of one boundary point visit the same laps of the map until their orbits part. They part
+//! at a fixed point, which then lies between them, or at a zero of F, beyond which the hopper is grounded.
 
 use crate::fates::fates_at_mass_ratio::Fates;
 use passive_hopper::index_below;
@@ -9,8 +9,8 @@ use passive_hopper::index_below;
 /// What a boundary point comes to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum FallsOnto {
-    /// After `hops` hops the orbit is at α*_m exactly. On one side of the boundary point lies the basin of m, on the other the
-    /// circle of m, with all its boundary points. (At an extremum both sides are alike.)
+    /// After `hops` hops the orbit is at α*_m exactly. On one side of the boundary point lies the basin of m, on
+    /// the other the circle of m, with all its boundary points. (At an extremum both sides are alike.)
     FixedPoint {
         /// The index.
         m: u64,
@@ -24,7 +24,8 @@ pub enum FallsOnto {
     },
 }
 
-/// Most hops of the two orbits. An orbit that lingers at a fixed point for longer comes from less than some 10⁻⁹ beside it.
+/// Most hops of the two orbits. An orbit that lingers at a fixed point for longer comes from less than some 10⁻⁹
+/// beside it.
 const MOST_HOPS: usize = 4096;
 
 /// Where the orbits of two neighbouring speeds part; `None` if they do not, or if a hop is undecided.

@@ -4,8 +4,9 @@
 //!   α*_n + f(δ₀) ├──────────────── one turn ────────────────┤ α*_n + δ₀        α*_n
 //! ```
 //!
-//! The nearer the domain is to α*_n, the fewer `f64` it has. So it begins as far out as theory permits, where it is some tenths
-//! wide. There one phase takes milliseconds, because every hop towards α*_n is inverted in longer arithmetic. Ψ is analytic in x =
+//! The nearer the domain is to α*_n, the fewer `f64` it has. So it begins as far out as theory permits, where it is
+//! some tenths wide. There one phase takes milliseconds, because every hop towards α*_n is inverted in longer
+//! arithmetic. Ψ is analytic in x =
 //! |δ|^{1/3} on the domain, and a polynomial through its values at Chebyshev nodes gives all other phases.
 
 use crate::error::Error;
@@ -14,17 +15,18 @@ use hopper_asymptotics::{BigInt, FatouCoordinate, Offset, Phase, Side};
 use passive_hopper::{FixedPointSpeed, LiftOffMap};
 use std::f64::consts::PI;
 
-/// For −0.0586 ≤ δ < 0 and M ≤ 1 f rises where the hopper lifts off, for −0.0109 ≤ δ < 0 at all M (docs/theory.md, Theorem 81).
+/// For −0.0586 ≤ δ < 0 and M ≤ 1 f rises where the hopper lifts off, for −0.0109 ≤ δ < 0 at all M (docs/theory.md,
+/// Theorem 81).
 const FARTHEST: f64 = 0.0586;
 const FARTHEST_ABOVE_ONE: f64 = 0.0109;
 
-/// The hopper lifts off from every −10⁻³ ≤ δ < 0 for which the loss is below |δ| (docs/theory.md, Theorem 68); from 10⁻⁹ at λ up to
-/// some hundred. Nearer domains would have few `f64`.
+/// The hopper lifts off from every −10⁻³ ≤ δ < 0 for which the loss is below |δ| (docs/theory.md, Theorem 68); from
+/// 10⁻⁹ at λ up to some hundred. Nearer domains would have few `f64`.
 const NEAREST: f64 = 1e-9;
 
-/// Number of nodes. In x the function is analytic up to x = 0 at least, a fraction of the domain's length away. For n ≤ 30 and all
-/// M tried 24 nodes leave less than the error of the phases at the nodes, some 10⁻¹²; 20 nodes leave 6·10⁻¹¹ at n = 8, M = 0.9. Each
-/// node takes milliseconds.
+/// Number of nodes. In x the function is analytic up to x = 0 at least, a fraction of the domain's length away. For
+/// n ≤ 30 and all M tried 24 nodes leave less than the error of the phases at the nodes, some 10⁻¹²; 20 nodes leave
+/// 6·10⁻¹¹ at n = 8, M = 0.9. Each node takes milliseconds.
 const NODES: usize = 24;
 
 /// Points between the nodes at which the polynomial is compared with the phase.
@@ -33,8 +35,8 @@ const CHECKS: usize = 7;
 /// The error of the polynomial elsewhere, as a multiple of the largest difference at those points. Chosen, not derived.
 const SAFETY: f64 = 4.0;
 
-/// Most hops from the domain to the reach of the coordinate. More are needed at mass ratios below some 10⁻⁴ only; then the domain is
-/// moved inwards.
+/// Most hops from the domain to the reach of the coordinate. More are needed at mass ratios below some 10⁻⁴ only;
+/// then the domain is moved inwards.
 const MOST_HOPS: usize = 1000;
 
 /// A number of turns: Ψ less an integer that is the same for the whole domain.
@@ -174,8 +176,8 @@ impl FundamentalDomain {
 
     /// Ψ at any offset from the lowest one of the domain on to 0.
     ///
-    /// Beyond the range of the series the orbit leads outwards into the domain, in some tens of hops. Hops inwards, as for
-    /// [`FatouCoordinate::phase`], would have a smaller error, and take milliseconds.
+    /// Beyond the range of the series the orbit leads outwards into the domain, in some tens of hops. Hops inwards,
+    /// as for [`FatouCoordinate::phase`], would have a smaller error, and take milliseconds.
     pub(crate) fn phase(&self, map: &LiftOffMap, delta: Offset) -> Result<Phase, Error> {
         let DomainSpeeds { n, star, bottom, top } = self.speeds;
         let (lowest, highest) = (star.offset_of(bottom), star.offset_of(top));
@@ -196,8 +198,8 @@ impl FundamentalDomain {
             if !(next < near) || hops > MOST_HOPS as i64 {
                 return Err(no_turn);
             }
-            // The slope of Ψ at the end of a hop is below its mean over the hop. The error of f is 8 ulps of the image; two more
-            // stand for the rounding of the sum.
+            // The slope of Ψ at the end of a hop is below its mean over the hop. The error of f is 8 ulps of the
+            // image; two more stand for the rounding of the sum.
             error += 10.0 * f64::EPSILON * next.abs() / (near - next);
             near = next;
         }
@@ -260,8 +262,8 @@ impl Inner<'_> {
             if hops > MOST_HOPS || !(inner > before) {
                 return Err(Error::NoTurn { n: self.n, delta });
             }
-            // The mean of dΨ/dδ over a turn is 1/loss, and it grows by at most the slope of f over one turn. The error of f is
-            // 8 ulps of the image, and the search adds two.
+            // The mean of dΨ/dδ over a turn is 1/loss, and it grows by at most the slope of f over one turn. The
+            // error of f is 8 ulps of the image, and the search adds two.
             error += 10.0 * f64::EPSILON * before.abs() * slope / (inner - before);
         }
         let phase = self.coordinate.phase(Offset::from(inner))?.plus(-(hops as i64));

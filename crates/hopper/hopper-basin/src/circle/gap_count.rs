@@ -11,12 +11,13 @@ use passive_hopper::FixedPointSpeed;
 /// The number of gaps longer than ε between neighbouring boundary points in the turns left of α*_n, from the
 /// [domain](PhaseBasins::domain) of its circle on.
 ///
-/// It is counted from the lengths on the circle, at any ε. In the first turns the length of every gap is found from the phases. Later
-/// Ψ' = (1 − Acx)/(3Ax⁴) at x = |δ|^{1/3}: a gap of θ turns has the length θ/Ψ', and the x with a length of ε gives the number of
-/// turns, with an error of a part O(x) of a turn.
+/// It is counted from the lengths on the circle, at any ε. In the first turns the length of every gap is found from
+/// the phases. Later Ψ' = (1 − Acx)/(3Ax⁴) at x = |δ|^{1/3}: a gap of θ turns has the length θ/Ψ', and the x with a
+/// length of ε gives the number of turns, with an error of a part O(x) of a turn.
 ///
-/// At a limit point of the circle, a preimage of α*_m with a slope, the circle shows the gaps left of α*_m scaled by D (docs/theory.md,
-/// Theorem 89); those too short for the circle's [resolution](crate::CircleLimits) are counted from the circle of m.
+/// At a limit point of the circle, a preimage of α*_m with a slope, the circle shows the gaps left of α*_m scaled
+/// by D (docs/theory.md, Theorem 89); those too short for the circle's [resolution](crate::CircleLimits) are
+/// counted from the circle of m.
 ///
 /// ```
 /// use hopper_basin::{CircleLimits, Fates, GapCount, PhaseBasins};
@@ -101,8 +102,8 @@ const STEP: f64 = 0.04;
 const ITERATIONS: usize = 26;
 
 impl GapCount {
-    /// From the circle of α*_n; `lower` has the counts of the circles onto which its limit points fall. Of those with m < n that
-    /// it does not have, no gaps are counted beyond the circle's resolution.
+    /// From the circle of α*_n; `lower` has the counts of the circles onto which its limit points fall. Of those
+    /// with m < n that it does not have, no gaps are counted beyond the circle's resolution.
     ///
     /// # Errors
     /// Those of [`EdgeChart::onto`] for a limit point, and of [`PhaseBasins::phase`].
@@ -179,7 +180,8 @@ impl GapCount {
         u32::from(!self.gaps.is_empty()) + lower.unwrap_or(0)
     }
 
-    /// B_n of the law B ε^{−1/4} (ln 1/ε)^{d−1} for the mean number of boxes (docs/theory.md, Theorem 89). The number of gaps is ¾ of it.
+    /// B_n of the law B ε^{−1/4} (ln 1/ε)^{d−1} for the mean number of boxes (docs/theory.md, Theorem 89). The
+    /// number of gaps is ¾ of it.
     pub fn constant(&self) -> f64 {
         let depth = self.depth();
         let root = pxfm::f_pow(3.0 * self.drift, -0.75);
@@ -192,8 +194,8 @@ impl GapCount {
         0.75 * root * sum / f64::from(depth - 1)
     }
 
-    /// The number of gaps longer than ε, given ln ε; `None` if ln ε is not finite, or the number is too large for an `f64`: below
-    /// some 10⁻¹²⁰⁰.
+    /// The number of gaps longer than ε, given ln ε; `None` if ln ε is not finite, or the number is too large for
+    /// an `f64`: below some 10⁻¹²⁰⁰.
     pub fn longer_than(&self, ln_epsilon: f64) -> Option<f64> {
         let turns = |gap: &Gap| {
             let last = self.last_turn(gap, ln_epsilon);
@@ -268,8 +270,8 @@ impl GapCount {
         x
     }
 
-    /// x of a phase, by Newton's method in p = 1/(Ax). Ψ = p − c ln (Ap) increases and is concave, as c < 0: after one step the
-    /// iteration increases up to the root. A first step below 0 is shortened.
+    /// x of a phase, by Newton's method in p = 1/(Ax). Ψ = p − c ln (Ap) increases and is concave, as c < 0: after
+    /// one step the iteration increases up to the root. A first step below 0 is shortened.
     fn inverse(&self, psi: f64) -> f64 {
         let mut p = psi.max(1.0);
         for _ in 0..ITERATIONS {
@@ -281,8 +283,9 @@ impl GapCount {
     }
 }
 
-/// About every limit point, the interval from it to the farthest undecided interval that is nearer to it than to others. The boundary
-/// points in it are not all resolved, and are counted from the circle onto which the limit point falls.
+/// About every limit point, the interval from it to the farthest undecided interval that is nearer to it than to
+/// others. The boundary points in it are not all resolved, and are counted from the circle onto which the limit
+/// point falls.
 fn unresolved(cuts: &[Cut]) -> Vec<(f64, f64)> {
     let of_kind = |kind: CutKind| cuts.iter().filter(move |cut| cut.kind == kind);
     let mut zones: Vec<(f64, f64)> =

@@ -13,8 +13,9 @@ use std::f64::consts::PI;
 /// (α*_1² − 1)/(α*_1² + 1): for M up to this a hop has at most one sudden lift-off (docs/theory.md, Theorem 20).
 const ONE_SUDDEN: f64 = 0.905_619_101_548_377_4;
 
-/// Up to this n the windows are known to have one branch each for most M (docs/theory.md, Theorem 48). For larger n the intervals
-/// between the many traps below would also be too many: at n = 10 and M = 0.3, 2·10⁴ intervals leave a tenth of the circle undecided.
+/// Up to this n the windows are known to have one branch each for most M (docs/theory.md, Theorem 48). For larger n
+/// the intervals between the many traps below would also be too many: at n = 10 and M = 0.3, 2·10⁴ intervals leave
+/// a tenth of the circle undecided.
 const LARGEST_N: u64 = 8;
 
 /// Intervals of fewer ulps than this are not followed: their ends could not be told apart.
@@ -23,19 +24,21 @@ const SHORTEST_ULPS: f64 = 16.0;
 /// Most speeds whose fates are found: more than some minutes need.
 const MOST_SAMPLES: usize = 10_000_000;
 
-/// A gap of no more ulps is closed: it is one boundary point, or none, as the fates on both sides show. Ends are found to an ulp
-/// in each of the levels, and later hops contract their errors.
+/// A gap of no more ulps is closed: it is one boundary point, or none, as the fates on both sides show. Ends are
+/// found to an ulp in each of the levels, and later hops contract their errors.
 const GAP_ULPS: f64 = 64.0;
 
-/// A gap of so many ulps between intervals of one label comes from the rounding of their two ends, each found to an ulp.
+/// A gap of so many ulps between intervals of one label comes from the rounding of their two ends, each found to an
+/// ulp.
 const ROUNDING_ULPS: f64 = 4.0;
 
-/// A circle of one label is found with fewer intervals than this. A circle with more has several labels, or none is known.
+/// A circle of one label is found with fewer intervals than this. A circle with more has several labels, or none is
+/// known.
 const MOST_INTERVALS_OF_ONE_LABEL: usize = 1000;
 
-/// Ulps by which an end moves inwards until its fate is certain. The first value exceeds the error of nearly all ends: a fate on the
-/// wrong side of the boundary point would cost as much as one on the right side, some milliseconds. 16 ulps are less than a tenth
-/// of the error of a phase.
+/// Ulps by which an end moves inwards until its fate is certain. The first value exceeds the error of nearly all
+/// ends: a fate on the wrong side of the boundary point would cost as much as one on the right side, some
+/// milliseconds. 16 ulps are less than a tenth of the error of a phase.
 const END_ULPS: [f64; 5] = [16.0, 64.0, 256.0, 1024.0, 4096.0];
 
 /// An interval of speeds that have one label. Both ends were followed with a bound on the error.
@@ -180,8 +183,8 @@ fn by_spacing(
     Ok(parts)
 }
 
-/// Appends `next` to `parts`, whose last one has another label, with the change of label between the two found by bisection. A third
-/// label on the way is an interval of its own, until there are `most` intervals.
+/// Appends `next` to `parts`, whose last one has another label, with the change of label between the two found by
+/// bisection. A third label on the way is an interval of its own, until there are `most` intervals.
 fn changes(
     fates: &Fates,
     parts: &mut Vec<LabelledSpeeds>,
@@ -244,7 +247,8 @@ fn certain_ends(fates: &Fates, parts: Vec<LabelledSpeeds>) -> Result<Vec<Labelle
     Ok(ends.collect())
 }
 
-/// Neighbours with one label and a gap of some ulps joined. In a gap of more than [`ROUNDING_ULPS`] the fate is found as well.
+/// Neighbours with one label and a gap of some ulps joined. In a gap of more than [`ROUNDING_ULPS`] the fate is
+/// found as well.
 fn joined(fates: &Fates, parts: Vec<LabelledSpeeds>) -> Result<Vec<LabelledSpeeds>, Error> {
     let candidate = |pair: &[LabelledSpeeds]| {
         pair[0].label == pair[1].label && is_narrow(pair[0].right, pair[1].left)
@@ -278,7 +282,8 @@ fn is_narrow(left: f64, right: f64) -> bool {
     right - left <= GAP_ULPS * f64::EPSILON * right
 }
 
-/// Whether two certain ends are those of one boundary point: each may have moved by the first or the second of [`END_ULPS`].
+/// Whether two certain ends are those of one boundary point: each may have moved by the first or the second of
+/// [`END_ULPS`].
 pub(crate) fn is_boundary_point(left: f64, right: f64) -> bool {
     right - left <= (GAP_ULPS + 2.0 * END_ULPS[1]) * f64::EPSILON * right
 }

@@ -4,9 +4,9 @@ use basin_of_attraction::{Bounds, Label};
 
 /// The share of every fate in a set of phases, with bounds.
 ///
-/// On the whole circle these are the local fractions p_{n,k} = lim |basin_k ∩ (α*_n − ε, α*_n)|/ε as ε → 0. They exist and do not
-/// depend on the scale (docs/theory.md, Theorem 87). They are also the shares next to every preimage of α*_n, on a side that
-/// falls.
+/// On the whole circle these are the local fractions p_{n,k} = lim |basin_k ∩ (α*_n − ε, α*_n)|/ε as ε → 0. They
+/// exist and do not depend on the scale (docs/theory.md, Theorem 87). They are also the shares next to every
+/// preimage of α*_n, on a side that falls.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LocalFractions {
     /// Labels in increasing order.
@@ -58,8 +58,8 @@ impl LocalFractions {
         self.bounds.iter().map(|&(label, _)| label)
     }
 
-    /// The share of `label`. The lower bound counts the phases that certainly have the label, the upper bound adds all that are
-    /// undecided.
+    /// The share of `label`. The lower bound counts the phases that certainly have the label, the upper bound adds
+    /// all that are undecided.
     pub fn of(&self, label: Label) -> Bounds {
         let found = self.bounds.iter().find(|(own, _)| *own == label);
         found.map_or(Bounds { lower: 0.0, upper: self.undecided }, |&(_, bounds)| bounds)

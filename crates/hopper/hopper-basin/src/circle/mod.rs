@@ -1,8 +1,8 @@
 //! Which fates are shown at every scale left of a fixed point?
 //!
-//! Left of α*_n the fate of a speed depends on the fraction of its Fatou coordinate alone (docs/theory.md, Section 16). So one
-//! circle of phases, [`phase_basins`], has all that is seen there, however near to α*_n. It is found on one fundamental domain
-//! of speeds.
+//! Left of α*_n the fate of a speed depends on the fraction of its Fatou coordinate alone (docs/theory.md, Section
+//! 16). So one circle of phases, [`phase_basins`], has all that is seen there, however near to α*_n. It is found on
+//! one fundamental domain of speeds.
 //!
 //! ```text
 //!   circle_limits.rs        how far the circle is refined; what its labels stand on

@@ -39,14 +39,15 @@ pub struct UndecidedPhases {
     pub to: f64,
     /// The speeds of both ends on the fundamental domain.
     pub speeds: (f64, f64),
-    /// What a point inside comes to, as a rule the limit point of the boundary points inside; `None` if the two ends do not tell.
+    /// What a point inside comes to, as a rule the limit point of the boundary points inside; `None` if the two
+    /// ends do not tell.
     pub falls_onto: Option<FallsOnto>,
 }
 
 /// The circle of fates left of α*_n at one mass ratio.
 ///
-/// The fate of α*_n + δ, δ < 0, depends on Ψ(δ) mod 1 alone (docs/theory.md, Theorem 85). So one look-up gives the fate at every
-/// depth.
+/// The fate of α*_n + δ, δ < 0, depends on Ψ(δ) mod 1 alone (docs/theory.md, Theorem 85). So one look-up gives the
+/// fate at every depth.
 ///
 /// ```
 /// use hopper_asymptotics::Offset;
@@ -196,8 +197,8 @@ impl PhaseBasins {
 
     /// The error of the phases of speeds of the domain.
     ///
-    /// It is four times the largest difference between the polynomial and phases at points between its nodes, and the bound on
-    /// the error of those phases: an estimate, and not a proved bound.
+    /// It is four times the largest difference between the polynomial and phases at points between its nodes, and
+    /// the bound on the error of those phases: an estimate, and not a proved bound.
     pub fn phase_error(&self) -> f64 {
         self.domain.turns(self.domain.speeds.top).error
     }
@@ -218,16 +219,17 @@ impl PhaseBasins {
         &self.undecided
     }
 
-    /// The label of all phases within `error` of `phase`; `None` if they do not have one label, or it is not known. The integer
-    /// part of `phase` does not matter.
+    /// The label of all phases within `error` of `phase`; `None` if they do not have one label, or it is not known.
+    /// The integer part of `phase` does not matter.
     pub fn label_at(&self, phase: f64, error: f64) -> Option<Label> {
         self.shares.label(phase, error)
     }
 
     /// The local fractions p_{n,k}.
     ///
-    /// The bounds hold as the labels do ([`ground`](Self::ground)). With [`Ground::Spacing`] they are no bounds: they are widened by
-    /// 3/N, N the number of speeds. A set of speeds with a larger share has one of N random speeds in it with 95 % probability.
+    /// The bounds hold as the labels do ([`ground`](Self::ground)). With [`Ground::Spacing`] they are no bounds:
+    /// they are widened by 3/N, N the number of speeds. A set of speeds with a larger share has one of N random
+    /// speeds in it with 95 % probability.
     pub fn fractions(&self) -> LocalFractions {
         let found = LocalFractions::new(self.shares.lengths(0.0, 1.0), self.rounding());
         match self.ground {
@@ -236,8 +238,9 @@ impl PhaseBasins {
         }
     }
 
-    /// The share of every fate in the phases from `from` to `to` ≥ `from`, in turns: a pixel that covers them. The shares of
-    /// phases and of speeds differ by a part of the order 1/Ψ. The bounds hold as the labels do ([`ground`](Self::ground)).
+    /// The share of every fate in the phases from `from` to `to` ≥ `from`, in turns: a pixel that covers them. The
+    /// shares of phases and of speeds differ by a part of the order 1/Ψ. The bounds hold as the labels do
+    /// ([`ground`](Self::ground)).
     ///
     /// # Errors
     /// [`Error::Phases`] unless both are finite, and `to` is not below `from`. If they are equal, the share is that of the

@@ -14,9 +14,9 @@ use basin_of_attraction::Label;
 use hopper_asymptotics::{Offset, Phase};
 use passive_hopper::MassRatio;
 
-/// The version of the shares of a [`ShareColumn`] and of the windows about an edge ([`edge_window`](crate::edge_window),
-/// [`edge_frame`](crate::edge_frame)). It is raised when a change of the libraries changes a bit of them, as
-/// [`RASTER_VERSION`](crate::RASTER_VERSION) is for labels.
+/// The version of the shares of a [`ShareColumn`] and of the windows about an edge
+/// ([`edge_window`](crate::edge_window), [`edge_frame`](crate::edge_frame)). It is raised when a change of the
+/// libraries changes a bit of them, as [`RASTER_VERSION`](crate::RASTER_VERSION) is for labels.
 pub const SHARE_VERSION: u32 = 1;
 
 /// The shares of the fates in the pixels of one column.
@@ -84,15 +84,17 @@ impl ShareColumn {
         Ok(Self::new(&pixels))
     }
 
-    /// Column `at` of a raster about a boundary point that is followed over the mass ratio, with the axis [`Upwards::BothSides`].
-    /// `edges` has the point at the middle of every column, as far as it exists; `None` if it does not exist in this one.
+    /// Column `at` of a raster about a boundary point that is followed over the mass ratio, with the axis
+    /// [`Upwards::BothSides`]. `edges` has the point at the middle of every column, as far as it exists; `None` if
+    /// it does not exist in this one.
     ///
-    /// Up to 10⁻⁵ from the point a pixel has the shares of all its speeds over all its mass ratios: over the width of a column ln Ψ
-    /// moves by that of 1/A and by a third of that of the slope of f^k. Farther away it has the fates of eight speeds.
+    /// Up to 10⁻⁵ from the point a pixel has the shares of all its speeds over all its mass ratios: over the width
+    /// of a column ln Ψ moves by that of 1/A and by a third of that of the slope of f^k. Farther away it has the
+    /// fates of eight speeds.
     ///
     /// # Errors
-    /// Those of [`PhaseBasins::new`], [`Offset::new`] and [`FollowedEdge::chart`]; [`Error::BasinOfAttraction`] for a grid with an odd
-    /// number of rows.
+    /// Those of [`PhaseBasins::new`], [`Offset::new`] and [`FollowedEdge::chart`]; [`Error::BasinOfAttraction`] for
+    /// a grid with an odd number of rows.
     pub fn about(
         edges: &[Option<FollowedEdge>],
         grid: &Grid,
@@ -163,7 +165,8 @@ impl End {
 
     /// The shares from this end up to `high`.
     fn share(&self, high: &End, circle: &PhaseBasins) -> LocalFractions {
-        // A part of a turn more or less does not change a digit of so many turns. Beyond 10⁻⁹²⁴ their number is no `f64`.
+        // A part of a turn more or less does not change a digit of so many turns. Beyond 10⁻⁹²⁴ their number is no
+        // `f64`.
         if !(self.moved.max(high.moved) < MOST_TURNS) {
             return circle.fractions();
         }

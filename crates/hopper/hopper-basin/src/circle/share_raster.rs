@@ -76,8 +76,8 @@ impl ShareRaster {
         &self.labels
     }
 
-    /// The certain shares of a pixel, one for every [label](Self::labels); their sum is less than 1 by the undecided share. `None`
-    /// outside the raster. Rows count from below.
+    /// The certain shares of a pixel, one for every [label](Self::labels); their sum is less than 1 by the
+    /// undecided share. `None` outside the raster. Rows count from below.
     pub fn at(&self, column: usize, row: usize) -> Option<&[f32]> {
         let count = self.labels.len();
         let first = (row * self.grid.columns + column) * count;
@@ -106,13 +106,13 @@ impl ShareRaster {
 
 /// The shares left of α*_n: M to the right; upwards the phase, or the depth.
 ///
-/// A pixel has the shares of all phases that it covers, so that no structure between its middle and its edges is missed. In a column
-/// the circle is that of its middle. The phases at an offset move with M, by the leading order 1/(A |δ|^{1/3}) of Ψ; with
-/// [`Upwards::Depth`] a pixel covers the phases of its whole width. Offsets beyond the [domain](crate::PhaseBasins::domain) are undecided; it
-/// begins some tenths below α*_n.
+/// A pixel has the shares of all phases that it covers, so that no structure between its middle and its edges is
+/// missed. In a column the circle is that of its middle. The phases at an offset move with M, by the leading order
+/// 1/(A |δ|^{1/3}) of Ψ; with [`Upwards::Depth`] a pixel covers the phases of its whole width. Offsets beyond the
+/// [domain](crate::PhaseBasins::domain) are undecided; it begins some tenths below α*_n.
 ///
-/// `progress` is called with the number of finished columns, and may stop the work. The result does not depend on the number of
-/// threads. A column takes as long as [`PhaseBasins::new`](crate::PhaseBasins::new).
+/// `progress` is called with the number of finished columns, and may stop the work. The result does not depend on
+/// the number of threads. A column takes as long as [`PhaseBasins::new`](crate::PhaseBasins::new).
 ///
 /// ```
 /// use basin_of_attraction::{Grid, Interval};
@@ -128,8 +128,9 @@ impl ShareRaster {
 /// ```
 ///
 /// # Errors
-/// Those of [`PhaseBasins::new`](crate::PhaseBasins::new), [`MassRatio::new`](passive_hopper::MassRatio::new) and [`Offset::new`](hopper_asymptotics::Offset::new);
-/// [`Error::BasinOfAttraction`] for an empty grid, and if `progress` stops the work.
+/// Those of [`PhaseBasins::new`](crate::PhaseBasins::new), [`MassRatio::new`](passive_hopper::MassRatio::new) and
+/// [`Offset::new`](hopper_asymptotics::Offset::new); [`Error::BasinOfAttraction`] for an empty grid, and if
+/// `progress` stops the work.
 pub fn share_raster(
     n: u64,
     grid: Grid,

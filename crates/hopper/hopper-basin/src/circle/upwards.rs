@@ -7,8 +7,9 @@ pub enum Upwards {
     Depth,
     /// Ψ, in turns of the circle. α*_n is above.
     Phase,
-    /// −log₁₀ of the distance from an edge p, on both sides: the lower half of the rows are the speeds p − 10^{−y}, y upwards; the
-    /// upper half are the speeds p + 10^{−y}, y downwards. So speeds increase upwards, and p is in the middle.
+    /// −log₁₀ of the distance from an edge p, on both sides: the lower half of the rows are the speeds p − 10^{−y},
+    /// y upwards; the upper half are the speeds p + 10^{−y}, y downwards. So speeds increase upwards, and p is in
+    /// the middle.
     BothSides,
     /// The lift-off speed α, as in a [`coverage_raster`](crate::coverage_raster).
     LiftOffSpeed,

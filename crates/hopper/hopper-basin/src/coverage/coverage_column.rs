@@ -12,11 +12,12 @@ use passive_hopper::{MassRatio, alpha_star};
 
 /// The basins in a window of speeds at one mass ratio: as intervals, and as shares of pixels.
 ///
-/// Where all laps of the map are known, a gap between two speeds has a label if its image lies in an interval of known label. The sweep
-/// goes upwards from 0: orbits descend, so that images lie where the labels are known already. What is not decided is divided at the
-/// guessed preimages of the known intervals, until less than the tolerance is open (docs/theory.md, Theorem 95). So a basin inside a pixel
-/// is not missed, however thin it is: it is labelled, or open. Elsewhere the fates of some speeds of each pixel decide, and the places
-/// where they change are bisected ([`CoverageGround`]).
+/// Where all laps of the map are known, a gap between two speeds has a label if its image lies in an interval of
+/// known label. The sweep goes upwards from 0: orbits descend, so that images lie where the labels are known
+/// already. What is not decided is divided at the guessed preimages of the known intervals, until less than the
+/// tolerance is open (docs/theory.md, Theorem 95). So a basin inside a pixel is not missed, however thin it is: it
+/// is labelled, or open. Elsewhere the fates of some speeds of each pixel decide, and the places where they change
+/// are bisected ([`CoverageGround`]).
 ///
 /// ```
 /// use basin_of_attraction::Interval;

@@ -23,10 +23,11 @@ pub struct CoverageRaster {
 /// The share of every basin in the pixels of a window of the (M, α) plane: M to the right, α upwards, labels as in
 /// [`HopperFate::label`](crate::HopperFate::label).
 ///
-/// A pixel has the shares of all its speeds at the mass ratio of its column's middle. So a basin that is lower than a pixel makes a faint
-/// line without gaps, where [`basin_raster`](crate::basin_raster) shows dashes.
+/// A pixel has the shares of all its speeds at the mass ratio of its column's middle. So a basin that is lower than
+/// a pixel makes a faint line without gaps, where [`basin_raster`](crate::basin_raster) shows dashes.
 ///
-/// `progress` is called with the number of finished columns, and may stop the work. The result does not depend on the number of threads.
+/// `progress` is called with the number of finished columns, and may stop the work. The result does not depend on
+/// the number of threads.
 ///
 /// ```
 /// use basin_of_attraction::{Grid, Interval};
@@ -41,8 +42,8 @@ pub struct CoverageRaster {
 /// ```
 ///
 /// # Errors
-/// Those of [`CoverageColumn::new`] and [`MassRatio::new`]; [`Error::BasinOfAttraction`] for an empty grid, and if `progress` stops the
-/// work.
+/// Those of [`CoverageColumn::new`] and [`MassRatio::new`]; [`Error::BasinOfAttraction`] for an empty grid, and if
+/// `progress` stops the work.
 pub fn coverage_raster(
     grid: Grid,
     limits: CoverageLimits,

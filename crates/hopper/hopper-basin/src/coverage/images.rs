@@ -5,8 +5,8 @@ use crate::traps::hump::Hump;
 use basin_of_attraction::Interval;
 use passive_hopper::{FixedPointSpeed, HopWithin, LiftOffMap, MassRatio, index_below};
 
-/// The relative width that is added to an image, beyond its bound: for the rounding of sums, and for a hump whose maximum and minimum
-/// coincide within rounding, where the map deviates from a monotone one by some ulps.
+/// The relative width that is added to an image, beyond its bound: for the rounding of sums, and for a hump whose
+/// maximum and minimum coincide within rounding, where the map deviates from a monotone one by some ulps.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The image of a speed, or of all speeds of an interval.
@@ -82,7 +82,8 @@ pub trait SpeedImages {
     /// The images of all speeds between two speeds of one sweep.
     fn of_all_between(&self, a: &ImagedSpeed, b: &ImagedSpeed) -> SpeedImage;
 
-    /// Images of intervals are bounds, which halving makes sharper. Where they are exact, a gap is divided at preimages alone.
+    /// Images of intervals are bounds, which halving makes sharper. Where they are exact, a gap is divided at
+    /// preimages alone.
     fn are_sharper_on_halves(&self) -> bool;
 
     /// Critical points, increasing: the sweep divides gaps there. With fewer of them more stays open.
@@ -100,12 +101,12 @@ pub(crate) struct LapImages<'a> {
     values: Vec<SpeedImage>,
 }
 
-/// The relative distance from a computed critical point within which the map may have its extremum, as for the ends of laps: some
-/// thousand ulps, far more than their error.
+/// The relative distance from a computed critical point within which the map may have its extremum, as for the ends
+/// of laps: some thousand ulps, far more than their error.
 const DISTANCE_FROM_CRITICAL: f64 = 1e-12;
 
-/// For each hump up to the speed `top`, from hump 0: the part on which the map falls after contact, between a maximum and a minimum; `None`
-/// where it only rises (docs/theory.md, Corollary 28).
+/// For each hump up to the speed `top`, from hump 0: the part on which the map falls after contact, between a
+/// maximum and a minimum; `None` where it only rises (docs/theory.md, Corollary 28).
 ///
 /// # Errors
 /// [`Error::Index`] for a speed beyond the humps of the library.

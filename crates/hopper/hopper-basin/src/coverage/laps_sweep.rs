@@ -6,9 +6,10 @@
 //!                          └──────┴───────────── f ──────────────────┴──────┘        the image is inside: decaying
 //! ```
 //!
-//! f is continuous and monotone on laps, whose ends are the critical points. So the image of [a, b] is the interval from the smallest to
-//! the largest of f(a), f(b) and the critical values of [a, b] (docs/theory.md, Theorem 95). Orbits descend: the image lies below the gap,
-//! where the labels are known already, and one hop suffices. A gap without a label is halved, and left open once it is small.
+//! f is continuous and monotone on laps, whose ends are the critical points. So the image of [a, b] is the interval
+//! from the smallest to the largest of f(a), f(b) and the critical values of [a, b] (docs/theory.md, Theorem 95).
+//! Orbits descend: the image lies below the gap, where the labels are known already, and one hop suffices. A gap
+//! without a label is halved, and left open once it is small.
 
 use crate::basins::branches::branches_are_proved;
 use crate::coverage::images::{ImagedSpeed, SpeedImage, SpeedImages};
@@ -22,31 +23,34 @@ use basin_of_attraction::{Interval, Label};
 use passive_hopper::{FixedPointSpeed, MassRatio, index_below};
 use std::f64::consts::PI;
 
-/// Most images of a gap that are taken. The first one shows the label as a rule. Where it lies between two known intervals, which the
-/// sweep left open, the second may. It affects the time, and what is left open.
+/// Most images of a gap that are taken. The first one shows the label as a rule. Where it lies between two known
+/// intervals, which the sweep left open, the second may. It affects the time, and what is left open.
 const MOST_IMAGES: usize = 2;
 
-/// The smallest width that a pass resolves, over that of the pass before. With a smaller factor there are fewer passes, and more is
-/// resolved than needed. It affects the time only.
+/// The smallest width that a pass resolves, over that of the pass before. With a smaller factor there are fewer
+/// passes, and more is resolved than needed. It affects the time only.
 const FINER: f64 = 0.25;
 
-/// A pass that leaves more than this part of what was open is the last one: what is open lies at preimages of what is open below the pixel.
+/// A pass that leaves more than this part of what was open is the last one: what is open lies at preimages of what
+/// is open below the pixel.
 const STALLED: f64 = 0.8;
 
-/// The width of the image of one speed, over that of a gap, from which a gap is divided so much further inside. It affects the time only.
+/// The width of the image of one speed, over that of a gap, from which a gap is divided so much further inside. It
+/// affects the time only.
 const BLURRED: f64 = 1e-3;
 
 /// A part of the hop from a speed next to a fixed point: the image of so much above the speed lies below the speed.
 const TURN: f64 = 0.9;
 
-/// How far inside of the guessed preimage of an interval a gap is divided, as a part of the preimage. With less, more guesses miss the
-/// preimage; with more, more is left to the next pass. 0.01 to 0.1 differ by a fifth in time.
+/// How far inside of the guessed preimage of an interval a gap is divided, as a part of the preimage. With less,
+/// more guesses miss the preimage; with more, more is left to the next pass. 0.01 to 0.1 differ by a fifth in time.
 const MARGIN: f64 = 0.03;
 
 /// The guess of more preimages than this takes a third point, which costs a hop. It affects the time only.
 const MANY: usize = 3;
 
-/// Most images of a narrow window that are resolved apart. Next to a fixed point there are more, which the sweep below leaves open.
+/// Most images of a narrow window that are resolved apart. Next to a fixed point there are more, which the sweep
+/// below leaves open.
 const MOST_NARROW_IMAGES: usize = 64;
 
 /// Every speed from 0 to `top` lies on a known lap, up to the ends of laps.
@@ -69,17 +73,19 @@ pub struct Resolution {
     pub tolerance: f64,
     /// The largest number of speeds inside a pixel whose images are taken.
     pub speeds: usize,
-    /// Most passes over a pixel. A pass leaves some hundredths of each gap that it divides, and resolves gaps of a quarter of the width that the
-    /// one before did. A small tolerance needs more.
+    /// Most passes over a pixel. A pass leaves some hundredths of each gap that it divides, and resolves gaps of a
+    /// quarter of the width that the one before did. A small tolerance needs more.
     pub passes: usize,
-    /// The smallest width that is resolved, over what may stay open of a pixel. Much below it a pixel would have more gaps than it may have. With a
-    /// smaller one the turns next to a fixed point, of which there are ever more, take the time.
+    /// The smallest width that is resolved, over what may stay open of a pixel. Much below it a pixel would have
+    /// more gaps than it may have. With a smaller one the turns next to a fixed point, of which there are ever
+    /// more, take the time.
     pub finest: f64,
 }
 
 /// The intervals of known label, from 0 up to the speed that the sweep has reached.
 ///
-/// The labels are as certain as the images and the traps that the sweep is given. With those of a strip of mass ratios each label holds for all of them.
+/// The labels are as certain as the images and the traps that the sweep is given. With those of a strip of mass
+/// ratios each label holds for all of them.
 pub struct LapsSweep<I> {
     images: I,
     /// The traps, increasing.
@@ -198,8 +204,8 @@ impl<I: SpeedImages> LapsSweep<I> {
                 from = if right < b.speed { self.end(right) } else { b };
                 continue;
             }
-            // Next to a fixed point the image of the gap may reach into the gap itself: turn by turn, each image is known. An unknown
-            // image is below its speed.
+            // Next to a fixed point the image of the gap may reach into the gap itself: turn by turn, each image is
+            // known. An unknown image is below its speed.
             let highest = match b.reached {
                 SpeedImage::Within(_, high) => high,
                 SpeedImage::Unknown => b.speed,
@@ -222,8 +228,8 @@ impl<I: SpeedImages> LapsSweep<I> {
         }
     }
 
-    /// The largest speed below the next fixed point, and the label of all speeds up to there, if a turn below `from` has one label and
-    /// the map rises from there on (docs/theory.md, Theorem 95.3).
+    /// The largest speed below the next fixed point, and the label of all speeds up to there, if a turn below
+    /// `from` has one label and the map rises from there on (docs/theory.md, Theorem 95.3).
     fn one_label_up_to_fixed_point(&self, from: &ImagedSpeed) -> Option<(f64, Label)> {
         let (SpeedImage::Within(low, _), &(own, label)) = (from.reached, self.known.last()?) else {
             return None;
@@ -249,8 +255,8 @@ impl<I: SpeedImages> LapsSweep<I> {
         let loose = self.images.are_sharper_on_halves();
         let unknown = || self.images.of_all_between(&a, &b) == SpeedImage::Unknown;
         if a.reached.kind() != b.reached.kind() || (loose && unknown()) {
-            // The edge of grounding has no known interval as its image: it is bisected. So is the place of an undecided hop, and an interval
-            // on which the map is not known to be monotone.
+            // The edge of grounding has no known interval as its image: it is bisected. So is the place of an
+            // undecided hop, and an interval on which the map is not known to be monotone.
             let middle = a.speed.midpoint(b.speed);
             if !(a.speed < middle && middle < b.speed) {
                 return parts.push(Part::Open(a, b));
@@ -259,8 +265,8 @@ impl<I: SpeedImages> LapsSweep<I> {
             self.budget -= 1;
             let undecided = |end: &ImagedSpeed| end.reached == SpeedImage::Unknown;
             if [a, middle, b].iter().all(undecided) {
-                // Hops that are open at some mass ratio of a strip lie in a band. It has ends that are worth finding; inside, bisection finds
-                // nothing, and would take all speeds from the rest of the pixel.
+                // Hops that are open at some mass ratio of a strip lie in a band. It has ends that are worth
+                // finding; inside, bisection finds nothing, and would take all speeds from the rest of the pixel.
                 return parts.extend([Part::Open(a, middle), Part::Open(middle, b)]);
             }
             self.split((a, middle), finest, parts);
@@ -290,8 +296,8 @@ impl<I: SpeedImages> LapsSweep<I> {
         }
     }
 
-    /// Where to divide a gap: at a critical point, or else a little inside of the preimages of the known intervals in its image. The
-    /// preimages are guessed; the labels do not depend on the guess.
+    /// Where to divide a gap: at a critical point, or else a little inside of the preimages of the known intervals
+    /// in its image. The preimages are guessed; the labels do not depend on the guess.
     fn cuts(&self, a: &ImagedSpeed, b: &ImagedSpeed, finest: f64) -> (Vec<ImagedSpeed>, usize) {
         let critical = self.images.critical_points();
         let first = critical.partition_point(|&speed| speed <= a.speed + 0.5 * finest);
@@ -336,7 +342,8 @@ impl<I: SpeedImages> LapsSweep<I> {
                 cuts.extend((own.right < high).then(|| self.end(y - margin)));
             }
             if cuts.is_empty() && self.images.are_sharper_on_halves() {
-                // One interval holds the images of both ends, and not those of all between: a bound on these was too wide.
+                // One interval holds the images of both ends, and not those of all between: a bound on these was
+                // too wide.
                 cuts.push(self.end(a.speed.midpoint(b.speed)));
             }
             cuts.sort_by(|p, q| p.speed.total_cmp(&q.speed));

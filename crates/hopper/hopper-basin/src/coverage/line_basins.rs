@@ -8,8 +8,9 @@ use crate::fates::fates_at_mass_ratio::Fates;
 use basin_of_attraction::{Interval, Label, PixelShares};
 use passive_hopper::{alpha_star, index_below};
 
-/// The pixels of the range below the window, and the open part of each. Images of the window's gaps fall there. With more and finer
-/// ones fewer gaps of the window need a second image or stay open. It affects the time, and what is left open.
+/// The pixels of the range below the window, and the open part of each. Images of the window's gaps fall there.
+/// With more and finer ones fewer gaps of the window need a second image or stay open. It affects the time, and
+/// what is left open.
 const PIXELS_BELOW: usize = 512;
 const TOLERANCE_BELOW: f64 = 0.01;
 
@@ -17,15 +18,15 @@ const TOLERANCE_BELOW: f64 = 0.01;
 const PASSES: usize = 8;
 const FINEST: f64 = 1.0 / 16_384.0;
 
-/// The pixels of each image of a window that is narrower than some pixels below it. Without them such a window lies in few pixels, and
-/// much of it would stay open.
+/// The pixels of each image of a window that is narrower than some pixels below it. Without them such a window lies
+/// in few pixels, and much of it would stay open.
 const PIXELS_OF_IMAGE: usize = 128;
 
 /// An image that is wider than so many pixels below the window needs no finer pixels of its own.
 const WIDE: f64 = 16.0;
 
-/// Below each fixed point infinitely many basins meet. So many more pixels lie there, each so much narrower than the one before. Speeds
-/// beyond the trap of a fixed point have their images there, and would stay open else.
+/// Below each fixed point infinitely many basins meet. So many more pixels lie there, each so much narrower than
+/// the one before. Speeds beyond the trap of a fixed point have their images there, and would stay open else.
 const PIXELS_BESIDE: i32 = 2;
 const NEARER: f64 = 0.125;
 

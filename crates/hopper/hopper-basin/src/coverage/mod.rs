@@ -1,7 +1,8 @@
 //! Which share of every pixel of a column belongs to each basin?
 //!
-//! A pixel of a [raster of labels](crate::basin_raster) has the fate of its middle, so that a basin thinner than a pixel is shown in some
-//! pixels only. A pixel of a coverage raster has the shares of all its speeds at the mass ratio of its column.
+//! A pixel of a [raster of labels](crate::basin_raster) has the fate of its middle, so that a basin thinner than a
+//! pixel is shown in some pixels only. A pixel of a coverage raster has the shares of all its speeds at the mass
+//! ratio of its column.
 //!
 //! ```text
 //!   coverage_limits.rs    how small the undecided part of a pixel becomes; what the shares stand on

@@ -1,24 +1,26 @@
 //! The orbits beside a point that falls onto a fixed point, by one orbit in 106 bits.
 //!
-//! In `f64` an orbit that comes within 10⁻⁹ of α*_n has lost the digits of its offset. Here one reference orbit has them. The orbits
-//! of near starts, at near mass ratios, follow from its derivatives: the offset of each keeps its digits, however near it is.
+//! In `f64` an orbit that comes within 10⁻⁹ of α*_n has lost the digits of its offset. Here one reference orbit has
+//! them. The orbits of near starts, at near mass ratios, follow from its derivatives: the offset of each keeps its
+//! digits, however near it is.
 
 use passive_hopper::{
     Arithmetic, ExtendedOrbit, ExtendedStep, FixedPointSpeed, LiftOffMap, MassRatio, OrbitTangent,
 };
 
-/// The largest distance of a start from the reference, and the next ones that are tried where the orbits do not hop alike. From a
-/// larger distance an orbit in `f64` has a smaller error.
+/// The largest distance of a start from the reference, and the next ones that are tried where the orbits do not hop
+/// alike. From a larger distance an orbit in `f64` has a smaller error.
 const RADII: [f64; 3] = [1e-6, 3e-8, 1e-9];
 
-/// Two starts nearer to each other than this, both of which come next to the same fixed point, have one edge as a rule. Otherwise
-/// the second one is labelled alone.
+/// Two starts nearer to each other than this, both of which come next to the same fixed point, have one edge as a
+/// rule. Otherwise the second one is labelled alone.
 const SAME_EDGE: f64 = 1e-5;
 
 /// The steps of the differences, in units of the radii for the start and for κ: along both axes, and to the corners.
 const STEPS: [(i8, i8); 8] = [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];
 
-/// A bound on the third and the fourth order, over what the differences show of them. It is an estimate, and so are the bounds.
+/// A bound on the third and the fourth order, over what the differences show of them. It is an estimate, and so are
+/// the bounds.
 const OVER_SEEN: f64 = 2.0;
 
 /// The starts near one that falls onto α*_n, at mass ratios near to its own.
@@ -40,9 +42,9 @@ pub(crate) struct BesideEdge {
 }
 
 impl BesideEdge {
-    /// From a start whose orbit comes near α*_n after `hops` hops, for all mass ratios within `kappa` in κ if that is less than the
-    /// radius, else for its own. `see` is given each speed of the reference orbit, with the largest distance of the orbits beside it.
-    /// `None` if they do not all hop alike.
+    /// From a start whose orbit comes near α*_n after `hops` hops, for all mass ratios within `kappa` in κ if that
+    /// is less than the radius, else for its own. `see` is given each speed of the reference orbit, with the
+    /// largest distance of the orbits beside it. `None` if they do not all hop alike.
     pub(crate) fn new(
         map: &LiftOffMap,
         near: f64,
@@ -137,8 +139,8 @@ impl BesideEdge {
         self.kappa_step(mass_ratio).abs() <= self.tangent.kappa_radius
     }
 
-    /// The offset from α*_n to which the orbit of `alpha` comes, and a bound on its error; `None` for a start or a mass ratio too far
-    /// away.
+    /// The offset from α*_n to which the orbit of `alpha` comes, and a bound on its error; `None` for a start or a
+    /// mass ratio too far away.
     pub(crate) fn offset(&self, alpha: f64, mass_ratio: MassRatio) -> Option<(f64, f64)> {
         let (y, k) = (alpha - self.start, self.kappa_step(mass_ratio)); // y is exact: both are near
         let OrbitTangent { slope, kappa_slope, rounding, radius, kappa_radius, .. } = self.tangent;

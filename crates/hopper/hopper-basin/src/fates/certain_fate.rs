@@ -7,9 +7,10 @@
 //!   106 … 1024 bits     signed derivative                           tens of microseconds … milliseconds
 //! ```
 //!
-//! Each row is used if the row above leaves a hop inconclusive. The orbit is then followed again from its start, which is
-//! exact. Only two verdicts decide: the whole interval of the error lies inside a trap, or the hopper is grounded from all
-//! of it. A speed beside the end of a trap is therefore followed further: its image lies on one side of α*_n.
+//! Each row is used if the row above leaves a hop inconclusive. The orbit is then followed again from its start,
+//! which is exact. Only two verdicts decide: the whole interval of the error lies inside a trap, or the hopper is
+//! grounded from all of it. A speed beside the end of a trap is therefore followed further: its image lies on one
+//! side of α*_n.
 //!
 //! docs/theory.md, Theorem 79.
 
@@ -37,17 +38,18 @@ pub(crate) enum Verdict {
     },
 }
 
-/// Largest number of hops of a fate in each of [`Arithmetic::ALL`], a jump counted as one. Each of them takes at most some tenths of a
-/// second: 0.3 ms a hop in 256 bits. Past it the fate is undecided, for the reason
+/// Largest number of hops of a fate in each of [`Arithmetic::ALL`], a jump counted as one. Each of them takes at
+/// most some tenths of a second: 0.3 ms a hop in 256 bits. Past it the fate is undecided, for the reason
 /// [`UndecidedReason::Precision`](basin_of_attraction::UndecidedReason::Precision).
 ///
-/// 256 bits have as many hops as 106: where the error of a jump is too large, they follow up to 2048 slow hops one by one. For M ≥ 10 an
-/// orbit passes by several fixed points one after the other, and each multiplies its error.
+/// 256 bits have as many hops as 106: where the error of a jump is too large, they follow up to 2048 slow hops one
+/// by one. For M ≥ 10 an orbit passes by several fixed points one after the other, and each multiplies its error.
 const EXTENDED_BUDGETS: [usize; 4] = [2048, 2048, 128, 64];
 
-/// Largest error of the upper end of a trap, relative to its length, at which a speed within the error is certainly left of the map's minimum.
-/// The slope of the map's two sides at the end is then above 10⁻⁷ of its scale, and so is the distance to the minimum. A larger value is not
-/// safe beside a crisis; a smaller one leaves more ends to the next hop.
+/// Largest error of the upper end of a trap, relative to its length, at which a speed within the error is certainly
+/// left of the map's minimum. The slope of the map's two sides at the end is then above 10⁻⁷ of its scale, and so
+/// is the distance to the minimum. A larger value is not safe beside a crisis; a smaller one leaves more ends to
+/// the next hop.
 const CERTAIN_END: f64 = 1e-9;
 
 /// An orbit in `f64`, with a bound on its error.
@@ -64,14 +66,15 @@ pub(crate) struct PlainOrbit {
 
 /// The last speeds of an orbit, as long as each of them lies within its error of an end of the same trap.
 ///
-/// Up to the first fall f is not below α*_n, and beyond it f is below; left of α*_n as well, and no orbit rises (docs/theory.md,
-/// Theorem 29). So if an orbit is in the trap at last, all these speeds were in it: the fate was decided at the first one.
+/// Up to the first fall f is not below α*_n, and beyond it f is below; left of α*_n as well, and no orbit rises
+/// (docs/theory.md, Theorem 29). So if an orbit is in the trap at last, all these speeds were in it: the fate was
+/// decided at the first one.
 #[derive(Debug, Clone, Copy, Default)]
 struct Beside {
     /// The index of the trap, and the hops at the first of these speeds.
     first: Option<(u64, usize)>,
-    /// The error hid on which side of the end of the contact part a speed is, behind which f may stay above α*_n: the number of
-    /// hops is open.
+    /// The error hid on which side of the end of the contact part a speed is, behind which f may stay above α*_n:
+    /// the number of hops is open.
     open: bool,
 }
 
@@ -220,7 +223,8 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
 
     /// Whether an exact speed within the error of the upper end of a trap is in it.
     ///
-    /// Up to the first fall f is not below α*_n, and beyond it f is below (docs/theory.md, Theorem 29). So the next speed decides.
+    /// Up to the first fall f is not below α*_n, and beyond it f is below (docs/theory.md, Theorem 29). So the next
+    /// speed decides.
     fn is_at_end_of(&self, trap: &Trap, speed: f64) -> Result<bool, Error> {
         // Beside a crisis the error is large, whatever the computed edge is.
         if !(trap.error < CERTAIN_END * trap.delta) {
@@ -242,8 +246,8 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
         Ok(false)
     }
 
-    /// The verdict in longer arithmetic, within a budget of hops of the caller and one of this arithmetic; `None` if the
-    /// second is used up.
+    /// The verdict in longer arithmetic, within a budget of hops of the caller and one of this arithmetic; `None`
+    /// if the second is used up.
     fn in_extended(
         &self,
         alpha: f64,
@@ -282,8 +286,8 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
             if followed >= most {
                 return Ok((None, hops));
             }
-            // A jump leaves the error of its phase, the same in all arithmetics. Where a longer one can follow the slow hops, it
-            // keeps its digits.
+            // A jump leaves the error of its phase, the same in all arithmetics. Where a longer one can follow the
+            // slow hops, it keeps its digits.
             let fewest = if arithmetic == Arithmetic::Bits106 { 1 } else { most - followed };
             if let Some(jumped) = self.jump_in_extended(n + 1, fewest, &mut orbit)? {
                 hops = hops.saturating_add(jumped);
@@ -300,8 +304,8 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
         Ok((Some(Verdict::Budget), hops))
     }
 
-    /// Moves the orbit to the end of its slow hops left of α*_n, and gives their number; `None` if it is not near, or they are
-    /// less than `fewest`.
+    /// Moves the orbit to the end of its slow hops left of α*_n, and gives their number; `None` if it is not near,
+    /// or they are less than `fewest`.
     fn jump_in_extended(
         &self,
         n: u64,

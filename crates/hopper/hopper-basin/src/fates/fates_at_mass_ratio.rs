@@ -13,10 +13,11 @@ use std::sync::OnceLock;
 /// take longer to classify, with the same result.
 const KEPT_TRAPS: usize = 64;
 
-/// The number of hops after which a fate is reported as [undecided](HopperFate::Undecided). A jump along the slow side of a fixed
-/// point counts as one.
+/// The number of hops after which a fate is reported as [undecided](HopperFate::Undecided). A jump along the slow
+/// side of a fixed point counts as one.
 ///
-/// A million hops take some tenths of a second in `f64`. From a distance δ left of a fixed point an orbit takes about 3/(10 λ
+/// A million hops take some tenths of a second in `f64`. From a distance δ left of a fixed point an orbit takes
+/// about 3/(10 λ
 /// |δ|^{1/3}) hops to leave (docs/theory.md, Theorem 38), which are jumped over. From the right no orbit leaves. So an orbit
 /// is followed for some dozen hops as a rule, and this number only bounds the work.
 pub const HOP_BUDGET: usize = 1_000_000;
@@ -26,10 +27,10 @@ pub const HOP_BUDGET: usize = 1_000_000;
 /// As f(α) ≤ α, an orbit only descends (docs/theory.md, Theorem 24). Its fate is decided when it enters a [`Trap`] or
 /// is grounded. Closeness to a fixed point does not decide a fate: orbits just below a fixed point leave it slowly.
 ///
-/// A decided fate is that of the exact orbit of the given `f64` at the given M, and not of an orbit rounded to `f64`
-/// (docs/theory.md, Theorem 79). A part of the error bound behind this is not proved. In the slow approach to and escape from
-/// fixed points the second order of a hop's error is an estimate, which is measured against longer arithmetic
-/// (docs/theory.md, Section 15).
+/// A decided fate is that of the exact orbit of the given `f64` at the given M, and not of an orbit rounded to
+/// `f64` (docs/theory.md, Theorem 79). A part of the error bound behind this is not proved. In the slow approach to
+/// and escape from fixed points the second order of a hop's error is an estimate, which is measured against longer
+/// arithmetic (docs/theory.md, Section 15).
 ///
 /// ```
 /// use hopper_basin::{Fates, HopperFate};
@@ -92,8 +93,8 @@ impl Fates {
         self.fate_within(alpha, HOP_BUDGET).map(|(fate, _)| fate)
     }
 
-    /// The fate, and the number of hops until it was known, with a given budget of hops. The number contains the hops that were
-    /// jumped over along the slow side of a fixed point; in the budget a jump counts as one hop.
+    /// The fate, and the number of hops until it was known, with a given budget of hops. The number contains the
+    /// hops that were jumped over along the slow side of a fixed point; in the budget a jump counts as one hop.
     ///
     /// # Errors
     /// As [`fate`](Self::fate).

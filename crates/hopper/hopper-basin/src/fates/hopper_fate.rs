@@ -17,8 +17,9 @@ pub enum HopperFate {
     /// The fate is not known, for the given reason:
     ///
     /// - [`Budget`](UndecidedReason::Budget): the caller's budget of hops is used up;
-    /// - [`Precision`](UndecidedReason::Precision): `f64` does not decide the orbit, and longer arithmetic would need more than
-    ///   1024 bits, or some thousand hops beside those that are jumped over; `at` is the speed before the undecided hop;
+    /// - [`Precision`](UndecidedReason::Precision): `f64` does not decide the orbit, and longer arithmetic would
+    ///   need more than 1024 bits, or some thousand hops beside those that are jumped over; `at` is the speed
+    ///   before the undecided hop;
     /// - [`Map`](UndecidedReason::Map): the map does not decide the first hop.
     Undecided(UndecidedReason),
 }

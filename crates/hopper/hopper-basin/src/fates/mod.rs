@@ -1,11 +1,11 @@
 //! What is the long-term behaviour of a hopper that lifts off with a given speed?
 //!
 //! There are three fates: the hopper hops for ever and converges to a fixed point, it hops ever lower, or it is
-//! grounded ([`hopper_fate`], with the labels of fates in images). An orbit is followed until it enters a trap or is
-//! grounded, with a bound on its error ([`certain_fate`]). The fate is undecided, with the reason, if neither happens
-//! within a budget of hops, or if the error reaches a verdict. The many hops along the slow side of a fixed point are jumped
-//! over ([`slow_sides`]; many starts beside one that falls onto a fixed point: [`beside_edge`]). [`fates_at_mass_ratio`] has the entries and the
-//! traps, and [`many_fates`] follows many orbits together.
+//! grounded ([`hopper_fate`], with the labels of fates in images). An orbit is followed until it enters a trap or
+//! is grounded, with a bound on its error ([`certain_fate`]). The fate is undecided, with the reason, if neither
+//! happens within a budget of hops, or if the error reaches a verdict. The many hops along the slow side of a fixed
+//! point are jumped over ([`slow_sides`]; many starts beside one that falls onto a fixed point: [`beside_edge`]).
+//! [`fates_at_mass_ratio`] has the entries and the traps, and [`many_fates`] follows many orbits together.
 //!
 //! This room uses `traps`. The raster finds the fates of many speeds faster, and gives the same labels.
 

@@ -1,7 +1,7 @@
 //! The slow sides of the fixed points at one mass ratio: where an orbit need not be followed hop by hop.
 //!
-//! Left of α*_n an orbit at distance |δ| takes some |δ|^{−1/3} hops to leave. The Fatou coordinate gives the point that it
-//! reaches, with an error (docs/theory.md, Section 16).
+//! Left of α*_n an orbit at distance |δ| takes some |δ|^{−1/3} hops to leave. The Fatou coordinate gives the point
+//! that it reaches, with an error (docs/theory.md, Section 16).
 
 use hopper_asymptotics::{Coefficients, FatouCoordinate, Form, HopCount, OutwardWalk, SlowJump};
 use passive_hopper::{FixedPointSpeed, MassRatio, alpha_star};
@@ -11,8 +11,8 @@ use std::sync::OnceLock;
 /// The number of fixed points whose coordinates are stored. Those of larger n are computed at each use.
 const KEPT: usize = 64;
 
-/// No walk or jump begins farther from its fixed point: |δ| = (|t|/β)³ up to terms of relative size |t|, with |t| ≤ 0.3 and β ≥ 2.24,
-/// is below 2.5·10⁻³.
+/// No walk or jump begins farther from its fixed point: |δ| = (|t|/β)³ up to terms of relative size |t|, with |t| ≤
+/// 0.3 and β ≥ 2.24, is below 2.5·10⁻³.
 const FARTHEST: f64 = 3e-3;
 
 /// The farthest |δ| left of α*_n at which A |δ|^{1/3} is at most `turn`, or more.
@@ -22,13 +22,13 @@ fn farthest(n: u64, mass_ratio: MassRatio, turn: f64) -> f64 {
     (1.1 * root * root * root).min(FARTHEST)
 }
 
-/// The largest A x of a walk and of a jump. From 0.8 an orbit leaves with the next hop or two, which lose less than a walk costs. It
-/// affects the time only.
+/// The largest A x of a walk and of a jump. From 0.8 an orbit leaves with the next hop or two, which lose less than
+/// a walk costs. It affects the time only.
 const WALK: f64 = 0.8;
 const JUMP: f64 = 0.12;
 
-/// Largest error of a phase with which an orbit jumps. Where it decides too little, longer arithmetic has a smaller one. The
-/// fates are right with any value below 1/2; a smaller one sends more orbits to longer arithmetic at once.
+/// Largest error of a phase with which an orbit jumps. Where it decides too little, longer arithmetic has a smaller
+/// one. The fates are right with any value below 1/2; a smaller one sends more orbits to longer arithmetic at once.
 pub(crate) const LARGEST_ERROR: f64 = 0.01;
 
 /// The left sides of the fixed points.
@@ -39,7 +39,8 @@ pub(crate) struct SlowSides {
     first: [SlowSide; KEPT],
 }
 
-/// The slow side of one fixed point. Many orbits need the coordinate alone, so that each part is computed at its first use.
+/// The slow side of one fixed point. Many orbits need the coordinate alone, so that each part is computed at its
+/// first use.
 #[derive(Debug, Clone, Default)]
 struct SlowSide {
     psi: OnceLock<Option<Box<FatouCoordinate>>>,
@@ -59,7 +60,8 @@ impl SlowSides {
         (near && -offset <= farthest(n, self.mass_ratio, JUMP)).then_some(offset)
     }
 
-    /// The end of the slow hops of the orbit within `error` of α*_n + `offset`; `None` for a phase with an error above `largest`.
+    /// The end of the slow hops of the orbit within `error` of α*_n + `offset`; `None` for a phase with an error
+    /// above `largest`.
     pub(crate) fn jump(&self, n: u64, offset: f64, error: f64, largest: f64) -> Option<SlowJump> {
         self.with(n, |psi| psi.jump(offset, error, largest))
     }
@@ -89,8 +91,8 @@ impl SlowSides {
         self.with(n, |psi| (-offset > psi.jump_range()).then_some(())).is_some()
     }
 
-    /// The number of hops, the offset and its error where the orbit within `error` of α*_n + `offset` leaves: after a jump, or after
-    /// one hop; `None` where it has left, and for an error too large.
+    /// The number of hops, the offset and its error where the orbit within `error` of α*_n + `offset` leaves: after
+    /// a jump, or after one hop; `None` where it has left, and for an error too large.
     pub(crate) fn leave(&self, n: u64, offset: f64, error: f64) -> Option<(u64, f64, f64)> {
         let jump = self.jump(n, offset, error, LARGEST_ERROR).filter(|jump| jump.hops > 0);
         match jump {
@@ -127,13 +129,15 @@ impl SlowSides {
     }
 }
 
-/// A zone ends this much above α*_n: more than the error of an orbit that comes there in `f64`, which may lie below α*_n.
+/// A zone ends this much above α*_n: more than the error of an orbit that comes there in `f64`, which may lie below
+/// α*_n.
 const BEYOND: f64 = 1.0 + 1e-11;
 
 /// The ends of the slow sides at one mass ratio, for a fast look-up.
 #[derive(Debug, Clone)]
 pub(crate) struct SlowZones {
-    /// For n = 0, 1, …: the speeds from which an orbit may walk left of α*_n, and may jump, and α*_n. The first zone is empty.
+    /// For n = 0, 1, …: the speeds from which an orbit may walk left of α*_n, and may jump, and α*_n. The first
+    /// zone is empty.
     zones: Vec<[f64; 3]>,
 }
 

@@ -1,8 +1,8 @@
 //! Known arcs of the circle of fates: the part of it that some orbits have shown.
 //!
-//! All orbits left of α*_n jump to the same turn of the Fatou coordinate, from which each further hop rises with the offset
-//! (docs/theory.md, Theorems 81 and 85). If the orbits of two offsets agree from there on, all offsets between them have their
-//! fate.
+//! All orbits left of α*_n jump to the same turn of the Fatou coordinate, from which each further hop rises with
+//! the offset (docs/theory.md, Theorems 81 and 85). If the orbits of two offsets agree from there on, all offsets
+//! between them have their fate.
 
 use crate::raster::known_intervals::KnownFate;
 
@@ -45,8 +45,8 @@ impl Arcs {
         }
     }
 
-    /// The points from the last one that is at or below all offsets within `error` of `offset` to the first one at or above them; none
-    /// if there is no such pair.
+    /// The points from the last one that is at or below all offsets within `error` of `offset` to the first one at
+    /// or above them; none if there is no such pair.
     fn around(&self, offset: f64, error: f64) -> &[Point] {
         let (least, most) = (offset - error, offset + error);
         // As points may overlap, those next to the place found by one end are tried. Few points lie within an error.
@@ -62,8 +62,8 @@ impl Arcs {
         around.unwrap_or_default()
     }
 
-    /// Adds the two points of `other` around the offsets within `error` of `offset`, if it has them and the points here are farther
-    /// away.
+    /// Adds the two points of `other` around the offsets within `error` of `offset`, if it has them and the points
+    /// here are farther away.
     pub(crate) fn add_around(&mut self, other: &Arcs, offset: f64, error: f64) {
         let outer = |points: &[Point]| Some((*points.first()?, *points.last()?));
         let Some((left, right)) = outer(other.around(offset, error)) else { return };
@@ -98,7 +98,8 @@ impl Arcs {
         self.points.insert(at, point);
     }
 
-    /// The arcs that these points show. Points that agree with both of their neighbours are left out: the same is known without them.
+    /// The arcs that these points show. Points that agree with both of their neighbours are left out: the same is
+    /// known without them.
     pub(crate) fn from_points(points: Vec<((f64, f64), KnownFate)>) -> Self {
         let point =
             |((offset, error), known)| Point { offsets: (offset - error, offset + error), known };

@@ -1,8 +1,8 @@
 //! Circles of fates for all mass ratios of a narrow raster at once.
 //!
-//! Next to an edge every column needs the circle of the same fixed point, at nearly the same mass ratio. Here an orbit is followed for
-//! all mass ratios at once, with a bound on how far apart they are. Two offsets whose orbits agree for all mass ratios bound an arc of
-//! every column's circle.
+//! Next to an edge every column needs the circle of the same fixed point, at nearly the same mass ratio. Here an
+//! orbit is followed for all mass ratios at once, with a bound on how far apart they are. Two offsets whose orbits
+//! agree for all mass ratios bound an arc of every column's circle.
 
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
@@ -18,12 +18,13 @@ use passive_hopper::{HopWithin, MassRatio};
 use std::collections::VecDeque;
 use std::sync::OnceLock;
 
-/// The largest width in M, as a part of M. The orbits from one offset end some 10 to 100 times as far apart as their mass ratios, and
-/// the ends of the arcs are open that far. It affects the time only, as do the next constants.
+/// The largest width in M, as a part of M. The orbits from one offset end some 10 to 100 times as far apart as
+/// their mass ratios, and the ends of the arcs are open that far. It affects the time only, as do the next
+/// constants.
 const WIDEST: f64 = 2e-3;
 
-/// The first offsets on a turn, and the parts of it up to which a gap is halved: between two orbits that are known for all mass ratios,
-/// and beside one that is not.
+/// The first offsets on a turn, and the parts of it up to which a gap is halved: between two orbits that are known
+/// for all mass ratios, and beside one that is not.
 const FIRST: u32 = 16;
 const FINEST: f64 = 1.0 / 8192.0;
 const FINEST_BESIDE_UNKNOWN: f64 = 1.0 / 512.0;
@@ -71,8 +72,8 @@ struct Orbit {
 }
 
 impl CommonCircles {
-    /// The circles for the mass ratios from `first` to `last` and speeds up to `largest`; `None` for a range that is too wide, for one
-    /// mass ratio alone, and where there are no laps.
+    /// The circles for the mass ratios from `first` to `last` and speeds up to `largest`; `None` for a range that
+    /// is too wide, for one mass ratio alone, and where there are no laps.
     pub(crate) fn new(first: f64, last: f64, largest: f64) -> Result<Option<Self>, Error> {
         if !(last > first && last - first <= WIDEST * first) {
             return Ok(None);
@@ -89,7 +90,8 @@ impl CommonCircles {
         Ok(Some(CommonCircles { middle, ends: [lower, upper], circles }))
     }
 
-    /// The circle left of α*_n, on all turns from that of the jumps outwards; `None` where orbits from one offset lie too far apart.
+    /// The circle left of α*_n, on all turns from that of the jumps outwards; `None` where orbits from one offset
+    /// lie too far apart.
     pub(crate) fn circle(&self, n: u64) -> Option<&Arcs> {
         let slot = self.circles.get(usize::try_from(n).ok()?)?;
         let arcs = slot.get_or_init(|| self.new_circle(n).unwrap_or_default());
@@ -106,8 +108,8 @@ impl CommonCircles {
         Some(Arcs::from_points(points))
     }
 
-    /// Follows orbits from the offsets of a turn, outwards to `known` arcs, and halves the gaps between those that do not agree. Gives
-    /// the points of all known orbits.
+    /// Follows orbits from the offsets of a turn, outwards to `known` arcs, and halves the gaps between those that
+    /// do not agree. Gives the points of all known orbits.
     fn turn(
         &self,
         n: u64,
@@ -190,8 +192,8 @@ impl CommonCircles {
         Orbit { offset, walk, known }
     }
 
-    /// The offset after a hop left of α*_n, and a bound on its error at all mass ratios; `None` where an orbit leaves. α′ rises with
-    /// the offset, and falls with κ (docs/theory.md, Theorem 81 and Corollary 93).
+    /// The offset after a hop left of α*_n, and a bound on its error at all mass ratios; `None` where an orbit
+    /// leaves. α′ rises with the offset, and falls with κ (docs/theory.md, Theorem 81 and Corollary 93).
     fn walk(&self, n: u64, (offset, error): (f64, f64)) -> Option<(f64, f64)> {
         let [first, last] = self.ends.each_ref().map(|end| end.fates.slow_sides());
         let (least, below) = last.walk(n, (offset - error, 0.0))?;
@@ -207,7 +209,8 @@ impl CommonCircles {
         (first, last)
     }
 
-    /// The lap that contains all speeds within `error` of `speed` at all mass ratios. The ends of laps move in one direction with M.
+    /// The lap that contains all speeds within `error` of `speed` at all mass ratios. The ends of laps move in one
+    /// direction with M.
     fn lap(&self, (speed, error): (f64, f64)) -> Option<u8> {
         let [lower, upper] = self.ends.each_ref().map(|end| end.laps.lap(speed, error));
         if lower == upper { lower } else { None }
@@ -240,8 +243,8 @@ impl CommonCircles {
         None
     }
 
-    /// The trap that contains all speeds within `error` of `speed` at all mass ratios. On the humps α′ falls with μ, so that the trap
-    /// of the largest μ is the shortest one, and μ rises with M where there are laps.
+    /// The trap that contains all speeds within `error` of `speed` at all mass ratios. On the humps α′ falls with
+    /// μ, so that the trap of the largest μ is the shortest one, and μ rises with M where there are laps.
     fn trap(&self, speed: f64, error: f64) -> Option<u32> {
         let of = |end: &End| match end.traps.find(speed) {
             Lookup::Trap(n, ends) if is_inside(speed, error, ends) => Some(n),

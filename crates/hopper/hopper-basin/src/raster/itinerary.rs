@@ -14,9 +14,9 @@ const GROUND: u32 = u32::MAX - 2;
 /// The laps an exact orbit visits, and its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Itinerary {
-    /// A leading one bit, then for each hop a zero bit if it was on the lap of the hop before, else a one bit and the number of
-    /// the lap, [`ID_BITS`] bits. 64 bits hold ten different laps, or more hops on fewer. [`NO_LAPS`] if a hop was on no lap, or
-    /// if the fate was computed alone: the itinerary then agrees with no other.
+    /// A leading one bit, then for each hop a zero bit if it was on the lap of the hop before, else a one bit and
+    /// the number of the lap, [`ID_BITS`] bits. 64 bits hold ten different laps, or more hops on fewer. [`NO_LAPS`]
+    /// if a hop was on no lap, or if the fate was computed alone: the itinerary then agrees with no other.
     laps: u64,
     /// The lap of the last hop; [`NO_LAP`] if the next hop must give its number.
     last: u8,
@@ -47,8 +47,8 @@ impl Itinerary {
     /// Adds a hop of an orbit that is on `lap`.
     #[inline]
     pub(crate) fn hop(&mut self, lap: Option<u8>) {
-        // If the bits are used up, the laps are unknown, and the raster follows the orbits beside this one. This is rare: an
-        // orbit of Fig. 6's window hops 3.9 times on the average.
+        // If the bits are used up, the laps are unknown, and the raster follows the orbits beside this one. This is
+        // rare: an orbit of Fig. 6's window hops 3.9 times on the average.
         let room = self.laps.leading_zeros();
         // LAP: the exact speed must be on one lap.
         self.laps = match lap {
@@ -67,9 +67,9 @@ impl Itinerary {
         self.end = GROUND;
     }
 
-    /// Adds a jump over `hops` hops left of α*_n. All of them are on one lap, the last one that the orbit was on or the next
-    /// lower one. Laps only descend, so that the place of the jump among them need not be known. An itinerary has room for one
-    /// jump.
+    /// Adds a jump over `hops` hops left of α*_n. All of them are on one lap, the last one that the orbit was on or
+    /// the next lower one. Laps only descend, so that the place of the jump among them need not be known. An
+    /// itinerary has room for one jump.
     pub(crate) fn jump(&mut self, n: u64, hops: u64) {
         if self.slow != 0 || n >> (64 - SLOW_BITS) != 0 || hops >> SLOW_BITS != 0 {
             self.give_up();
@@ -112,8 +112,8 @@ impl Itinerary {
         // The bits of the known laps, without their leading one.
         let mut bits = 63 - known.laps.leading_zeros();
         let mut laps = known.laps ^ 1 << bits;
-        // They begin with a one bit and the number of a lap. If this orbit is on that lap, it goes on with a zero bit: the same hops
-        // have the same form, wherever the known laps begin.
+        // They begin with a one bit and the number of a lap. If this orbit is on that lap, it goes on with a zero
+        // bit: the same hops have the same form, wherever the known laps begin.
         if let Some(below) = bits.checked_sub(ID_BITS + 1)
             && laps >> below == 1 << ID_BITS | u64::from(self.last)
         {
@@ -194,7 +194,8 @@ mod tests {
         assert!(common > 300, "{common}");
     }
 
-    /// The itinerary of an orbit has one form: however it is put together, and whether its first hops are cut off or were not made.
+    /// The itinerary of an orbit has one form: however it is put together, and whether its first hops are cut off
+    /// or were not made.
     #[test]
     fn parts_of_an_orbit_have_the_itinerary_of_the_whole() {
         let ratio = MassRatio::new(0.4).unwrap();

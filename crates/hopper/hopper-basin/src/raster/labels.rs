@@ -15,8 +15,8 @@ const FEWEST_SPEEDS: usize = 32;
 
 impl Fates {
     /// The [labels](HopperFate::label) of the fates of all `speeds`, in any order. They are the labels that
-    /// [`fate`](Self::fate) gives one by one, in less time. A speed whose fate is undecided alone may get the label that
-    /// the orbits around it prove.
+    /// [`fate`](Self::fate) gives one by one, in less time. A speed whose fate is undecided alone may get the label
+    /// that the orbits around it prove.
     ///
     /// The orbits hop together, as in [`LiftOffMap::images`](passive_hopper::LiftOffMap::images), and not all are
     /// followed: if two orbits visit the same laps of the map and end in the same way, every orbit between them has

@@ -33,10 +33,10 @@ pub(crate) struct Laps {
 
 /// The least relative distance of a speed from the ends of its lap.
 ///
-/// The distance covers the rounding errors of the computed ends, which are some ulps. 10⁻¹² is about 4500 ulps, far more
-/// than needed. With a larger distance more orbits next to the ends would have no lap; a smaller one does not help. If μ
-/// just exceeds 1/(4 max W), the errors of the computed maximum and minimum may be larger. There 1 − 4μW differs from
-/// zero by rounding errors only, and README.md shows that this does no harm (invariant LAP).
+/// The distance covers the rounding errors of the computed ends, which are some ulps. 10⁻¹² is about 4500 ulps, far
+/// more than needed. With a larger distance more orbits next to the ends would have no lap; a smaller one does not
+/// help. If μ just exceeds 1/(4 max W), the errors of the computed maximum and minimum may be larger. There 1 − 4μW
+/// differs from zero by rounding errors only, and README.md shows that this does no harm (invariant LAP).
 const DISTANCE_FROM_ENDS: f64 = 1e-12;
 
 /// The largest M with laps. At M = 1 the last lap of a hump ends at (n+1)π, because no window is proved to rise

@@ -2,13 +2,12 @@
 //!
 //! README.md explains the idea, its proof, the invariants that the code cites by name, and every limit.
 //!
-//! Several columns form a strip, whose orbits hop together ([`strip`], [`column`]).
-//! The itinerary of an orbit lists the laps that it visits ([`laps`], [`rising_windows`], [`itinerary`]). Speeds
-//! between two orbits with the same itinerary need no orbit of their own. Their intervals are stored for orbits that
-//! descend into them ([`known_intervals`]). Along the slow side of a fixed point orbits jump ([`slow_orbits`]), and what they do
-//! after it is found on the known arcs of the circle of fates ([`arcs`]), which the columns of a narrow raster share
-//! ([`common_circles`]).
-//! [`labels`] takes speeds in any order.
+//! Several columns form a strip, whose orbits hop together ([`strip`], [`column`]). The itinerary of an orbit lists
+//! the laps that it visits ([`laps`], [`rising_windows`], [`itinerary`]). Speeds between two orbits with the same
+//! itinerary need no orbit of their own. Their intervals are stored for orbits that descend into them
+//! ([`known_intervals`]). Along the slow side of a fixed point orbits jump ([`slow_orbits`]), and what they do
+//! after it is found on the known arcs of the circle of fates ([`arcs`]), which the columns of a narrow raster
+//! share ([`common_circles`]). [`labels`] takes speeds in any order.
 //!
 //! This room uses `traps` and `fates`. Every label equals the label that `Fates::fate` gives.
 

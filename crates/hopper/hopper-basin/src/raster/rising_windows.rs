@@ -1,7 +1,7 @@
 //! The sudden windows (nπ, α*_n) on which the map is proved to rise.
 //!
-//! The proof (docs/theory.md, Theorem 48) encloses the derivative with intervals: `cargo xtask prove rising`, and a test of `hopper-proof` for
-//! the table here.
+//! The proof (docs/theory.md, Theorem 48) encloses the derivative with intervals: `cargo xtask prove rising`, and a
+//! test of `hopper-proof` for the table here.
 
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
@@ -12,11 +12,12 @@ use std::f64::consts::PI;
 
 /// The distance from α*_n at which the part ends on which the raster takes the map to rise.
 ///
-/// At α*_n the slope changes like the cube root of the distance. Speeds in the remaining 10⁻³ have no lap; in a raster of the paper's window
-/// they are 0.03 % of the rows.
+/// At α*_n the slope changes like the cube root of the distance. Speeds in the remaining 10⁻³ have no lap; in a
+/// raster of the paper's window they are 0.03 % of the rows.
 const DISTANCE_FROM_STAR: f64 = 1e-3;
 
-/// For the windows n = 1, 2, …: the largest M. It must be below 0.9056, up to which a hop has at most one sudden lift-off.
+/// For the windows n = 1, 2, …: the largest M. It must be below 0.9056, up to which a hop has at most one sudden
+/// lift-off.
 ///
 /// Near 0.905 the smallest slope tends to zero with n, and a proof needs ever more boxes.
 const PROVED: [f64; 10] = [0.905, 0.905, 0.905, 0.9, 0.9, 0.9, 0.9, 0.9, 0.9, 0.9];
@@ -42,8 +43,8 @@ pub fn rising_window(n: u64) -> Option<RisingWindow> {
 
 /// The trap of α*_n, with the window beyond it if f stays above α*_n there.
 ///
-/// If f ≥ α*_n on the whole contact part of hump n, and f is continuous at (n+1)π and rises from there to α*_{n+1} (docs/theory.md,
-/// Theorems 23, 48 and 81), f ≥ α*_n on the whole window.
+/// If f ≥ α*_n on the whole contact part of hump n, and f is continuous at (n+1)π and rises from there to α*_{n+1}
+/// (docs/theory.md, Theorems 23, 48 and 81), f ≥ α*_n on the whole window.
 pub(crate) fn trap_with_window(fates: &Fates, n: u64) -> Result<Trap, Error> {
     let trap = fates.trap(n)?;
     let ratio = fates.map().mass_ratio().value();

@@ -12,35 +12,36 @@ use crate::raster::strip::Strip;
 use crate::traps::trap::TrapSide;
 use passive_hopper::HopWithin;
 
-/// The error of a phase above which a reference orbit in 106 bits is made for the starts beside it. A reference takes about a
-/// tenth of a millisecond; a fate alone, where an error reaches a boundary, takes some tenths. It affects the time only.
+/// The error of a phase above which a reference orbit in 106 bits is made for the starts beside it. A reference
+/// takes about a tenth of a millisecond; a fate alone, where an error reaches a boundary, takes some tenths. It
+/// affects the time only.
 const SMALL_ERROR: f64 = 1e-4;
 
-/// The first phases that are followed on a circle, beyond both ends of a turn by the largest error of a phase. It affects the
-/// time only.
+/// The first phases that are followed on a circle, beyond both ends of a turn by the largest error of a phase. It
+/// affects the time only.
 const FIRST_PHASES: u32 = 16;
 const BEYOND: f64 = 0.011;
 
 /// The least length of a gap between two orbits that is halved, as a part of the offset.
 const FINEST: f64 = 1e-10;
 
-/// The speeds of a column over the number of orbits that come to a slow side, too far for a jump, before its series is made. Next to
-/// an edge most orbits come there; in a whole window some do, for which the series would take longer than it saves. It affects the
-/// time only. In a narrow window the series is made at once.
+/// The speeds of a column over the number of orbits that come to a slow side, too far for a jump, before its series
+/// is made. Next to an edge most orbits come there; in a whole window some do, for which the series would take
+/// longer than it saves. It affects the time only. In a narrow window the series is made at once.
 const SPEEDS_OVER_WALKERS: usize = 64;
 
 /// Most searches for edges of a column that find none. Then its orbits are labelled alone. It affects the time only.
 const MOST_MISSED_EDGES: usize = 4;
 
-/// The orbits of a strip that jump left of one fixed point, over its columns, before its circle is computed. Up to there each of them is
-/// followed alone: a circle takes as long as some dozen orbits. It affects the time only.
+/// The orbits of a strip that jump left of one fixed point, over its columns, before its circle is computed. Up to
+/// there each of them is followed alone: a circle takes as long as some dozen orbits. It affects the time only.
 const FIRST_JUMPS: usize = 2;
 
 /// The same for a circle that all columns of a raster share, in all columns of a strip.
 const FIRST_JUMPS_TOGETHER: usize = 8;
 
-/// A hop along the slow side by its polynomials is given up for a plain one if it multiplies the error of the speed by more than this.
-/// Far from the fixed point the polynomials err more than a plain hop does.
+/// A hop along the slow side by its polynomials is given up for a plain one if it multiplies the error of the speed
+/// by more than this. Far from the fixed point the polynomials err more than a plain hop does.
 const PLAIN_GROWTH: f64 = 16.0;
 
 /// Most hops of a followed phase: an orbit leaves the turn of jumps after some 15 hops. Beyond it the phase stays open.
@@ -63,7 +64,8 @@ impl<'a> Strip<'a> {
         (offset < error).then_some((n, offset, error))
     }
 
-    /// The orbit after its hops along the slow side of α*_n; as it is if it leaves with the next hop. `None` if it has ended.
+    /// The orbit after its hops along the slow side of α*_n; as it is if it leaves with the next hop. `None` if it
+    /// has ended.
     pub(crate) fn jump(
         &mut self,
         at: u32,
@@ -82,7 +84,8 @@ impl<'a> Strip<'a> {
             self.end_with(at, known, hops, n);
             return None;
         }
-        // An edge that is not known costs most. Few speeds are so near to it that they need it, unless the window is deep.
+        // An edge that is not known costs most. Few speeds are so near to it that they need it, unless the window
+        // is deep.
         let decided = self.end_beside_known_edge(at)
             || self.end_with_signs(at, n)
             || (self.find_edge(at, n) && self.end_beside_known_edge(at));
@@ -92,8 +95,8 @@ impl<'a> Strip<'a> {
         None
     }
 
-    /// The fate from an offset left of α*_n, after a number of hops that are jumped over; `None` if it is not decided, or if the phase
-    /// has an error above `largest`.
+    /// The fate from an offset left of α*_n, after a number of hops that are jumped over; `None` if it is not
+    /// decided, or if the phase has an error above `largest`.
     fn fate_from(
         &mut self,
         column: usize,
@@ -111,8 +114,8 @@ impl<'a> Strip<'a> {
         Some((self.on_circle(column, n, (jump.delta, jump.error))?, jump.hops))
     }
 
-    /// The fate from an offset beyond the turn on which jumps end: from the known arcs, or followed. Where the circle has a gap, halving
-    /// it would cost more than the orbit.
+    /// The fate from an offset beyond the turn on which jumps end: from the known arcs, or followed. Where the
+    /// circle has a gap, halving it would cost more than the orbit.
     fn behind_jumps(
         &mut self,
         column: usize,
@@ -155,7 +158,8 @@ impl<'a> Strip<'a> {
         self.columns[followed.column as usize].labels[followed.at as usize] = known.label;
     }
 
-    /// Follows an orbit that has come next to α*_n once more, with smaller errors, and ends it; false if they do not suffice.
+    /// Follows an orbit that has come next to α*_n once more, with smaller errors, and ends it; false if they do
+    /// not suffice.
     fn end_with_signs(&mut self, at: u32, n: u64) -> bool {
         let followed = self.orbits.all[at as usize];
         let column = followed.column as usize;
@@ -234,8 +238,8 @@ impl<'a> Strip<'a> {
         edge.is_some()
     }
 
-    /// The fate within an error of an offset on the turn of jumps left of α*_n, from the known arcs, and from as many more orbits as it
-    /// needs.
+    /// The fate within an error of an offset on the turn of jumps left of α*_n, from the known arcs, and from as
+    /// many more orbits as it needs.
     fn arc(&mut self, column: usize, n: u64, (offset, error): (f64, f64)) -> Option<KnownFate> {
         if let Some(known) = self.known_arc(column, n, (offset, error)) {
             return Some(known);
@@ -259,7 +263,8 @@ impl<'a> Strip<'a> {
         }
     }
 
-    /// The fate within an error of an offset left of α*_n, if the arcs that all columns share show it, or those of this column.
+    /// The fate within an error of an offset left of α*_n, if the arcs that all columns share show it, or those of
+    /// this column.
     fn known_arc(&self, column: usize, n: u64, (offset, error): (f64, f64)) -> Option<KnownFate> {
         let common = self.common_circle(n).and_then(|arcs| arcs.known(offset, error));
         let own = || self.columns[column].arcs.get(n as usize)?.known(offset, error);

@@ -12,7 +12,8 @@ pub(crate) fn is_inside(alpha: f64, error: f64, (left, right): (f64, f64)) -> bo
     (alpha - left >= error) & (right - alpha >= error)
 }
 
-/// The offset from α*_n of a speed that is known to within `error`, and the bound on its error: the offset is rounded once.
+/// The offset from α*_n of a speed that is known to within `error`, and the bound on its error: the offset is
+/// rounded once.
 pub(crate) fn offset_from(n: u64, (speed, error): (f64, f64)) -> (f64, f64) {
     let offset = FixedPointSpeed::new(n).offset_of(speed);
     (offset, error + f64::EPSILON * offset.abs())
@@ -24,9 +25,10 @@ pub(crate) fn speed_at(n: u64, (offset, error): (f64, f64)) -> (f64, f64) {
     (speed, error + f64::EPSILON * speed)
 }
 
-/// The error of a speed from which a hop may need the second bound, which has the signs of the derivative: this part of the distance
-/// between the speeds that are labelled, and no number outside these two. A hop with the second bound takes about a third of a microsecond, three
-/// times as long as one with the first, and a fate alone, where an error has grown too large to decide, some hundred microseconds.
+/// The error of a speed from which a hop may need the second bound, which has the signs of the derivative: this
+/// part of the distance between the speeds that are labelled, and no number outside these two. A hop with the
+/// second bound takes about a third of a microsecond, three times as long as one with the first, and a fate alone,
+/// where an error has grown too large to decide, some hundred microseconds.
 const LARGE_PART: f64 = 0.01;
 const LARGE_ERRORS: (f64, f64) = (1e-9, 1e-7);
 
@@ -40,7 +42,8 @@ pub(crate) fn large_error(speeds: &[f64]) -> f64 {
     (LARGE_PART * length / speeds.len() as f64).max(least).min(most)
 }
 
-/// The `hop` that was made from a speed with its error; with the second bound if its error has grown much, to more than `large`.
+/// The `hop` that was made from a speed with its error; with the second bound if its error has grown much, to more
+/// than `large`.
 #[inline]
 pub(crate) fn with_signs(
     map: &LiftOffMap,

@@ -37,8 +37,8 @@ const COARSEST: usize = 16;
 /// long. Most of them are never followed.
 const LOWER: usize = 2;
 
-/// Largest number of speeds of a strip, its columns together and with the additional speeds. Half of the numbers below 2³²
-/// remain for the intervals of traps. A strip of this size needs some 100 GB.
+/// Largest number of speeds of a strip, its columns together and with the additional speeds. Half of the numbers
+/// below 2³² remain for the intervals of traps. A strip of this size needs some 100 GB.
 const LARGEST_STRIP: usize = 1 << 31;
 
 /// A followed speed. A speed is given by its index in the column.

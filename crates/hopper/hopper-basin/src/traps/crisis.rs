@@ -45,8 +45,8 @@ pub fn crisis(n: u64) -> Result<Crisis, Error> {
 
 /// The mass ratio at which a gap of grounding opens on the contact part of hump n ≥ 0.
 ///
-/// While min(M, 1/M) is less than this, every hop from the contact part is followed by another hop. At equality one speed has
-/// F = 0, and the hopper is grounded from it (docs/theory.md, Theorem 31).
+/// While min(M, 1/M) is less than this, every hop from the contact part is followed by another hop. At equality one
+/// speed has F = 0, and the hopper is grounded from it (docs/theory.md, Theorem 31).
 ///
 /// # Errors
 /// [`Error::Index`] for humps beyond the largest lift-off speed.

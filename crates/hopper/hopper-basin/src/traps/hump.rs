@@ -87,8 +87,8 @@ impl Hump {
             return Err(Error::Index { n, smallest: 0, largest: LARGEST_HUMP });
         }
         let star = FixedPointSpeed::new(n);
-        // t = 2(h − α*_n) at h = ½α*_{2n+1} and at h = (n+1)π, from α*_n = (n+½)π − arctan(1/α*_n) (docs/theory.md, Lemma
-        // 6): no difference of large numbers remains.
+        // t = 2(h − α*_n) at h = ½α*_{2n+1} and at h = (n+1)π, from α*_n = (n+½)π − arctan(1/α*_n) (docs/theory.md,
+        // Lemma 6): no difference of large numbers remains.
         let angle = inverse_tangent_of_inverse(star.value());
         let double = inverse_tangent_of_inverse(alpha_star(2 * n + 1));
         let steepest = (FRAC_PI_2 + 2.0 * angle) - double;

@@ -49,28 +49,30 @@ fn cannot_fall(n: u64, mass_ratio: MassRatio) -> bool {
     1.001 * mass_ratio.mu() * sum < (high - low) * (high + low)
 }
 
-/// Bound on the difference of the two sides of α² − α*_n² = μΓ² at the computed edge, in ulps of their common value: 9 for
-/// the rounding of the left side, 29 for that of the right side, 1 for the difference, and 9 for the last step of the
-/// search (docs/theory.md, Lemma 77). A larger value makes the band around an edge wider in which the next hop decides.
+/// Bound on the difference of the two sides of α² − α*_n² = μΓ² at the computed edge, in ulps of their common
+/// value: 9 for the rounding of the left side, 29 for that of the right side, 1 for the difference, and 9 for the
+/// last step of the search (docs/theory.md, Lemma 77). A larger value makes the band around an edge wider in which
+/// the next hop decides.
 const SIDES_ULPS: f64 = 48.0;
 
 /// Bound on the error of δ(t) and of the spacing of t, in ulps of δ (docs/theory.md, Lemma 77).
 const OFFSET_ULPS: f64 = 10.0;
 
-/// Smallest |4μW − 1| at an edge for which Lemma 77 of docs/theory.md gives a bound. Nearer to the touch the rounding of W and
-/// the curvature of the difference are no small part of its slope. An edge so near belongs to a μ within [`NEAR_TOUCH`], where
-/// [`certain_offset`] gives the bound.
+/// Smallest |4μW − 1| at an edge for which Lemma 77 of docs/theory.md gives a bound. Nearer to the touch the
+/// rounding of W and the curvature of the difference are no small part of its slope. An edge so near belongs to a μ
+/// within [`NEAR_TOUCH`], where [`certain_offset`] gives the bound.
 const SMALLEST_SLOPE: f64 = 1e-12;
 
-/// Relative distance of μ from the μ_c of the touch, up to which the computed numbers do not tell whether f falls to α*_n: μ_c has a relative
-/// error of 100ε at most (docs/theory.md, Lemma 77). A larger value makes the part of a trap that is left unclear, a 10⁻⁷ of it, wider like
-/// its root, at more mass ratios beside a crisis.
+/// Relative distance of μ from the μ_c of the touch, up to which the computed numbers do not tell whether f falls
+/// to α*_n: μ_c has a relative error of 100ε at most (docs/theory.md, Lemma 77). A larger value makes the part of a
+/// trap that is left unclear, a 10⁻⁷ of it, wider like its root, at more mass ratios beside a crisis.
 const NEAR_TOUCH: f64 = 256.0 * f64::EPSILON;
 
-/// Bound on the error of the offset δ at which f falls to α*_n, if the exact offset is below δ (docs/theory.md, Lemma 77).
+/// Bound on the error of the offset δ at which f falls to α*_n, if the exact offset is below δ (docs/theory.md,
+/// Lemma 77).
 ///
-/// The derivative of α² − α*_n² − μΓ² by δ is 2α (1 − 4μW). The error of δ is the error of both sides divided by it. Where
-/// the lemma gives no bound, the bound is δ itself: no speed is then certainly inside.
+/// The derivative of α² − α*_n² − μΓ² by δ is 2α (1 − 4μW). The error of δ is the error of both sides divided by
+/// it. Where the lemma gives no bound, the bound is δ itself: no speed is then certainly inside.
 ///
 /// `t` lies left of the touch, where f falls to α*_n only once (Theorem 29). So it is the first fall.
 fn crossing_error(hump: &Hump, mu: f64, t: f64) -> f64 {
@@ -86,8 +88,9 @@ fn crossing_error(hump: &Hump, mu: f64, t: f64) -> f64 {
 
 /// An offset up to which all are in the trap, for every μ within [`NEAR_TOUCH`] of `touch`.
 ///
-/// (α² − α*_n²)/Γ² falls up to the touch (docs/theory.md, Theorem 29), so that Δ becomes shorter as μ grows: the trap of a larger μ lies in
-/// all of these traps. At twice the distance the edge has a slope, and Lemma 77 bounds its error.
+/// (α² − α*_n²)/Γ² falls up to the touch (docs/theory.md, Theorem 29), so that Δ becomes shorter as μ grows: the
+/// trap of a larger μ lies in all of these traps. At twice the distance the edge has a slope, and Lemma 77 bounds
+/// its error.
 fn certain_offset(hump: &Hump, touch: f64) -> Result<f64, Error> {
     let mu = touch * (1.0 + 2.0 * NEAR_TOUCH);
     let inside = |t: f64| hump.delta(t) - crossing_error(hump, mu, t);
@@ -126,8 +129,8 @@ pub struct Trap {
     /// Δ_n, the length of the trap.
     pub delta: f64,
     /// Bound on the error of `delta`: some ulps, times the condition number of the edge, which is large for mass
-    /// ratios next to a [crisis](crate::crisis). Some ulps beside a crisis it is the distance to the other end that the trap may have. All
-    /// offsets from 0 to `delta` − `error` are in the trap.
+    /// ratios next to a [crisis](crate::crisis). Some ulps beside a crisis it is the distance to the other end that
+    /// the trap may have. All offsets from 0 to `delta` − `error` are in the trap.
     pub error: f64,
     /// Why the trap ends there.
     pub edge: TrapEdge,
@@ -187,8 +190,8 @@ impl Trap {
 
     /// Whether `alpha` > 0 certainly lies in the trap.
     ///
-    /// False for a speed within [`error`](Self::error) of the upper end: [`side`](Self::side) calls it unclear. The next hop
-    /// decides there, because f(α) < α*_n beyond the end.
+    /// False for a speed within [`error`](Self::error) of the upper end: [`side`](Self::side) calls it unclear. The
+    /// next hop decides there, because f(α) < α*_n beyond the end.
     pub fn contains(&self, alpha: f64) -> bool {
         self.side(alpha) == TrapSide::Inside
     }

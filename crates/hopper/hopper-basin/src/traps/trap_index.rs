@@ -9,9 +9,9 @@ use std::f64::consts::FRAC_1_PI;
 /// Speeds beyond these traps are [`Lookup::NotIndexed`], and their trap is computed for each speed.
 const INDEXED_TRAPS: u64 = 64;
 
-/// Steps down from the computed upper end of a trap to an `f64` that is certainly inside. The sum α*_n + (Δ − error) is
-/// rounded once, so that two or three steps suffice. If they do not, the trap has no `f64` in the index, which costs time and
-/// changes no label.
+/// Steps down from the computed upper end of a trap to an `f64` that is certainly inside. The sum α*_n + (Δ −
+/// error) is rounded once, so that two or three steps suffice. If they do not, the trap has no `f64` in the index,
+/// which costs time and changes no label.
 const STEPS_INSIDE: usize = 8;
 
 /// The largest `f64` that is certainly in the trap, or one a few ulps smaller.

@@ -1,5 +1,5 @@
-// Gives six arbitrary words to every public function of passive-hopper, hopper-asymptotics and hopper-basin, and checks:
-// no function panics or hangs, and f(α) ≤ α.
+// Gives six arbitrary words to every public function of passive-hopper, hopper-asymptotics and hopper-basin, and
+// checks: no function panics or hangs, and f(α) ≤ α.
 
 use basin_of_attraction::{Grid, Interval, Refinement};
 use hopper_asymptotics::{

@@ -15,8 +15,8 @@ pub(crate) struct FirstLanding {
 }
 
 impl FirstLanding {
-    /// Over the speeds of `alpha` that are in `part`; `None` if an end of h is beyond a fixed point. There Γ has a minimum between the ends, so
-    /// that its values at them are no bounds.
+    /// Over the speeds of `alpha` that are in `part`; `None` if an end of h is beyond a fixed point. There Γ has a
+    /// minimum between the ends, so that its values at them are no bounds.
     pub(crate) fn over(alpha: Enclosure, part: Part) -> Option<Self> {
         let first = first_landing_time(alpha.low)?;
         let last = if alpha.low == alpha.high { first } else { first_landing_time(alpha.high)? };
@@ -41,8 +41,8 @@ impl FirstLanding {
         f(&self.ends[0]).hull(&f(&self.ends[1]))
     }
 
-    /// Γ. On contact parts it rises where it is not monotone by this: there Γ² has the derivative 8αW > 0 by α (docs/theory.md, Lemma
-    /// 26), and in windows it falls (Lemma 14).
+    /// Γ. On contact parts it rises where it is not monotone by this: there Γ² has the derivative 8αW > 0 by α
+    /// (docs/theory.md, Lemma 26), and in windows it falls (Lemma 14).
     pub(crate) fn closing_speed(&self) -> Enclosure {
         let found = self.between(AtHalfTime::closing_speed);
         Enclosure::new(found.low.max(0.0), found.high)
@@ -93,8 +93,8 @@ mod tests {
     use super::*;
     use passive_hopper::alpha_star;
 
-    /// Γ ≈ ½ a t² with t³ = 12 a² δ/(1 + a²), within some ulps above a fixed point (docs/theory.md, Lemma 34): no f64 is nearer to α*_1 than
-    /// the first one here, and its landing is enclosed by times on both sides of α*_1.
+    /// Γ ≈ ½ a t² with t³ = 12 a² δ/(1 + a²), within some ulps above a fixed point (docs/theory.md, Lemma 34): no
+    /// f64 is nearer to α*_1 than the first one here, and its landing is enclosed by times on both sides of α*_1.
     #[test]
     fn closing_speeds_next_to_a_fixed_point_are_not_too_large() {
         let a = alpha_star(1);

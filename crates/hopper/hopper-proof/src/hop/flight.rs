@@ -71,8 +71,8 @@ impl Flight {
         Changes { state, loss: 2.0 * half_loss, time, closing }
     }
 
-    /// The second derivatives of the state after the landing and of Γ², from the first ones and from the second ones of the start
-    /// (docs/theory.md, Lemma 97).
+    /// The second derivatives of the state after the landing and of Γ², from the first ones and from the second
+    /// ones of the start (docs/theory.md, Lemma 97).
     pub(super) fn second_changes(
         &self,
         start: Rates,

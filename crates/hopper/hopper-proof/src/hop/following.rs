@@ -94,8 +94,9 @@ impl Following {
         Some((next, sudden))
     }
 
-    /// The part of these states, of all speeds at the distances `distance` from a middle one, that the mean value form allows: with the state
-    /// of the middle speed, and with the derivatives over all speeds. Their widths then add, where interval arithmetic alone multiplies them.
+    /// The part of these states, of all speeds at the distances `distance` from a middle one, that the mean value
+    /// form allows: with the state of the middle speed, and with the derivatives over all speeds. Their widths then
+    /// add, where interval arithmetic alone multiplies them.
     pub(super) fn narrowed(self, middle: &Self, distance: Enclosure) -> Option<Self> {
         let form = |at: Enclosure, slope: Enclosure, all: Enclosure| {
             (at + slope * distance).intersection(&all)

@@ -13,15 +13,16 @@ use interval_arithmetic::{Enclosure, PI};
 /// Below this h the terms of D and of u cancel, and their series are summed.
 const SERIES_BELOW: f64 = 0.5;
 
-/// The quotients of neighbouring terms of D/(2h³/3), (2k+2)(2k+3)/4, and of −u/(h³/3), 2k(2k+3), without h². The first term that is left
-/// out is below 10⁻¹⁸ of the sum for h ≤ ½.
+/// The quotients of neighbouring terms of D/(2h³/3), (2k+2)(2k+3)/4, and of −u/(h³/3), 2k(2k+3), without h². The
+/// first term that is left out is below 10⁻¹⁸ of the sum for h ≤ ½.
 const OF_D: [f64; 8] = [5.0, 10.5, 18.0, 27.5, 39.0, 52.5, 68.0, 85.5];
 const OF_U: [f64; 8] = [10.0, 28.0, 54.0, 88.0, 130.0, 180.0, 238.0, 304.0];
 
 /// Terms below this are left out. It is far below an ulp of the sum, which is about 1.
 const NEGLIGIBLE: f64 = 1e-18;
 
-/// 1 − t/c₁ (1 − t/c₂ (1 − … )) for 0 ≤ t ≤ c₁. The terms alternate and fall, so that an inner bracket lies between 0 and 1 wherever the sum ends.
+/// 1 − t/c₁ (1 − t/c₂ (1 − … )) for 0 ≤ t ≤ c₁. The terms alternate and fall, so that an inner bracket lies between
+/// 0 and 1 wherever the sum ends.
 pub(crate) fn alternating(t: Enclosure, quotients: &[f64]) -> Enclosure {
     let mut term = 1.0;
     let counts = |&quotient: &f64| {

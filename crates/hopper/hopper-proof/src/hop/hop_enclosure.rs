@@ -103,8 +103,8 @@ impl Centre {
 }
 
 impl HopEnclosure {
-    /// All hops from the speeds of `alpha` that are in `part`, by the mean value form from the middle one. `None` if the intervals do not tell the
-    /// number of sudden lift-offs.
+    /// All hops from the speeds of `alpha` that are in `part`, by the mean value form from the middle one. `None`
+    /// if the intervals do not tell the number of sudden lift-offs.
     pub(crate) fn plain(alpha: Enclosure, part: Part, strip: &Strip) -> Option<Self> {
         let first = FirstLanding::over(alpha, part)?;
         let (kappa, mu) = (strip.kappa, strip.mu);
@@ -144,8 +144,8 @@ impl HopEnclosure {
     }
 }
 
-/// W over a contact part: it rises to h = ½ α*_{2n+1} and then falls, and its maximum is (R+1)²/(4R) with R² = 1 + α*²_{2n+1} (docs/theory.md,
-/// Lemma 27).
+/// W over a contact part: it rises to h = ½ α*_{2n+1} and then falls, and its maximum is (R+1)²/(4R) with R² = 1 +
+/// α*²_{2n+1} (docs/theory.md, Lemma 27).
 pub(crate) fn w_over(first: &FirstLanding, n: u64) -> Enclosure {
     let [begin, end] = first.w_at_ends();
     let ends = begin.hull(&end);
@@ -181,8 +181,8 @@ mod tests {
         })
     }
 
-    /// F and its slopes at single speeds lie in the enclosures over an interval; and the slopes of the interval are hardly more than those
-    /// of its speeds, also after many sudden lift-offs.
+    /// F and its slopes at single speeds lie in the enclosures over an interval; and the slopes of the interval are
+    /// hardly more than those of its speeds, also after many sudden lift-offs.
     #[test]
     fn slopes_over_intervals_are_those_of_their_speeds() {
         const SPEEDS: u32 = 8;

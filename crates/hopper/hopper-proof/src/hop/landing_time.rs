@@ -6,19 +6,21 @@
 //!                low                                               high
 //! ```
 //!
-//! The search for `low` and `high` is plain arithmetic and proves nothing. What proves is the sign of the enclosed difference at each of
-//! them, on a bracket where theory allows one change of sign (docs/theory.md, Theorems 7 and 12).
+//! The search for `low` and `high` is plain arithmetic and proves nothing. What proves is the sign of the enclosed
+//! difference at each of them, on a bracket where theory allows one change of sign (docs/theory.md, Theorems 7 and
+//! 12).
 
 use crate::fixed_points::fixed_point;
 use crate::hop::half_time::AtHalfTime;
 use interval_arithmetic::{Enclosure, PI};
 use passive_hopper::{HalfFlight, TakeOff, index_below};
 
-/// The first distance from the found h at which a sign is looked for, in units of its rounding error. With less, more signs are looked for
-/// twice; with more, the landing is less sharp.
+/// The first distance from the found h at which a sign is looked for, in units of its rounding error. With less,
+/// more signs are looked for twice; with more, the landing is less sharp.
 const FIRST_DISTANCE: f64 = 4.0;
 
-/// Times the distance from the found time grows if a sign is not certain, and how often. From some ulps, 24 times 4 is 10¹⁴.
+/// Times the distance from the found time grows if a sign is not certain, and how often. From some ulps, 24 times 4
+/// is 10¹⁴.
 const GROWTH: f64 = 4.0;
 const ATTEMPTS: usize = 24;
 
@@ -64,7 +66,8 @@ impl LandingTime {
         self.with_sign(1.0, end).unwrap_or_else(|| AtHalfTime::new(end))
     }
 
-    /// The functions at the nearest of some times on one side of the found one, up to `end`, that a sign shows to be on this side of the landing.
+    /// The functions at the nearest of some times on one side of the found one, up to `end`, that a sign shows to
+    /// be on this side of the landing.
     fn with_sign(&self, direction: f64, end: f64) -> Option<AtHalfTime> {
         let TakeOff { excess: x, velocity: v } = self.start;
         let mut distance = self.first_distance;
@@ -90,14 +93,15 @@ impl LandingTime {
 /// The landing of the flight from (0, α), α > 0. It has one landing in all (docs/theory.md, Theorem 7).
 pub(crate) fn first_landing_time(alpha: f64) -> Option<LandingTime> {
     let n = index_below(alpha).ok()?;
-    // α and h lie between the same two neighbouring multiples of π (Theorem 7); half of π more on both sides covers the rounding of the quotient.
+    // α and h lie between the same two neighbouring multiples of π (Theorem 7); half of π more on both sides covers
+    // the rounding of the quotient.
     let k = (alpha / std::f64::consts::PI).floor();
     let bracket = Enclosure::new((k - 0.5).max(0.0) * PI.low, (k + 1.5) * PI.high);
     LandingTime::search(n + 1, TakeOff { excess: 0.0, velocity: alpha }, bracket)
 }
 
-/// The first landing of the flight from the stretch x > 0 with velocity `v` (docs/theory.md, Theorem 12); `None` next to a grazing,
-/// and where the multiples of π do not tell the branch.
+/// The first landing of the flight from the stretch x > 0 with velocity `v` (docs/theory.md, Theorem 12); `None`
+/// next to a grazing, and where the multiples of π do not tell the branch.
 pub(crate) fn next_landing_time(x: f64, v: f64) -> Option<LandingTime> {
     let pi = std::f64::consts::PI;
     let m = if v > 0.0 { (v / pi).floor() } else { 0.0 };
@@ -121,8 +125,9 @@ pub(crate) fn next_landing_time(x: f64, v: f64) -> Option<LandingTime> {
     LandingTime::search(branch, TakeOff { excess: x, velocity: v }, half)
 }
 
-/// The landings of all flights from x in `stretches`, x ≥ 0, with V in `velocities`, lie between the two ends: on one branch the time rises with x
-/// and V, and the branch does not fall with them (docs/theory.md, Theorem 12 and Lemma 14).
+/// The landings of all flights from x in `stretches`, x ≥ 0, with V in `velocities`, lie between the two ends: on
+/// one branch the time rises with x and V, and the branch does not fall with them (docs/theory.md, Theorem 12 and
+/// Lemma 14).
 pub(crate) fn landings_between(
     stretches: Enclosure,
     velocities: Enclosure,
@@ -146,7 +151,8 @@ pub(crate) fn landings_between(
 mod tests {
     use super::*;
 
-    /// A found time beyond the bracket, as a correction of first order may give next to a grazing: no sign is taken there.
+    /// A found time beyond the bracket, as a correction of first order may give next to a grazing: no sign is taken
+    /// there.
     #[test]
     fn signs_are_taken_inside_the_bracket_alone() {
         let start = TakeOff { excess: 1.0, velocity: 2.0 };

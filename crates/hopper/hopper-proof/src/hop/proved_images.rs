@@ -1,7 +1,8 @@
 //! Images of speeds and of intervals of speeds, for all mass ratios of a strip: narrow enclosures of F.
 //!
-//! The plain enclosure of a hop is as wide as its intervals allow. Three facts make it narrow. Along κ the mean value form takes the
-//! middle of the strip and a bound on the slope. Along α a monotone F has its extremes at the ends. And on a contact part F falls with μ.
+//! The plain enclosure of a hop is as wide as its intervals allow. Three facts make it narrow. Along κ the mean
+//! value form takes the middle of the strip and a bound on the slope. Along α a monotone F has its extremes at the
+//! ends. And on a contact part F falls with μ.
 
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
@@ -36,7 +37,8 @@ impl ProvedImages {
         let turns = turns_up_to(&strip, top)?;
         let mut cuts = Vec::new();
         for (n, turns) in turns.iter().enumerate() {
-            // The ends of windows and contact parts, and of turns; or else the speed at which the map falls most steeply.
+            // The ends of windows and contact parts, and of turns; or else the speed at which the map falls most
+            // steeply.
             cuts.extend((n > 0).then(|| (PI * n as f64).middle()));
             match turns {
                 Turns::All(turns) => {
@@ -54,8 +56,8 @@ impl ProvedImages {
         Ok(ProvedImages { strip, middle: strip.centre(), turns, cuts })
     }
 
-    /// The images of single speeds, and of intervals as narrow as their enclosures: without the turns of humps, which help wide intervals
-    /// and take longer than hundreds of hops.
+    /// The images of single speeds, and of intervals as narrow as their enclosures: without the turns of humps,
+    /// which help wide intervals and take longer than hundreds of hops.
     pub(crate) fn of_points(strip: Strip) -> Self {
         ProvedImages { strip, middle: strip.centre(), turns: Vec::new(), cuts: Vec::new() }
     }
@@ -90,8 +92,9 @@ impl ProvedImages {
         Some(Reached { square: form.intersection(&square)?, loss })
     }
 
-    /// F over an interval that reaches to a multiple of π, for M < 1, where F is continuous (docs/theory.md, Theorem 23): by the formulas of
-    /// both sides. `None` if the interval does not reach there, `Some(None)` if F is open.
+    /// F over an interval that reaches to a multiple of π, for M < 1, where F is continuous (docs/theory.md,
+    /// Theorem 23): by the formulas of both sides. `None` if the interval does not reach there, `Some(None)` if F
+    /// is open.
     fn joint(&self, alpha: Enclosure) -> Option<Option<Enclosure>> {
         let k = (alpha.high / std::f64::consts::PI).round();
         let joint = PI * k;
@@ -115,7 +118,8 @@ impl ProvedImages {
             || rising_window(n).is_some_and(|window| heaviest <= window.largest_mass_ratio)
     }
 
-    /// The image of an interval by its ends and the turns inside, if the map is monotone between these: `None` if that is not known.
+    /// The image of an interval by its ends and the turns inside, if the map is monotone between these: `None` if
+    /// that is not known.
     fn by_turns(&self, a: &ImagedSpeed, b: &ImagedSpeed) -> Option<SpeedImage> {
         let pi = std::f64::consts::PI;
         let (first, last) = ((a.speed / pi) as usize, (b.speed / pi) as usize);

@@ -10,11 +10,12 @@ use hopper_basin::{SpeedImage, falling_laps};
 use interval_arithmetic::Enclosure;
 use passive_hopper::MassRatio;
 
-/// How far an enclosure of a turn reaches beyond the computed speeds, relative to them. Nearer, the sign of 1 − 4μW is open. It affects the
-/// width of the enclosure, which next to a turn is of second order.
+/// How far an enclosure of a turn reaches beyond the computed speeds, relative to them. Nearer, the sign of 1 − 4μW
+/// is open. It affects the width of the enclosure, which next to a turn is of second order.
 const REACH: f64 = 1e-9;
 
-/// An interval of speeds that contains a critical point at each mass ratio of the strip, with the images of all its speeds.
+/// An interval of speeds that contains a critical point at each mass ratio of the strip, with the images of all its
+/// speeds.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Turn {
     pub(crate) speeds: Interval,
@@ -63,7 +64,8 @@ fn between(n: u64, [a, b]: [Interval; 2], strip: &Strip) -> Option<Turns> {
         right: p.max(q) * (1.0 + REACH),
     };
     let (top, bottom) = (around(a.left, b.left), around(a.right, b.right));
-    // 1 − 4μW has the sign of the slope. W rises and then falls, so that four signs tell the slope everywhere between and beyond.
+    // 1 − 4μW has the sign of the slope. W rises and then falls, so that four signs tell the slope everywhere
+    // between and beyond.
     let rises = |alpha: f64| steepness(n, alpha, strip).is_some_and(|s| s.high < 1.0);
     let falls = |alpha: f64| steepness(n, alpha, strip).is_some_and(|s| s.low > 1.0);
     let inside = fixed_point(n).high < top.left && top.right < bottom.left;

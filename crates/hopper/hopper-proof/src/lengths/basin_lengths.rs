@@ -42,7 +42,8 @@ pub(super) fn sum(numbers: &[f64]) -> f64 {
 }
 
 impl<'a> BasinLengths<'a> {
-    /// What the basins `labels` have of a line. A gap is divided until no more than `goal` of each part is unknown, or until that does not help.
+    /// What the basins `labels` have of a line. A gap is divided until no more than `goal` of each part is unknown,
+    /// or until that does not help.
     pub(crate) fn new(
         line: &ProvedLine,
         images: &'a ProvedImages,

@@ -9,15 +9,15 @@ use hopper_basin::HopperFate;
 use interval_arithmetic::{Enclosure, PI};
 use passive_hopper::index_below;
 
-/// Most hops for a gap. Where an image ends inside of a lower gap, the part of that gap has an image of its own, and so on; nothing is known of what
-/// is left after so many hops.
+/// Most hops for a gap. Where an image ends inside of a lower gap, the part of that gap has an image of its own,
+/// and so on; nothing is known of what is left after so many hops.
 const MOST_HOPS: usize = 32;
 
 /// Most halvings of a gap: to an ulp.
 const MOST_HALVINGS: usize = 48;
 
-/// Halves that leave more than this part of what was unknown are not worth it: what is unknown lies below. It affects the time, and what stays
-/// unknown.
+/// Halves that leave more than this part of what was unknown are not worth it: what is unknown lies below. It
+/// affects the time, and what stays unknown.
 const STALLED: f64 = 0.8;
 
 /// If a larger part of a gap than this is lost to its curvature, halves are worth it in any case.

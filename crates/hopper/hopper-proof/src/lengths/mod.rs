@@ -9,8 +9,8 @@
 //!        ├──●●─────●────┤                what it has of the image is known, since images lie below
 //! ```
 //!
-//! Where F is nearly straight little is lost: what stays unknown is of the size of the square of the gap, where a gap that counts as open leaves
-//! all of it (docs/theory.md, Theorem 96).
+//! Where F is nearly straight little is lost: what stays unknown is of the size of the square of the gap, where a
+//! gap that counts as open leaves all of it (docs/theory.md, Theorem 96).
 
 mod basin_lengths;
 mod gaps;

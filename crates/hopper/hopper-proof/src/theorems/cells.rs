@@ -1,7 +1,7 @@
 //! The basins over a window of mass ratio and lift-off speed: every cell of a raster.
 //!
-//! A *cell* is a whole pixel: all its mass ratios and all its speeds. A column of cells is divided into strips of mass ratios, and the basins of
-//! each strip are those of a [`ProvedLine`].
+//! A *cell* is a whole pixel: all its mass ratios and all its speeds. A column of cells is divided into strips of
+//! mass ratios, and the basins of each strip are those of a [`ProvedLine`].
 
 use crate::cell::Cell;
 use crate::error::Error;
@@ -11,7 +11,8 @@ use basin_of_attraction::{Grid, Interval, Label, PixelShares, columns_in_paralle
 use interval_arithmetic::Enclosure;
 use std::ops::{ControlFlow, Range};
 
-/// Parts of a sweep, most speeds of each, and the share of each that may stay open. They affect the time, and how much stays open.
+/// Parts of a sweep, most speeds of each, and the share of each that may stay open. They affect the time, and how
+/// much stays open.
 const PARTS: usize = 64;
 const SPEEDS: usize = 4000;
 const OPEN: f64 = 0.004;
@@ -24,7 +25,8 @@ pub type CellShares = Vec<(Label, f64)>;
 
 /// The cells of a raster, with the area of each basin.
 ///
-/// Columns are added from the left. What is not added yet is open. The strips, which may need more memory than there is, are not kept.
+/// Columns are added from the left. What is not added yet is open. The strips, which may need more memory than
+/// there is, are not kept.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProvedCells {
     grid: Grid,
@@ -54,8 +56,8 @@ fn mass_ratios(grid: &Grid, strips: usize, columns: Range<usize>) -> Result<Vec<
     Ok(all)
 }
 
-/// The strips of some columns of a raster, in order: `strips` of each column. With more of them less stays open, and the time grows in
-/// proportion. `progress` is as for [`columns_in_parallel`]; it counts strips.
+/// The strips of some columns of a raster, in order: `strips` of each column. With more of them less stays open,
+/// and the time grows in proportion. `progress` is as for [`columns_in_parallel`]; it counts strips.
 ///
 /// # Errors
 /// [`Error::Columns`] for columns that the raster has not; those of [`ProvedLine::new`] and of [`columns_in_parallel`].
@@ -142,7 +144,8 @@ impl ProvedCells {
         })
     }
 
-    /// Adds the next column, from its strips as [`proved_strips`] gives them: the proved shares of its cells, from the lowest speeds up.
+    /// Adds the next column, from its strips as [`proved_strips`] gives them: the proved shares of its cells, from
+    /// the lowest speeds up.
     ///
     /// # Errors
     /// [`Error::Columns`] if all columns are there; [`Error::Strips`] if the strips are not those of the next one.

@@ -12,7 +12,8 @@ use crate::traps::Touch;
 use hopper_basin::rising_window;
 use interval_arithmetic::{Enclosure, PI};
 
-/// Equal parts of a contact part on which F is enclosed. More parts would give narrower enclosures than the proof needs.
+/// Equal parts of a contact part on which F is enclosed. More parts would give narrower enclosures than the proof
+/// needs.
 const PARTS: usize = 256;
 
 /// The last hump whose contact part is enclosed. Beyond it the bound on the loss of a hop suffices.

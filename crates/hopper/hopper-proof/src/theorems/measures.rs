@@ -22,17 +22,20 @@ const HUMPS: u64 = 5;
 const PARTS: usize = 64;
 const SPEEDS: usize = 1_000_000;
 
-/// The share that a sweep may leave open of a part, over the root of the width that is asked for, and at most. What is unknown of the gaps is of the
-/// size of their square. With a larger one the gaps, with a smaller one the sweep takes the time.
+/// The share that a sweep may leave open of a part, over the root of the width that is asked for, and at most. What
+/// is unknown of the gaps is of the size of their square. With a larger one the gaps, with a smaller one the sweep
+/// takes the time.
 const OPEN: f64 = 14.0;
 const MOST_OPEN: f64 = 0.1;
 
-/// The length next to a fixed point that is not divided further, and the unknown length of a gap that is not either, over the width that is asked for.
-/// With larger ones the width is missed; with smaller ones it takes longer.
+/// The length next to a fixed point that is not divided further, and the unknown length of a gap that is not
+/// either, over the width that is asked for. With larger ones the width is missed; with smaller ones it takes
+/// longer.
 const SHORTEST: f64 = 1.5e-3;
 const UNKNOWN: f64 = 2.5e-5;
 
-/// A width that was missed is asked for again as these parts of it. A smaller part takes longer, a larger one may miss it again.
+/// A width that was missed is asked for again as these parts of it. A smaller part takes longer, a larger one may
+/// miss it again.
 const FINER: [f64; 2] = [0.3, 0.1];
 
 /// The smallest width that can be asked for: far below what is left by the rounding of speeds to `f64`.
@@ -144,7 +147,8 @@ fn digits(share: Enclosure) -> String {
     format!("[{}, {}]", at_least(share.low, DIGITS), at_most(share.high, DIGITS))
 }
 
-/// The fractions at some mass ratios, each to a width of its own. `progress` is called with the number of finished ones.
+/// The fractions at some mass ratios, each to a width of its own. `progress` is called with the number of finished
+/// ones.
 ///
 /// The last ones are begun first: put the mass ratios that take longest there.
 ///

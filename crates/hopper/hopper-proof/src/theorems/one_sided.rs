@@ -9,8 +9,9 @@ use crate::traps::proved_trap;
 
 /// For every M, α*_n attracts all of an interval on its right, and every orbit that starts on its left leaves it.
 ///
-/// On the left f(α) < α, and f has no fixed point between α*_{n−1} and α*_n (docs/theory.md, Corollary 9): an orbit decreases, and its limit is
-/// below. On the right Theorem 29 gives a trap, which is shortest at M = 1 (Corollary 30). The steps give it for `humps` humps.
+/// On the left f(α) < α, and f has no fixed point between α*_{n−1} and α*_n (docs/theory.md, Corollary 9): an orbit
+/// decreases, and its limit is below. On the right Theorem 29 gives a trap, which is shortest at M = 1 (Corollary
+/// 30). The steps give it for `humps` humps.
 ///
 /// # Errors
 /// [`Error::Open`] if a trap is not enclosed.

@@ -6,7 +6,8 @@ use basin_of_attraction::{Grid, LabelImage, raster_by_strips};
 use std::ops::ControlFlow;
 
 /// The fate of every point of a raster that is proved; the others have the label
-/// [`HopperFate::UNDECIDED_PRECISION`](hopper_basin::HopperFate::UNDECIDED_PRECISION). `progress` is as for [`raster_by_strips`].
+/// [`HopperFate::UNDECIDED_PRECISION`](hopper_basin::HopperFate::UNDECIDED_PRECISION). `progress` is as for
+/// [`raster_by_strips`].
 ///
 /// # Errors
 /// Those of [`ProvedPoints`] and of [`raster_by_strips`].

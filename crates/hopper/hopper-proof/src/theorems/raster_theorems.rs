@@ -19,7 +19,8 @@ fn window(grid: &Grid) -> String {
     )
 }
 
-/// Every point of a raster has the fate of its label. `computed` has the labels of [`hopper_basin::basin_raster`] for the same grid.
+/// Every point of a raster has the fate of its label. `computed` has the labels of [`hopper_basin::basin_raster`]
+/// for the same grid.
 ///
 /// # Errors
 /// [`Error::MassRatios`] for a mass ratio of the raster that is none.
@@ -61,8 +62,8 @@ pub fn points_theorem(
     Ok(theorem)
 }
 
-/// The area of each basin lies between two bounds, and every pixel that is coloured belongs to one basin as a whole. It is proved if at most
-/// `open` of the area is open.
+/// The area of each basin lies between two bounds, and every pixel that is coloured belongs to one basin as a
+/// whole. It is proved if at most `open` of the area is open.
 ///
 /// # Errors
 /// [`Error::Columns`] unless all columns of the raster were added.

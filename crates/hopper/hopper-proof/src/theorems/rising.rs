@@ -12,7 +12,8 @@ use interval_arithmetic::{Enclosure, PI};
 /// So far below α*_n Theorem 81 of docs/theory.md proves for M ≤ 1 what is to be proved here.
 const BY_THEOREM: f64 = 0.0586;
 
-/// Most boxes of a window. A proof takes far fewer; without the limit the boxes of a false claim would be divided for ever.
+/// Most boxes of a window. A proof takes far fewer; without the limit the boxes of a false claim would be divided
+/// for ever.
 const MOST_BOXES: usize = 2_000_000;
 
 /// The map rises on window n for all M up to `heaviest` ≤ 1, as (n, `heaviest`) are listed.

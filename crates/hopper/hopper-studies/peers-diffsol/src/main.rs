@@ -1,8 +1,9 @@
 //! Events of six scenes by diffsol: times of the events, state at the end, time of a run.
 //!
-//! Run with `cargo run --release -- results.json`. Each scene is a function that builds its model and returns a function
-//! that runs it. That function returns the times of the events and the first component of the state at the end. The
-//! lines between `begin` and `end` are the lines of the model. A run ends at the limit on time or after `MOST` events.
+//! Run with `cargo run --release -- results.json`. Each scene is a function that builds its model and returns a
+//! function that runs it. That function returns the times of the events and the first component of the state at the
+//! end. The lines between `begin` and `end` are the lines of the model. A run ends at the limit on time or after
+//! `MOST` events.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::disallowed_methods)]
 

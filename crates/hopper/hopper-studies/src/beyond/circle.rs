@@ -20,8 +20,8 @@ const SHOWN: [u64; 3] = [1, 2, 3];
 /// Mass ratios: up to 0.905 the circle is found from the branches of the map.
 const RATIOS: (f64, f64) = (0.05, 0.9);
 
-/// When the search for the intervals of a circle stops: a hundredth of a pixel is undecided at most. The default limits take three
-/// times as long.
+/// When the search for the intervals of a circle stops: a hundredth of a pixel is undecided at most. The default
+/// limits take three times as long.
 const LIMITS: Refinement =
     Refinement { shortest: 1e-7, undecided: 3e-5, levels: 10_000, intervals: 20_000 };
 

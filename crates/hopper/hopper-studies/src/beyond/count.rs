@@ -9,8 +9,8 @@ use hopper_basin::{CircleLimits, GapCount, PhaseBasins};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, ticks};
 use std::f64::consts::LN_10;
 
-/// The mass ratio of the paper's small measure: all speeds next to α*_1 decay, the circle of α*_2 has two boundary points, and
-/// that of α*_3 has limit points.
+/// The mass ratio of the paper's small measure: all speeds next to α*_1 decay, the circle of α*_2 has two boundary
+/// points, and that of α*_3 has limit points.
 const M: f64 = 0.2;
 
 /// Marker and colour of n = 2 and 3.

@@ -24,8 +24,9 @@ use std::collections::BTreeMap;
 /// Smallest and largest mass ratio, 1/50 to 50, so that each mass ratio has its inverse.
 const RATIOS: (f64, f64) = (0.02, 50.0);
 
-/// How finely the mass ratios are divided: neighbours differ by 30 % or by 0.005, a hundredth of the height of the curves, or by less
-/// than can be seen. Half of that takes twice as long. The first steps are 4 % of M: peaks such as that at M = 0.1705 are wider.
+/// How finely the mass ratios are divided: neighbours differ by 30 % or by 0.005, a hundredth of the height of the
+/// curves, or by less than can be seen. Half of that takes twice as long. The first steps are 4 % of M: peaks such
+/// as that at M = 0.1705 are wider.
 const CURVE: CurveLimits = CurveLimits {
     first_steps: 200,
     difference: 0.005,
@@ -166,8 +167,8 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
 /// Hops within which an orbit from a minimum of the map is followed.
 const HOPS: u8 = 6;
 
-/// The first fall of a minimum onto a fixed point in a step or one of its neighbours. The square root may begin beside the step in which it
-/// changes too much.
+/// The first fall of a minimum onto a fixed point in a step or one of its neighbours. The square root may begin
+/// beside the step in which it changes too much.
 fn fall(step: &UnresolvedStep) -> Result<Option<MinimumOnFixedPoint>, Error> {
     let width = step.to - step.from;
     let around = Interval::new(step.from - width, step.to + width)?;

@@ -9,7 +9,8 @@ use basin_of_attraction::{Grid, Interval};
 use hopper_figures::fate_colors;
 use journal_figures::csv_file;
 
-/// Cells each way. Four times as many leave a third as much open, and take some ten minutes (`cargo xtask prove fig6-cells`).
+/// Cells each way. Four times as many leave a third as much open, and take some ten minutes (`cargo xtask prove
+/// fig6-cells`).
 const SIDE: usize = 256;
 
 /// Bounds on the area of each basin, and the picture of what is proved.

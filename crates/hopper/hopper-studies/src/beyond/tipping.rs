@@ -28,7 +28,8 @@ const AFTER: [(f64, Pen, &str); 2] = [
     (1.0, Pen::dashed("#d55e00", 1.7, "7 3"), "to 1"),
 ];
 
-/// Neighbours of these mass ratios differ by 25 % at most, and the first steps are 3.5 % of M. Half of that takes twice as long.
+/// Neighbours of these mass ratios differ by 25 % at most, and the first steps are 3.5 % of M. Half of that takes
+/// twice as long.
 const CURVE: CurveLimits = CurveLimits {
     first_steps: 86,
     difference: 0.01,
@@ -69,7 +70,8 @@ fn interval_basins(mass_ratio: f64) -> Result<IntervalBasins, Error> {
     Ok(basins_at_every_mass_ratio(&fates, FROM, TO, 400, REFINEMENT)?.basins)
 }
 
-/// The probabilities that incessant hopping survives the change from each M to each of [`AFTER`], which has labels 0, 1.
+/// The probabilities that incessant hopping survives the change from each M to each of [`AFTER`], which has labels
+/// 0, 1.
 fn sudden_changes(job: &Job) -> Result<FractionsAlong, Error> {
     let all = HopperFate::INCESSANT;
     let after: Vec<IntervalBasins> =

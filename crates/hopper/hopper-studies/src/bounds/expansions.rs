@@ -1,7 +1,7 @@
 //! The error bounds of expansions and local hops.
 //!
-//! Values near a fixed point are compared with 512 or 1024 bits. The other references are in `f64`, or in twice its length; the
-//! bound on their own error is added to the actual error.
+//! Values near a fixed point are compared with 512 or 1024 bits. The other references are in `f64`, or in twice its
+//! length; the bound on their own error is added to the actual error.
 
 use super::measured::Measured;
 use super::tally::Tally;
@@ -22,8 +22,8 @@ const SEED: u64 = 14;
 /// Bound on the error of a local hop, in ulps of δ′ and of t (docs/theory.md, Theorem 74).
 const LOCAL_ULPS: f64 = 8.0;
 
-/// Bound on the relative error of `hop(α).loss` for small α, in ulps, measured (docs/accuracy.md). It is used for α from
-/// 0.003 on, where the bound of the expansion is 10⁵ ulps and more.
+/// Bound on the relative error of `hop(α).loss` for small α, in ulps, measured (docs/accuracy.md). It is used for α
+/// from 0.003 on, where the bound of the expansion is 10⁵ ulps and more.
 const REFERENCE_ULPS: f64 = 16.0;
 
 /// A start near a fixed point.

@@ -109,9 +109,10 @@ fn collect(
 
 /// Error of Δ over its bound; `None` unless the trap ends by a crossing or by grounding.
 ///
-/// The edge is where the exact image crosses α*_n. From the `f64` next to the computed edge one step of Newton's method leads
-/// there, with the image in 256 bits and the slope in `f64`: the step is below an ulp of α, and its relative error is that
-/// of the slope. For n = 0 the squares of the image are used, F = α′², since α′ has an infinite slope at the edge.
+/// The edge is where the exact image crosses α*_n. From the `f64` next to the computed edge one step of Newton's
+/// method leads there, with the image in 256 bits and the slope in `f64`: the step is below an ulp of α, and its
+/// relative error is that of the slope. For n = 0 the squares of the image are used, F = α′², since α′ has an
+/// infinite slope at the edge.
 fn crossing_ratio(n: u64, m: f64) -> Result<Option<f64>, Error> {
     let map = LiftOffMap::new(MassRatio::new(m)?);
     let trap = Trap::new(n, map.mass_ratio())?;
@@ -191,8 +192,8 @@ fn follow((m, alpha): (f64, f64), within: Within, mut see: impl FnMut(f64)) -> R
     Ok(())
 }
 
-/// Follows an orbit in 106 and in 512 bits, and gives the ratio of their distance to the bound of the first after each hop. The
-/// bound of the second counts as an error.
+/// Follows an orbit in 106 and in 512 bits, and gives the ratio of their distance to the bound of the first after
+/// each hop. The bound of the second counts as an error.
 fn follow_extended((m, alpha): (f64, f64), mut see: impl FnMut(f64)) -> Result<(), Error> {
     let map = LiftOffMap::new(MassRatio::new(m)?);
     let mut orbit = ExtendedOrbit::new(&map, alpha, Arithmetic::Bits106)?;

@@ -73,8 +73,9 @@ fn large_mass_ratio(random: &SplitMix64, k: u64) -> (f64, f64) {
     (mass_ratio, n * PI + near * random.uniform(k + 4) * (alpha_star(n as u64) - n * PI))
 }
 
-/// Chains of sudden lift-offs. At large M a flight from V near mπ lands nearly in the state of its start, and this state
-/// attracts others for x < 1. A chain in the first window has up to M/10 flights, one in window n up to M/(nπ)².
+/// Chains of sudden lift-offs. At large M a flight from V near mπ lands nearly in the state of its start, and this
+/// state attracts others for x < 1. A chain in the first window has up to M/10 flights, one in window n up to
+/// M/(nπ)².
 fn chain(random: &SplitMix64, k: u64) -> (f64, f64) {
     let n = if random.uniform(k) < 0.7 { 1.0 } else { 2.0 };
     let width = alpha_star(n as u64) - n * PI;

@@ -68,8 +68,8 @@ const EVERY_256: u64 = 100;
 /// One hop in so many is compared with 512 bits, and 256 bits with them. 512 bits take five times as long as 256.
 const EVERY_512: u64 = 2000;
 
-/// Above this ratio a comparison is repeated with a longer arithmetic, up to 512 bits: the bound of the reference may be a
-/// large part of the ratio.
+/// Above this ratio a comparison is repeated with a longer arithmetic, up to 512 bits: the bound of the reference
+/// may be a large part of the ratio.
 const LARGE_RATIO: f64 = 0.5;
 
 /// Hops that one thread takes at a time: enough for the progress bar, few enough that all threads end together.

@@ -34,8 +34,8 @@ const SIZES: [f64; 2] = [1e-12, 1e-16];
 /// Generations of preimages. A copy of number k has gaps of 1.7·10⁻³k⁻⁴: from number 2000 on they are shorter than the
 /// finest box.
 const GENERATIONS: usize = 4000;
-/// Largest relative difference from the law at the finer size. The k-th copy is at (3/(10λ(k + O(ln k))))³, and k ≈ 2000
-/// counts: 3 ln k/k is about 1 %.
+/// Largest relative difference from the law at the finer size. The k-th copy is at (3/(10λ(k + O(ln k))))³, and k ≈
+/// 2000 counts: 3 ln k/k is about 1 %.
 const LAW_ERROR: f64 = 0.02;
 /// Boundary points nearer than this are the two ends of the gap around one point.
 const SAME_POINT: f64 = 1e-9;

@@ -68,8 +68,8 @@ struct Range {
     error: fn(MassRatio, f64) -> f64,
 }
 
-/// Printed equations: six decades of M, and some fifty thousand pairs on each hump. At the ends of an interval a landing
-/// changes its kind, and rounding would decide which one is computed.
+/// Printed equations: six decades of M, and some fifty thousand pairs on each hump. At the ends of an interval a
+/// landing changes its kind, and rounding would decide which one is computed.
 const PRINTED: Range =
     Range { decades: 3.0, humps: 19, from_ends: 1e-6, error: |_, alpha| printed_rounding(alpha) };
 
@@ -83,11 +83,12 @@ const INTEGRATED: Range = Range {
     error: |mass_ratio, alpha| integrated_error(alpha, mass_ratio),
 };
 
-/// Stable form: α′² is zero for exact numbers; the roundings of 1/M, of both μ and of both α′² add up to 8 ulps at most.
+/// Stable form: α′² is zero for exact numbers; the roundings of 1/M, of both μ and of both α′² add up to 8 ulps at
+/// most.
 const STABLE: Range = Range { error: |_, _| 4.0 * f64::EPSILON, ..PRINTED };
 
-/// The fraction of pairs that must differ where the map is not invariant. It need not be 1: at M near 1 the two maps are
-/// nearly the same.
+/// The fraction of pairs that must differ where the map is not invariant. It need not be 1: at M near 1 the two
+/// maps are nearly the same.
 const MOST: f64 = 0.9;
 
 /// A fixed sequence of random numbers. The state is made of digits of π.

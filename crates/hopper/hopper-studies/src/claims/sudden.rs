@@ -38,9 +38,9 @@ const RATIOS: [f64; 5] = [0.01, 0.25, 1.0, 4.0, 100.0];
 /// Spacing of the speeds at which the sign is searched. It is no part of π, so that the samples do not repeat their
 /// places in the windows. The narrowest window, (π, α*_1), is 13 times as wide.
 const SPACING: f64 = 0.1;
-/// Largest relative distance of a change of sign from the claimed end of a window. At α*_n the landing is a triple root:
-/// rounding of Eq. 8, some 4εα², shifts τ by its cube root, and δ = (t/β)³ by 2εα. At nπ the rounding of y₁, some 8εα²,
-/// shifts α by 4εα. Both are 10⁻¹³ at n = 40; the bound has a digit of room.
+/// Largest relative distance of a change of sign from the claimed end of a window. At α*_n the landing is a triple
+/// root: rounding of Eq. 8, some 4εα², shifts τ by its cube root, and δ = (t/β)³ by 2εα. At nπ the rounding of y₁,
+/// some 8εα², shifts α by 4εα. Both are 10⁻¹³ at n = 40; the bound has a digit of room.
 const BESIDE: f64 = 1e-12;
 
 /// The speeds at which y₁ − 1 changes its sign, each with whether it is positive on its right.

@@ -265,7 +265,8 @@ mod tests {
     use super::*;
     use std::collections::BTreeSet;
 
-    /// The second program compares what a certificate proves with this list, and makes false certificates of each theorem in it.
+    /// The second program compares what a certificate proves with this list, and makes false certificates of each
+    /// theorem in it.
     #[test]
     fn the_second_program_has_a_statement_for_every_theorem() {
         let path =

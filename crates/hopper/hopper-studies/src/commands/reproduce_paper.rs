@@ -154,7 +154,8 @@ struct FileComparison {
     differing: Vec<String>,
 }
 
-/// Compares the digests of the data with the digests in `folder`, and the figures of the README with their copies there. If `all` figures are made, a committed digest without data counts as a difference.
+/// Compares the digests of the data with the digests in `folder`, and the figures of the README with their copies
+/// there. If `all` figures are made, a committed digest without data counts as a difference.
 fn compare(made: &[(Figure, Rendered)], folder: &Path, all: bool) -> Result<FileComparison, Error> {
     let path = folder.join(DIGESTS);
     let known: BTreeMap<String, TableDigest> = serde_json::from_str(&read(&path)?)

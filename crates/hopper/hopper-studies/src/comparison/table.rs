@@ -5,7 +5,8 @@ use crate::error::Error;
 /// An entry of a table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Cell {
-    /// The bits of an `f64`. Two numbers are equal if all their bits are, so that −0 differs from 0, and NaN equals NaN.
+    /// The bits of an `f64`. Two numbers are equal if all their bits are, so that −0 differs from 0, and NaN equals
+    /// NaN.
     Number(u64),
     /// Red, green, blue and opacity of a pixel, 8 bits each.
     Pixel([u8; 4]),

@@ -19,7 +19,8 @@ const PAIRS: usize = 300;
 struct Range(f64, f64, u64);
 
 impl Range {
-    /// 8 to 40 scales over 3 to 4.5 decades up to 0.03 … 0.3 of a unit; short ranges of few scales are the most frequent.
+    /// 8 to 40 scales over 3 to 4.5 decades up to 0.03 … 0.3 of a unit; short ranges of few scales are the most
+    /// frequent.
     fn at_random(random: &SplitMix64, unit: f64) -> Range {
         let decades = 3.0 + 1.5 * random.uniform(0) * random.uniform(1);
         let scales = 8 + (33.0 * random.uniform(2) * random.uniform(3)) as u64;
@@ -91,8 +92,8 @@ fn offset(size: f64, bits: u64) -> f64 {
     -size * SplitMix64::from_seed(bits).uniform(0)
 }
 
-/// Uncertainty exponents from pairs: of boundaries with an exact law, with few pairs and with many distances, of a basin that is riddled, and of
-/// the tent map's Cantor set, whose law oscillates less than the interval is long.
+/// Uncertainty exponents from pairs: of boundaries with an exact law, with few pairs and with many distances, of a
+/// basin that is riddled, and of the tent map's Cantor set, whose law oscillates less than the interval is long.
 fn from_pairs(trials: u64) -> Result<Vec<Row>, Error> {
     let (left, right) = (Interval::new(-1.0, 1.0)?, Interval::new(0.0, 1.0)?);
     let (line, unit) = (Hyperrectangle::try_from(left)?, Hyperrectangle::try_from(right)?);
@@ -176,8 +177,9 @@ mod tests {
     #[test]
     fn every_interval_of_an_exponent_covers_as_often_as_stated() {
         for row in measure(60).unwrap() {
-            // The fraction of uncertain starts near ε = 0.1 is not yet a power law: some trials show a drift and are refused. Of the trials
-            // with 4 to 16 uncertain pairs at a distance a third have the 30 pairs that an exponent needs.
+            // The fraction of uncertain starts near ε = 0.1 is not yet a power law: some trials show a drift and
+            // are refused. Of the trials with 4 to 16 uncertain pairs at a distance a third have the 30 pairs that
+            // an exponent needs.
             let least = if row.interval == "uncertainty_exponent" { 15 } else { 40 };
             assert!(row.given >= least && 60 * row.covered >= 48 * row.given, "{row:?}");
         }

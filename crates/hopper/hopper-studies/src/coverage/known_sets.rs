@@ -56,8 +56,8 @@ pub(super) fn cube_boxes(epsilon: f64, x: f64) -> f64 {
     boxes + index(cube(k)) - index(0.0) + if index(cube(k)) == last { 0.0 } else { 1.0 }
 }
 
-/// The parity of the number of steps after which x leaves [0, 1] under the tent map of this slope, above 2. The points that
-/// stay are a Cantor set of two copies with the ratio 1/slope.
+/// The parity of the number of steps after which x leaves [0, 1] under the tent map of this slope, above 2. The
+/// points that stay are a Cantor set of two copies with the ratio 1/slope.
 pub(super) fn tent_label(slope: f64, x: f64) -> Label {
     // After 200 steps a distance of 10⁻³⁰ from the Cantor set has grown beyond 1 for every slope above 1.5.
     const STEPS: u8 = 200;

@@ -1,6 +1,7 @@
 //! How often do the intervals of `basin-of-attraction` contain the true number?
 //!
-//! `cargo xtask interval-coverage` repeats every interval on scenes with known answers, with other seeds and offsets each time:
+//! `cargo xtask interval-coverage` repeats every interval on scenes with known answers, with other seeds and
+//! offsets each time:
 //!
 //! ```text
 //!   proportions.rs       fractions from random and from stratified points, tipping, and pairs of starts

@@ -8,8 +8,8 @@ use crate::peers::Python;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Most events of a run, for the other programs: their scripts have the same number. A run with more has not come to its
-/// limit on time.
+/// Most events of a run, for the other programs: their scripts have the same number. A run with more has not come
+/// to its limit on time.
 pub(super) const MOST: usize = 1000;
 
 /// The scripts of the other programs.

@@ -43,8 +43,8 @@ pub(crate) struct Verdict {
 pub(crate) fn verdict(found: &Found, answer: &Answer) -> Verdict {
     let (mut right, mut wrong, mut error) = (0, 0, 0.0f64);
     let mut exact = answer.times.iter().peekable();
-    // The ball's impacts are infinitely many. After the last one that is counted, up to the limit of all impacts, further
-    // ones are neither right nor wrong.
+    // The ball's impacts are infinitely many. After the last one that is counted, up to the limit of all impacts,
+    // further ones are neither right nor wrong.
     let until = answer.accumulation().map_or(f64::INFINITY, |limit| limit + SAME_EVENT);
     for &time in &found.times {
         while exact.next_if(|next| **next < time - SAME_EVENT).is_some() {}

@@ -11,11 +11,12 @@ use journal_figures::DataFile;
 use resumable_job::{Element, Order, npy_header};
 use std::ops::ControlFlow;
 
-/// Pixels across and up: half as many as in the figures of single fates, because no pixel needs a neighbour to show a needle. With more the
-/// figures take longer than all others together.
+/// Pixels across and up: half as many as in the figures of single fates, because no pixel needs a neighbour to show
+/// a needle. With more the figures take longer than all others together.
 const PIXELS: usize = 600;
 
-/// The part of a pixel that may stay undecided. Where a pixel has two basins, its colour errs by at most as much of their difference.
+/// The part of a pixel that may stay undecided. Where a pixel has two basins, its colour errs by at most as much of
+/// their difference.
 const TOLERANCE: f64 = 0.1;
 
 /// Fig. 8 with the shares of its pixels.

@@ -9,9 +9,9 @@ use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades, indexe
 use nalgebra::{Vector4, Vector5};
 use rayon::prelude::*;
 
-/// Points of the attractor that are drawn, in pieces that are computed side by side, and periods that are left out before
-/// each piece. After 200 periods an orbit of the plane is on the attractor to far below a pixel: volumes there shrink
-/// by a factor of e^(−0.09) in a period.
+/// Points of the attractor that are drawn, in pieces that are computed side by side, and periods that are left out
+/// before each piece. After 200 periods an orbit of the plane is on the attractor to far below a pixel: volumes
+/// there shrink by a factor of e^(−0.09) in a period.
 const PIECES: u32 = 40;
 const POINTS: u32 = 2500;
 const TRANSIENT: u32 = 200;

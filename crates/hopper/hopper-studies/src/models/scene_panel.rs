@@ -204,7 +204,8 @@ impl Panel {
         }
     }
 
-    /// The rates of one component in the modes below (0) and above (1) the surface at 0, as arrows behind the last event.
+    /// The rates of one component in the modes below (0) and above (1) the surface at 0, as arrows behind the last
+    /// event.
     pub(super) fn fields<const N: usize>(
         mut self,
         field: fn(u8, &State<N>) -> State<N>,

@@ -80,8 +80,8 @@ pub(crate) fn arrays_markdown(times: &[ArrayTime]) -> String {
     out
 }
 
-/// Speeds spread over the window, with no order that the processor could learn: multiples of the golden section, which has no good rational
-/// approximations, modulo 1.
+/// Speeds spread over the window, with no order that the processor could learn: multiples of the golden section,
+/// which has no good rational approximations, modulo 1.
 fn speeds() -> Vec<f64> {
     let (least, most) = WINDOW;
     let part = |k: usize| (k as f64 * 0.618_033_988_749_894_9) % 1.0;

@@ -5,7 +5,8 @@ use std::io::{IsTerminal, Stderr};
 use std::sync::Mutex;
 use std::time::Instant;
 
-/// Shows how far computations are, on standard error: a line that changes on a terminal, elsewhere a line every 30 seconds.
+/// Shows how far computations are, on standard error: a line that changes on a terminal, elsewhere a line every 30
+/// seconds.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Progress;
 

@@ -6,7 +6,8 @@ use pxfm::{f_exp2, f_log2};
 /// Pixels along each side of the planned raster: 10¹² pixels.
 pub(crate) const SIDE: usize = 1_000_000;
 
-/// Windows along each side. A window of `hopper basins` has at most 2³⁴ pixels; 125000² are fewer, and with 7 windows it would be more.
+/// Windows along each side. A window of `hopper basins` has at most 2³⁴ pixels; 125000² are fewer, and with 7
+/// windows it would be more.
 pub(crate) const WINDOWS: usize = 8;
 
 /// The tiles of the planned raster.
@@ -18,8 +19,8 @@ pub(crate) struct Plan {
 
 /// The planned raster, if the CPU time grows by `growth` for each doubling of the side from `measured` on.
 ///
-/// Each tile has the time of the measured one at the same M, times one factor that gives the total. The rows of windows share the
-/// time evenly.
+/// Each tile has the time of the measured one at the same M, times one factor that gives the total. The rows of
+/// windows share the time evenly.
 pub(crate) fn plan(measured: &Raster, growth: f64) -> Plan {
     let doublings = f_log2(SIDE as f64 / measured.side as f64);
     let total = measured.seconds() * f_exp2(f_log2(growth) * doublings);

@@ -34,7 +34,8 @@ impl Raster {
     }
 }
 
-/// Computes the raster of Fig. 6 from M = 0.1 on with side² pixels, and drops its labels. A tile is the work of one thread.
+/// Computes the raster of Fig. 6 from M = 0.1 on with side² pixels, and drops its labels. A tile is the work of one
+/// thread.
 pub(crate) fn measure(side: usize) -> Result<Raster, Error> {
     let humps = first_humps(5);
     let (x, y) = (Interval::new(0.1, 1.0)?, Interval::new(humps.left, humps.right)?);
@@ -54,8 +55,8 @@ pub(crate) fn measure(side: usize) -> Result<Raster, Error> {
     Ok(Raster { side, tiles, bytes: header + bytes.iter().sum::<usize>() })
 }
 
-/// The factor of the CPU time for one doubling of the side: 2 to the slope of the least-squares line through (log side, log time).
-/// None for fewer than two sizes, or if a time is zero.
+/// The factor of the CPU time for one doubling of the side: 2 to the slope of the least-squares line through (log
+/// side, log time). None for fewer than two sizes, or if a time is zero.
 pub(crate) fn growth_per_doubling(points: &[(usize, f64)]) -> Option<f64> {
     let logs = || points.iter().map(|&(side, time)| (f_log2(side as f64), f_log2(time)));
     let count = points.len() as f64;

@@ -6,7 +6,8 @@ use std::collections::{BinaryHeap, VecDeque};
 
 /// Seconds from a worker's start to its first tile: a process, its libraries and its connection. An assumption.
 pub(crate) const START_UP: f64 = 10.0;
-/// One try of a tile in this number is lost with its worker, at a random instant of the try. An assumption, worse than most clusters.
+/// One try of a tile in this number is lost with its worker, at a random instant of the try. An assumption, worse
+/// than most clusters.
 pub(crate) const LOST_ONE_IN: u64 = 100;
 /// One try in this number is on a slow worker. An assumption.
 pub(crate) const SLOW_ONE_IN: u64 = 100;
@@ -36,7 +37,8 @@ enum Event {
     Lost(usize),
 }
 
-/// Gives the tiles in their order to the workers, each the next one as soon as it is free. A lost tile goes to the end of the queue.
+/// Gives the tiles in their order to the workers, each the next one as soon as it is free. A lost tile goes to the
+/// end of the queue.
 pub(crate) fn simulate(tiles: &[f64], workers: usize) -> Finished {
     let random = SplitMix64::from_seed(SEED);
     let mut numbers = 0..;

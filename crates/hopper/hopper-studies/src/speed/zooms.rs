@@ -8,8 +8,8 @@ use passive_hopper::MassRatio;
 use rayon::prelude::*;
 use std::time::{Duration, Instant};
 
-/// (M, α) of edges that fall to the left of α*_1, α*_2, α*_1 and α*_3. At the first one all speeds decay; the others show
-/// structure at every scale.
+/// (M, α) of edges that fall to the left of α*_1, α*_2, α*_1 and α*_3. At the first one all speeds decay; the
+/// others show structure at every scale.
 const EDGES: [(f64, f64); 4] = [
     (0.2, 8.473039723398273),
     (0.12, 11.920553918335777),
@@ -26,7 +26,8 @@ const SIDE: usize = 256;
 /// Half of the width of a tile along M, in half heights: an edge moves by about its own height over it.
 const WIDTH: f64 = 0.1;
 
-/// Repeats of a tile. The least time is used, because whatever else runs adds to a time: the largest of 44 medians shows the machine.
+/// Repeats of a tile. The least time is used, because whatever else runs adds to a time: the largest of 44 medians
+/// shows the machine.
 const REPEATS: usize = 5;
 
 /// Every so many pixels of a tile are compared with the fate alone, which takes some hundred times as long.
@@ -39,7 +40,8 @@ fn tile((m, alpha): (f64, f64), depth: i32) -> Result<Grid, Error> {
     Ok(Grid { x, y, columns: SIDE, rows: SIDE })
 }
 
-/// The least times of two tiles on one core, computed in turn: the clock of the processor changes from second to second.
+/// The least times of two tiles on one core, computed in turn: the clock of the processor changes from second to
+/// second.
 fn times(tiles: [&Grid; 2]) -> Result<[Duration; 2], Error> {
     let mut least = [Duration::MAX; 2];
     for _ in 0..REPEATS {

@@ -20,7 +20,8 @@ use hopper_figures::draw_coverage;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// The tolerances that are accepted. Below, a pixel beside a fixed point has more basins than can be found; above, a picture means nothing.
+/// The tolerances that are accepted. Below, a pixel beside a fixed point has more basins than can be found; above,
+/// a picture means nothing.
 const SMALLEST: f64 = 1e-6;
 const LARGEST: f64 = 0.5;
 

@@ -125,8 +125,8 @@ impl JobFolder {
         Ok(JobFolder { path: out.to_path_buf(), description, share, lock })
     }
 
-    /// The pieces of one layer of this job. The layer belongs to the identity of a piece: one of another layer is of another
-    /// job.
+    /// The pieces of one layer of this job. The layer belongs to the identity of a piece: one of another layer is
+    /// of another job.
     ///
     /// # Errors
     /// [`Error::Job`] if their folder cannot be made.
@@ -154,7 +154,8 @@ impl JobFolder {
         Ok(write_atomically(&self.path.join(name), bytes)?)
     }
 
-    /// The summary of results that are complete and undamaged: that of an earlier call. Pieces that are left of it are removed.
+    /// The summary of results that are complete and undamaged: that of an earlier call. Pieces that are left of it
+    /// are removed.
     ///
     /// # Errors
     /// [`Error::Job`] if files cannot be read or removed.
@@ -169,8 +170,8 @@ impl JobFolder {
             Contents::Bytes(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
             Contents::Missing | Contents::NoFile => return Ok(None),
         };
-        // The last line has the digest of the job and of the lines before: a list of another job, or one that was cut, is
-        // none of this one.
+        // The last line has the digest of the job and of the lines before: a list of another job, or one that was
+        // cut, is none of this one.
         let own = digests
             .trim_end()
             .rsplit_once('\n')

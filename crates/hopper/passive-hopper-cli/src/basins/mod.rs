@@ -1,4 +1,5 @@
-//! `hopper basins`: how is a raster computed that takes hours, on one computer or on many, and is never lost or spoiled?
+//! `hopper basins`: how is a raster computed that takes hours, on one computer or on many, and is never lost or
+//! spoiled?
 //!
 //! ```text
 //!   options ─► window ─► job_folder ─► pieces ─────────► rasters (layer), shares, zoom ─► tables
@@ -6,9 +7,10 @@
 //!                          job.txt       progress, signals
 //! ```
 //!
-//! A job is cut into pieces: tiles of a raster ([`rasters`], [`layer`]), columns of shares ([`shares`], [`coverage`]) or frames of a zoom ([`zoom`]).
-//! A folder has one job ([`job_folder`]). Its pieces are found or computed ([`pieces`]) with the progress shown and signals
-//! obeyed ([`Interrupt`]); [`call`] has what they need. [`picture`] and [`column_bytes`] are forms of data.
+//! A job is cut into pieces: tiles of a raster ([`rasters`], [`layer`]), columns of shares ([`shares`],
+//! [`coverage`]) or frames of a zoom ([`zoom`]). A folder has one job ([`job_folder`]). Its pieces are found or
+//! computed ([`pieces`]) with the progress shown and signals obeyed ([`Interrupt`]); [`call`] has what they need.
+//! [`picture`] and [`column_bytes`] are forms of data.
 
 mod call;
 mod column_bytes;

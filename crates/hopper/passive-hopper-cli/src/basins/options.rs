@@ -29,8 +29,8 @@ pub(crate) struct Options {
     #[arg(long, num_args = 1.., value_name = "LAYER", value_enum, default_values_t = [Layer::Label], conflicts_with_all = ["about", "zoom"])]
     pub(crate) layer: Vec<Layer>,
 
-    /// Give each pixel the shares of the basins in it at the mass ratio of its column: a needle thinner than a pixel is a faint line. At
-    /// most this part of a pixel stays undecided, unless too many basins meet there
+    /// Give each pixel the shares of the basins in it at the mass ratio of its column: a needle thinner than a
+    /// pixel is a faint line. At most this part of a pixel stays undecided, unless too many basins meet there
     #[arg(long, value_name = "TOLERANCE", num_args = 0..=1, default_missing_value = "0.05", conflicts_with_all = ["about", "zoom", "layer"], value_parser = values::finite, allow_negative_numbers = true)]
     pub(crate) coverage: Option<f64>,
 
@@ -50,8 +50,8 @@ pub(crate) struct Options {
     /// With --about: distances below the fixed point, on a logarithmic scale [default: 1e-2 1e-300]
     #[arg(long, num_args = 2, value_names = ["FAR", "NEAR"], help_heading = "All scales", requires = "about", value_parser = offset, allow_negative_numbers = true)]
     pub(crate) offset: Option<Vec<Offset>>,
-    /// With --about: distances from a preimage of the fixed point instead, on both sides. It is the one next to this speed at
-    /// this mass ratio, followed over the mass ratios of the raster
+    /// With --about: distances from a preimage of the fixed point instead, on both sides. It is the one next to
+    /// this speed at this mass ratio, followed over the mass ratios of the raster
     #[arg(long, num_args = 2, value_names = ["M", "SPEED"], help_heading = "All scales", requires = "about", conflicts_with = "turns", value_parser = values::finite, allow_negative_numbers = true)]
     pub(crate) preimage: Option<Vec<f64>>,
     /// With --about: the phase instead of the distance, so many turns of the circle of fates

@@ -1,7 +1,7 @@
 //! `hopper basins`: the basins over any window of (M, α), in tiles on disk, layer by layer.
 //!
-//! A call that is killed leaves its finished tiles, and the next call computes the others. The array is written from the
-//! tiles and compared with them. The tiles are removed only after this comparison.
+//! A call that is killed leaves its finished tiles, and the next call computes the others. The array is written
+//! from the tiles and compared with them. The tiles are removed only after this comparison.
 
 use crate::basins::call::{Call, Payload, Work};
 use crate::basins::job_folder::{JobFolder, Share};

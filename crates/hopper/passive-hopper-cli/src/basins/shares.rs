@@ -1,5 +1,5 @@
-//! `hopper basins --about N`: the shares of the basins left of α*_N, over mass ratio and distance, or over mass ratio and phase; with
-//! `--preimage`, on both sides of a preimage of α*_N that is followed over the mass ratio.
+//! `hopper basins --about N`: the shares of the basins left of α*_N, over mass ratio and distance, or over mass
+//! ratio and phase; with `--preimage`, on both sides of a preimage of α*_N that is followed over the mass ratio.
 //!
 //! A run that is killed leaves its finished columns, and the next run computes the others.
 
@@ -115,7 +115,8 @@ pub(crate) fn run(
     Ok(tables)
 }
 
-/// Writes the results of a raster of shares, and removes its pieces. Returns the legend: the labels, and after them the notes.
+/// Writes the results of a raster of shares, and removes its pieces. Returns the legend: the labels, and after them
+/// the notes.
 pub(crate) fn finish(
     job: &JobFolder,
     raster: &ShareRaster,
@@ -144,7 +145,8 @@ pub(crate) fn finish(
     Ok(legend)
 }
 
-/// The preimage of α*_n near a speed at a mass ratio, followed to the middle of every column; `None` where it does not exist.
+/// The preimage of α*_n near a speed at a mass ratio, followed to the middle of every column; `None` where it does
+/// not exist.
 fn followed(
     n: u64,
     [mass_ratio, speed]: [f64; 2],

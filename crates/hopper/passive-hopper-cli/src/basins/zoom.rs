@@ -19,7 +19,8 @@ use journal_figures::{animated_png, render};
 use serde_json::json;
 use std::path::Path;
 
-/// The version of the colours in finished frames. It is raised when the same shares get other bytes; a test compares a digest.
+/// The version of the colours in finished frames. It is raised when the same shares get other bytes; a test
+/// compares a digest.
 const FRAME_VERSION: u32 = 1;
 
 /// The frames.
@@ -39,10 +40,12 @@ pub(crate) struct Zoom {
 /// The largest number of frames: the animation keeps all of them in memory, some 50 kB each.
 const MOST_FRAMES: usize = 2000;
 
-/// The largest number of pixels of a frame each way. A frame of 2048² has 16 million fates above the scale of the chart.
+/// The largest number of pixels of a frame each way. A frame of 2048² has 16 million fates above the scale of the
+/// chart.
 const MOST_PIXELS: usize = 1 << 11;
 
-/// Below this depth an offset's decimal exponent has no meaning for a reader any more; larger ones are refused by the library.
+/// Below this depth an offset's decimal exponent has no meaning for a reader any more; larger ones are refused by
+/// the library.
 const DEEPEST: f64 = 1e4;
 
 /// The time of a frame in the animation.

@@ -13,7 +13,8 @@ use passive_hopper::MassRatio;
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct Options {
-    /// Lift-off speeds α, in units of m₂gω/k. Without any, or with - alone, they are read from standard input, one a line
+    /// Lift-off speeds α, in units of m₂gω/k. Without any, or with - alone, they are read from standard input, one
+    /// a line
     #[arg(value_name = "SPEED", num_args = 0.., value_parser = values::speed_or_input, allow_negative_numbers = true)]
     speeds: Vec<values::SpeedOrInput>,
     /// The mass ratio M = m₂/m₁, lower mass over upper mass
@@ -66,7 +67,8 @@ pub(crate) static FATES: TableKind = TableKind {
     ],
 };
 
-/// The widths of the columns in plain text when rows come one by one: a number has up to 24 characters, and most have 18.
+/// The widths of the columns in plain text when rows come one by one: a number has up to 24 characters, and most
+/// have 18.
 const WIDTHS: [usize; 7] = [18, 9, 3, 17, 18, 5, 0];
 
 /// Runs the command.

@@ -53,7 +53,8 @@ const USUAL_HOPS: usize = 1000;
 /// The fewest hops of a picture unless --hops is given. An orbit that begins in a trap has its fate after none.
 const FEWEST_DRAWN: usize = 3;
 
-/// The most hops whose time and energy have bounds on their errors: an enclosed hop takes 50 µs, so that these take a second.
+/// The most hops whose time and energy have bounds on their errors: an enclosed hop takes 50 µs, so that these take
+/// a second.
 const MOST_ENCLOSED: usize = 20_000;
 
 /// PNG pixels for each CSS pixel of a figure for print.

@@ -11,19 +11,19 @@ use crate::refusal::shortened;
 use crate::streams::Streams;
 use rayon::prelude::*;
 
-/// Bytes of a read, and the longest line. A pipe gives 64 KiB at most; a file fills it, with some fifty thousand lines. A larger
-/// block would answer later and use more memory.
+/// Bytes of a read, and the longest line. A pipe gives 64 KiB at most; a file fills it, with some fifty thousand
+/// lines. A larger block would answer later and use more memory.
 const BLOCK: usize = 1 << 20;
 
 /// U+FEFF in UTF-8.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Bytes of a part: some thousand lines, whose fates take a millisecond. A smaller part fills the vectors of the kernel less; with
-/// a larger one the threads wait for the last of them.
+/// Bytes of a part: some thousand lines, whose fates take a millisecond. A smaller part fills the vectors of the
+/// kernel less; with a larger one the threads wait for the last of them.
 const PART: usize = 1 << 15;
 
-/// Reads numbers with `value` from all lines, and writes the texts that `write` makes of them, in their order. `write` is told
-/// whether its numbers are the first.
+/// Reads numbers with `value` from all lines, and writes the texts that `write` makes of them, in their order.
+/// `write` is told whether its numbers are the first.
 ///
 /// # Errors
 /// [`Error::Misuse`] if a person would have to type the lines; [`Error::Input`] for a line that is no number, after the texts of the

@@ -97,8 +97,8 @@ impl OutputFile {
     }
 }
 
-/// Checks the files of a call before its computation: they differ, at most one is standard output, and they can be written. Says
-/// whether one is standard output, so that no table goes there.
+/// Checks the files of a call before its computation: they differ, at most one is standard output, and they can be
+/// written. Says whether one is standard output, so that no table goes there.
 ///
 /// # Errors
 /// [`Error::Misuse`] for two of the same name; [`Error::Job`] for a file that cannot be written.

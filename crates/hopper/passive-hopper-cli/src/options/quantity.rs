@@ -1,7 +1,7 @@
 //! Quantities with units, such as 80g or 1.2m/s, in kilograms, metres and seconds.
 //!
-//! A unit that differs from the basic one by a power of ten shifts the decimal exponent before the number is read. So 80g is the
-//! `f64` nearest to 0.08 kg, without the rounding of a product.
+//! A unit that differs from the basic one by a power of ten shifts the decimal exponent before the number is read.
+//! So 80g is the `f64` nearest to 0.08 kg, without the rounding of a product.
 
 use crate::output::number;
 use crate::refusal::shortened;
@@ -26,7 +26,8 @@ pub(crate) struct Quantity {
     pub(crate) text: String,
 }
 
-/// The units: their text, what they measure, the power of ten to the basic unit, and a divisor for the one that has none.
+/// The units: their text, what they measure, the power of ten to the basic unit, and a divisor for the one that has
+/// none.
 const UNITS: [(&str, Kind, i32, f64); 40] = [
     ("kg", Kind::Mass, 0, 1.0),
     ("g", Kind::Mass, -3, 1.0),
@@ -71,8 +72,8 @@ const UNITS: [(&str, Kind, i32, f64); 40] = [
     ("Nm", Kind::Energy, 0, 1.0),
 ];
 
-/// Bound on the relative error of a value that was read: half an ulp of the decimal number. For km/h the divisor 3.6 and the quotient are rounded
-/// too.
+/// Bound on the relative error of a value that was read: half an ulp of the decimal number. For km/h the divisor
+/// 3.6 and the quotient are rounded too.
 pub(crate) const RELATIVE_ERROR: f64 = 1.51 * f64::EPSILON;
 
 impl Kind {

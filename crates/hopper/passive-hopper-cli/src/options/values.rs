@@ -1,7 +1,7 @@
 //! The values of options: numbers, mass ratios, lift-off speeds.
 //!
-//! Each function gives the value, or the reason why the text is none: the limit and the remedy. The argument parser puts the
-//! option and the text before it.
+//! Each function gives the value, or the reason why the text is none: the limit and the remedy. The argument parser
+//! puts the option and the text before it.
 
 use crate::error::Error;
 use crate::output::number;

@@ -53,8 +53,8 @@ pub(crate) fn append_bound(bound: f64, text: &mut String) {
     };
 }
 
-/// Appends the digits that are certain: those that all numbers within `error` share after rounding. Without one it appends the first two digits
-/// and the bound.
+/// Appends the digits that are certain: those that all numbers within `error` share after rounding. Without one it
+/// appends the first two digits and the bound.
 pub(crate) fn append_certain(value: f64, error: f64, text: &mut String) {
     if error == 0.0 {
         return append_number(value, text);

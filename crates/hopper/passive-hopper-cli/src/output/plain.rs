@@ -44,7 +44,8 @@ fn append_columns(kind: &TableKind, rows: &[Vec<Cell>], text: &mut String) {
     }
 }
 
-/// Appends the names of the columns and, if there are any, their units. Gives the widths of the columns: at least those given.
+/// Appends the names of the columns and, if there are any, their units. Gives the widths of the columns: at least
+/// those given.
 pub(crate) fn append_names(kind: &TableKind, widths: &[usize], text: &mut String) -> Vec<usize> {
     let own = kind.columns.iter().map(|column| width(column.name).max(width(column.unit)));
     let widths: Vec<usize> = own.zip(widths).map(|(own, &given)| own.max(given)).collect();

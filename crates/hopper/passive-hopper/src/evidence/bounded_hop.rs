@@ -54,9 +54,9 @@ pub struct StateError {
 impl LiftOffMap {
     /// The hop that starts with speed `alpha`, with bounds on the errors of every landing and of α′.
     ///
-    /// The bounds hold for the exact map at the exact `alpha` and M. They are derived in docs/theory.md (Theorem 60 and
-    /// Lemma 61 for a landing, Theorem 66 for the whole hop), and measured by `cargo xtask check-bounds`. The function takes
-    /// about a microsecond more than [`hop`](Self::hop).
+    /// The bounds hold for the exact map at the exact `alpha` and M. They are derived in docs/theory.md (Theorem 60
+    /// and Lemma 61 for a landing, Theorem 66 for the whole hop), and measured by `cargo xtask check-bounds`. The
+    /// function takes about a microsecond more than [`hop`](Self::hop).
     ///
     /// ```
     /// use passive_hopper::{LiftOffMap, MassRatio};

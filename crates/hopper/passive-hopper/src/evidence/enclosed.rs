@@ -65,7 +65,8 @@ impl Enclosed {
     }
 }
 
-/// An error that is not larger, relative to its number, is no reason for longer arithmetic: a rounding, and a quarter of it.
+/// An error that is not larger, relative to its number, is no reason for longer arithmetic: a rounding, and a
+/// quarter of it.
 const SHARP: f64 = 0.625 * f64::EPSILON;
 
 #[cfg(test)]

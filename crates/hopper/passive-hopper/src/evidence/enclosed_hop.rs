@@ -1,13 +1,14 @@
 //! A hop with every number enclosed: landings, times, energies, slopes.
 //!
-//! The hop is found as always, in longer arithmetic. Its numbers are then computed once more, from the equations of motion, with balls
-//! ([`Ball`]). The time of a landing is enclosed by two signs of the height of the lower mass,
+//! The hop is found as always, in longer arithmetic. Its numbers are then computed once more, from the equations of
+//! motion, with balls ([`Ball`]). The time of a landing is enclosed by two signs of the height of the lower mass,
 //!
 //! ```text
 //!   G(t; x, V) = x (1 − cos t) + V (t − sin t) − (t²/2 − 1 + cos t),        Γ = −∂G/∂t
 //! ```
 //!
-//! between which the solver has found the landing. It is the only one in its bracket, so that it is the one between the signs.
+//! between which the solver has found the landing. It is the only one in its bracket, so that it is the one between
+//! the signs.
 
 use crate::error::Error;
 use crate::evidence::enclosed::Enclosed;
@@ -31,7 +32,8 @@ pub struct EnclosedHop {
     pub energy_loss: Enclosed,
     /// The time in flight, in units of 1/ω.
     pub flight_time: Enclosed,
-    /// The time on the ground from the last landing to the next lift-off, in units of 1/ω; `None` if the hopper is grounded.
+    /// The time on the ground from the last landing to the next lift-off, in units of 1/ω; `None` if the hopper is
+    /// grounded.
     pub contact_time: Option<Enclosed>,
     /// ∂α′/∂α; `None` if the hopper is grounded, or if a landing has no closing speed.
     pub by_speed: Option<Enclosed>,
@@ -59,8 +61,9 @@ pub struct EnclosedLanding {
 impl LiftOffMap {
     /// The hop from a speed within `error` of `alpha`, with all its numbers enclosed.
     ///
-    /// It takes some tens of microseconds, and milliseconds where 106 bits do not suffice. The balls grow from flight to flight, up to fourfold: a
-    /// hop with more than 300 sudden lift-offs, as at M = 10⁴, has no enclosure.
+    /// It takes some tens of microseconds, and milliseconds where 106 bits do not suffice. The balls grow from
+    /// flight to flight, up to fourfold: a hop with more than 300 sudden lift-offs, as at M = 10⁴, has no
+    /// enclosure.
     ///
     /// ```
     /// use passive_hopper::{LiftOffMap, MassRatio};
@@ -71,7 +74,8 @@ impl LiftOffMap {
     /// ```
     ///
     /// # Errors
-    /// The errors of [`hop`](Self::hop), and [`Error::Undecided`] if `error` or 1024 bits leave a decision of the hop open.
+    /// The errors of [`hop`](Self::hop), and [`Error::Undecided`] if `error` or 1024 bits leave a decision of the
+    /// hop open.
     pub fn enclosed_hop(&self, alpha: f64, error: f64) -> Result<EnclosedHop, Error> {
         // Most hops are known at once, and those of too many flights need not be tried.
         let sudden = self.hop(alpha)?.sudden;
@@ -92,7 +96,8 @@ impl LiftOffMap {
     }
 }
 
-/// The most sudden lift-offs of a hop that is enclosed. The balls of some 300 flights fill 1024 bits, which take half a second.
+/// The most sudden lift-offs of a hop that is enclosed. The balls of some 300 flights fill 1024 bits, which take
+/// half a second.
 const MOST_SUDDEN: usize = 300;
 
 type Enclose = fn(&LiftOffMap, f64, f64) -> Result<Option<EnclosedHop>, Error>;
@@ -183,7 +188,8 @@ impl<R: Extended> Path<R> {
         }
     }
 
-    /// The flight that lands at about `time`. False if the landing is not enclosed, or if it is not certain what follows.
+    /// The flight that lands at about `time`. False if the landing is not enclosed, or if it is not certain what
+    /// follows.
     fn fly(&mut self, time: R, sudden: bool) -> bool {
         let Some(t) = enclosed_time(time, |t| height(t, self.excess, self.velocity)) else {
             return false;
@@ -281,7 +287,8 @@ pub(crate) fn height<R: Extended>(t: Ball<R>, x: Ball<R>, v: Ball<R>) -> Ball<R>
 const FIRST_REACH: f64 = 16.0;
 const FARTHER: f64 = 8.0;
 
-/// The zero next to `time`, where the function falls from above 0 to below 0. `None` if no two signs are found within half of the time.
+/// The zero next to `time`, where the function falls from above 0 to below 0. `None` if no two signs are found
+/// within half of the time.
 fn enclosed_time<R: Extended>(time: R, f: impl Fn(Ball<R>) -> Ball<R>) -> Option<Ball<R>> {
     let size = time.nearest().abs();
     // A reach of zero would never grow.

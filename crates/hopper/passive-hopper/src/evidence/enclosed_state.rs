@@ -20,7 +20,8 @@ pub struct EnclosedState {
     pub lower_velocity: Enclosed,
 }
 
-/// Where a phase begins: the stretch is 1 + `excess`, the upper mass has the `velocity`, and the lower one is at rest on the ground.
+/// Where a phase begins: the stretch is 1 + `excess`, the upper mass has the `velocity`, and the lower one is at
+/// rest on the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EnclosedStart {
     /// x.

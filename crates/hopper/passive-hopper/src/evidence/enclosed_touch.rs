@@ -1,12 +1,14 @@
 //! The mass parameter at which the minimum of the map on a contact part touches α*_n or zero, enclosed.
 //!
-//! On the contact part of hump n the first landing is the only one. With the time of flight τ, L = τ − sin τ and B = τ²/2 − 1 + cos τ,
+//! On the contact part of hump n the first landing is the only one. With the time of flight τ, L = τ − sin τ and B
+//! = τ²/2 − 1 + cos τ,
 //!
 //! ```text
 //!   α = B/L      Γ = L − α (1 − cos τ)      α′² − c² = α² − c² − μ Γ²      dα/dτ = Γ/L      dΓ/dτ = (1 − Γ/L)(1 − cos τ) − α sin τ
 //! ```
 //!
-//! The minimum touches c at the least value of q = (α² − c²)/Γ². q falls up to it and rises from there (docs/theory.md, Theorem 29).
+//! The minimum touches c at the least value of q = (α² − c²)/Γ². q falls up to it and rises from there
+//! (docs/theory.md, Theorem 29).
 
 use crate::error::Error;
 use crate::evidence::enclosed::Enclosed;

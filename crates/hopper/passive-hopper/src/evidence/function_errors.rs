@@ -20,8 +20,8 @@ pub struct SineErrors {
 /// The kernel reduces arguments below 2²⁰ exactly (`HalfAngle::at`).
 const KERNEL_ARGUMENTS: f64 = 1_048_576.0;
 
-/// More than half the time of flight of the fastest hop. Far beyond, the reduction by a multiple of π, which is an `f64`,
-/// leaves a large argument, and the series of a sine has as many terms.
+/// More than half the time of flight of the fastest hop. Far beyond, the reduction by a multiple of π, which is an
+/// `f64`, leaves a large argument, and the series of a sine has as many terms.
 const LARGEST_ARGUMENT: f64 = 2.0 * LARGEST_LIFT_OFF_SPEED;
 
 /// The errors of sin `x` and cos `x` as `solver` computes them, against `reference`.
@@ -29,8 +29,8 @@ const LARGEST_ARGUMENT: f64 = 2.0 * LARGEST_LIFT_OFF_SPEED;
 /// The bounds are: for the kernel 2 ulps, for 0 < x < 2²⁰; for the general solver half an ulp; for an arithmetic with
 /// relative error e its e (1 + |x|), since it subtracts a multiple of π that is right to e of its size.
 ///
-/// `None` unless `reference` is a longer arithmetic than `solver`, and for an `x` outside the domain of `solver`: 0 < x < 2²⁰
-/// for the kernel, |x| ≤ 2⁴⁴ for the other ways.
+/// `None` unless `reference` is a longer arithmetic than `solver`, and for an `x` outside the domain of `solver`: 0
+/// < x < 2²⁰ for the kernel, |x| ≤ 2⁴⁴ for the other ways.
 ///
 /// ```
 /// use passive_hopper::{Solver, sine_errors};

@@ -57,8 +57,8 @@ pub struct LandingErrors {
     pub velocity: Option<Compared>,
     /// μ Γ²/α².
     pub loss: Compared,
-    /// The number that decides on which branch the flight lands; `None` if only one branch was possible, and for a longer
-    /// arithmetic, where this number is rounded to an `f64` after the decision.
+    /// The number that decides on which branch the flight lands; `None` if only one branch was possible, and for a
+    /// longer arithmetic, where this number is rounded to an `f64` after the decision.
     pub maximum_test: Option<Compared>,
 }
 
@@ -127,7 +127,8 @@ impl ReferenceHop {
         }
     }
 
-    /// The errors of Γ and α − h of the first flight as the kernel's table gives them; `None` for a speed outside the table.
+    /// The errors of Γ and α − h of the first flight as the kernel's table gives them; `None` for a speed outside
+    /// the table.
     pub fn first_flight_errors(&self) -> Option<FirstFlightErrors> {
         match &self.trace {
             ReferenceTrace::Bits106(exact) => first_flight_errors(exact),
@@ -163,8 +164,8 @@ fn first_flight_errors<E: Extended>(exact: &TracedHop<E>) -> Option<FirstFlightE
     let FirstFlight { beyond, closing_speed, .. } =
         TablePosition::of(alpha, fixed_points()).first_flight(alpha)?;
     let landing = exact.landings.first()?;
-    // A backward error e of V changes h by eD/Γ and Γ by at most e (1 + τ)²/Γ. The numbers of the longer arithmetic have
-    // some ulps of e; 64 is far more. The table begins 2⁻¹³ from α*_n, where Γ is not small.
+    // A backward error e of V changes h by eD/Γ and Γ by at most e (1 + τ)²/Γ. The numbers of the longer arithmetic
+    // have some ulps of e; 64 is far more. The table begins 2⁻¹³ from α*_n, where Γ is not small.
     let size = 1.0 + landing.time.nearest();
     let reference_bound = 64.0 * E::EPSILON * size * size * size / closing_speed;
     let ulps = TABLE_ULPS * f64::EPSILON;

@@ -42,12 +42,12 @@ pub struct ReferenceLocalHop {
 }
 
 impl LiftOffMap {
-    /// The hop of [`hop_near_fixed_point`](Self::hop_near_fixed_point) in 512 bits, or in 1024 where 512 are inconclusive,
-    /// for comparison.
+    /// The hop of [`hop_near_fixed_point`](Self::hop_near_fixed_point) in 512 bits, or in 1024 where 512 are
+    /// inconclusive, for comparison.
     ///
-    /// 512 bits are 154 digits. t = τ − 2α*_n is a difference of numbers about α*_n and is above 10⁻¹⁰⁰, so that 40 digits
-    /// of it are left even for the fastest hops. `None` if 1024 bits do not decide the hop, or if it has more sudden
-    /// lift-offs than that arithmetic allows.
+    /// 512 bits are 154 digits. t = τ − 2α*_n is a difference of numbers about α*_n and is above 10⁻¹⁰⁰, so that 40
+    /// digits of it are left even for the fastest hops. `None` if 1024 bits do not decide the hop, or if it has
+    /// more sudden lift-offs than that arithmetic allows.
     ///
     /// ```
     /// use passive_hopper::{LiftOffMap, MassRatio};

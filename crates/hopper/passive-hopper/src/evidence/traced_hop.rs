@@ -15,8 +15,8 @@ use crate::precision::real::{Extended, Real};
 pub(crate) struct TracedHop<R> {
     pub(crate) alpha: f64,
     pub(crate) landings: Vec<TracedLanding<R>>,
-    /// Number of sudden lift-offs. It may exceed the number of later landings by one: if x′ of a sudden landing rounds to
-    /// zero, the flight after it is too short to be represented, and loses no energy.
+    /// Number of sudden lift-offs. It may exceed the number of later landings by one: if x′ of a sudden landing
+    /// rounds to zero, the flight after it is too short to be represented, and loses no energy.
     pub(crate) sudden: usize,
     /// α′²/α².
     pub(crate) ratio: R,
@@ -49,9 +49,9 @@ pub(crate) struct TracedLanding<R> {
 
 /// Rounding error of α′ in `f64`, in ulps of α′, after the ratio α′²/α² with its own bound.
 ///
-/// The kernel takes one root, which rounds once. The general solver forms α√r with two roundings, or α − αt/(1 + √(1−t))
-/// for t < ½: there the quotient has at most four roundings and is at most 0.42 α′, and the difference rounds once.
-/// Both are below 3 half ulps.
+/// The kernel takes one root, which rounds once. The general solver forms α√r with two roundings, or α − αt/(1 +
+/// √(1−t)) for t < ½: there the quotient has at most four roundings and is at most 0.42 α′, and the difference
+/// rounds once. Both are below 3 half ulps.
 const ROUNDINGS_OF_NEXT: f64 = 1.5 * f64::EPSILON;
 
 /// Three roundings of the longer arithmetics: the ratio, its root, and the product with α.

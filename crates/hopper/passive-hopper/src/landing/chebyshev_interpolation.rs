@@ -3,9 +3,9 @@
 use crate::precision::double_double::DoubleDouble;
 use std::sync::LazyLock;
 
-/// Coefficients of a piece: eight `f64`, one vector of AVX-512 and one line of the cache. With degree 7 the error of the
-/// interpolation is below that of the rounding; see
-/// `TABLE_ULPS` in `first_flight_table.rs`. With degree 6 it would be 100 times as large.
+/// Coefficients of a piece: eight `f64`, one vector of AVX-512 and one line of the cache. With degree 7 the error
+/// of the interpolation is below that of the rounding; see `TABLE_ULPS` in `first_flight_table.rs`. With degree 6
+/// it would be 100 times as large.
 pub(crate) const COEFFICIENTS: usize = 8;
 
 /// Interpolation at the Chebyshev nodes of [−1, 1]: from values to coefficients by powers.

@@ -1,7 +1,8 @@
-//! The first landing after a lift-off from an exactly known state on the ground, with decisions larger than their errors.
+//! The first landing after a lift-off from an exactly known state on the ground, with decisions larger than their
+//! errors.
 //!
-//! The decisions of a flight are on which branch it lands, and whether a sudden lift-off follows. They are made in `f64`, and
-//! if they are inconclusive there, in 106, 256, 512 and 1024 bits.
+//! The decisions of a flight are on which branch it lands, and whether a sudden lift-off follows. They are made in
+//! `f64`, and if they are inconclusive there, in 106, 256, 512 and 1024 bits.
 
 use crate::error::Error;
 use crate::landing::error_bound::ErrorBound;
@@ -58,8 +59,8 @@ fn decided_in<R: Extended>(start: TakeOff, mass_ratio: MassRatio) -> Option<Land
 mod tests {
     use super::*;
 
-    /// Flights that touch the ground without speed at τ = 2V, tan V = V/Y, to a few ulps of Y. The sign of the maximum test in
-    /// 1024 bits says whether the touch is a landing.
+    /// Flights that touch the ground without speed at τ = 2V, tan V = V/Y, to a few ulps of Y. The sign of the
+    /// maximum test in 1024 bits says whether the touch is a landing.
     #[test]
     fn nearly_grazing_flights_land_on_the_branch_of_the_exact_start() {
         let ratio = MassRatio::new(3.0).unwrap();

@@ -4,9 +4,10 @@
 //! lands (the maximum test), whether the hopper lifts off again (α′²). A decision is *inconclusive* if the number is
 //! not larger than the bound on its error. The hop is then computed again in longer arithmetic.
 //!
-//! The error has three parts. Each flight adds the rounding errors of its own landing. The search for the landing leaves
-//! an error that acts like one of the start speed. Each flight also propagates the error of its start to its end, by its
-//! derivative and a bound on the terms of second order. The propagated part grows along a chain of sudden lift-offs.
+//! The error has three parts. Each flight adds the rounding errors of its own landing. The search for the landing
+//! leaves an error that acts like one of the start speed. Each flight also propagates the error of its start to its
+//! end, by its derivative and a bound on the terms of second order. The propagated part grows along a chain of
+//! sudden lift-offs.
 //!
 //! The bounds are derived in docs/theory.md, section 13: the rounding of a landing in Lemma 58, the kernel's in
 //! Lemma 61, propagation in Theorem 60, the decisions in Theorem 66.
@@ -21,21 +22,21 @@ use std::f64::consts::PI;
 /// 1 + x + |V| + τ + Γ.
 ///
 /// docs/theory.md, Lemma 58: 28 suffice for x′, 17 for V′ and 12 for Γ; Lemma 63: 32 for the longer arithmetics. A
-/// larger value sends more hops to the longer arithmetic: with twice the value twice as many decisions are inconclusive,
-/// some in 10¹².
+/// larger value sends more hops to the longer arithmetic: with twice the value twice as many decisions are
+/// inconclusive, some in 10¹².
 pub(crate) const LANDING_ULPS: f64 = 32.0;
 
 /// Bound on the rounding error of the residual V(h) − V, in ulps of |V − h| + min(1, τ) in the general solver, and of
 /// 1 + x + |V| + τ + Γ in the kernel and in longer arithmetic. It acts like an error of V at the start of the flight.
 ///
-/// docs/theory.md, Lemmas 58, 61 and 63. The derivation comes nearest to this value at h = ½ in the general solver (28.2 of
-/// 32 half ulps) and at h = π/4 in the kernel, where D = h − sin h cos h cancels most. The largest error of the general solver
-/// that a search found is 5.6 (a test in `half_time_root.rs`).
+/// docs/theory.md, Lemmas 58, 61 and 63. The derivation comes nearest to this value at h = ½ in the general solver
+/// (28.2 of 32 half ulps) and at h = π/4 in the kernel, where D = h − sin h cos h cancels most. The largest error
+/// of the general solver that a search found is 5.6 (a test in `half_time_root.rs`).
 pub(crate) const BACKWARD_ULPS: f64 = 16.0;
 
-/// Largest sum q of the terms that Theorem 60 of docs/theory.md compares with Γ: with q below this number the linear map
-/// of the flight, with a part 4q added, bounds the change of its landing. A flight with a larger q nearly touches the
-/// ground, or is so short that its start is hardly known. It counts as inconclusive.
+/// Largest sum q of the terms that Theorem 60 of docs/theory.md compares with Γ: with q below this number the
+/// linear map of the flight, with a part 4q added, bounds the change of its landing. A flight with a larger q
+/// nearly touches the ground, or is so short that its start is hardly known. It counts as inconclusive.
 ///
 /// The theorem needs q ≤ ¼. A smaller limit keeps the bound near the linear one and sends some flights in 10¹² more to
 /// the longer arithmetic.
@@ -47,16 +48,17 @@ const LARGEST_NONLINEARITY: f64 = 1.0 / 16.0;
 /// bound noticeably.
 const DERIVATIVE_ERROR: f64 = 1e-6;
 
-/// Factor of ετ in the error of the derivative's sines: their phase τ is stored with an error of ετ/2 and h = τ/2 + rest
-/// with as much, and |d sin τ|, |d(1 − cos τ)| ≤ dτ, twice for each product.
+/// Factor of ετ in the error of the derivative's sines: their phase τ is stored with an error of ετ/2 and h = τ/2 +
+/// rest with as much, and |d sin τ|, |d(1 − cos τ)| ≤ dτ, twice for each product.
 const PHASE_ULPS: f64 = 4.0;
 
-/// Factor of (1 + x + |V| + τ + Γ) T² in the terms of second order of x′ and Γ, with T a bound on the change of the time.
-/// Taylor's formula gives ½; the first-order correction of the search leaves ½ T² in x′ and 14 times the sum in Γ
-/// (docs/theory.md, Theorem 60). T² is 10⁻²⁶ except near a touch.
+/// Factor of (1 + x + |V| + τ + Γ) T² in the terms of second order of x′ and Γ, with T a bound on the change of the
+/// time. Taylor's formula gives ½; the first-order correction of the search leaves ½ T² in x′ and 14 times the sum
+/// in Γ (docs/theory.md, Theorem 60). T² is 10⁻²⁶ except near a touch.
 const SECOND_ORDER: f64 = 16.0;
 
-/// dΓ²/dα = 8α Su changes by at most 16 α (1 + h) for each unit of h, as |(Su)′| ≤ 2 (1 + h) (docs/theory.md, Lemma 62).
+/// dΓ²/dα = 8α Su changes by at most 16 α (1 + h) for each unit of h, as |(Su)′| ≤ 2 (1 + h) (docs/theory.md, Lemma
+/// 62).
 const LOSS_BEND: f64 = 16.0;
 
 /// A change e of the speed moves h by at most 2.5 e^{1/3}, and by 2e for h < π (docs/theory.md, Lemma 62).
@@ -171,8 +173,8 @@ impl ErrorBound {
         } else {
             BACKWARD_ULPS * self.epsilon * size
         };
-        // The largest residual at which the search may stop. It is removed to first order. The rest of it is smaller than
-        // the whole (docs/theory.md, Lemma 59).
+        // The largest residual at which the search may stop. It is removed to first order. The rest of it is
+        // smaller than the whole (docs/theory.md, Lemma 59).
         let scale = velocity.abs().min(half).min(difference + LARGE_DIFFERENCE);
         let stop = self.epsilon * (scale + landing.closing_speed);
         let change = Variation {
@@ -309,9 +311,9 @@ mod tests {
         ExtendedLanding::near(&next_root(moved, branch), x, v, Four::from(kappa))
     }
 
-    /// docs/theory.md, Theorem 60: starts whose errors are known to 10⁻¹² … 10⁻⁴ only, next to touches (V near h cot h = Y)
-    /// and with short flights. The landings from the corners of the error's square are within the bound. A bound without
-    /// the terms of second order is exceeded.
+    /// docs/theory.md, Theorem 60: starts whose errors are known to 10⁻¹² … 10⁻⁴ only, next to touches (V near h
+    /// cot h = Y) and with short flights. The landings from the corners of the error's square are within the bound.
+    /// A bound without the terms of second order is exceeded.
     #[test]
     fn landings_from_the_corners_are_within_the_bound() {
         let generator = SplitMix64::from_state(60);

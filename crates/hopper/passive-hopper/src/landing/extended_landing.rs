@@ -12,15 +12,16 @@ pub(crate) struct ExtendedLanding<R> {
     pub(crate) excess: R,
     pub(crate) velocity: R,
     pub(crate) time: R,
-    /// False if the search used up its steps before the residual was as small as its rounding error. Such a landing decides
-    /// nothing.
+    /// False if the search used up its steps before the residual was as small as its rounding error. Such a landing
+    /// decides nothing.
     pub(crate) settled: bool,
 }
 
-/// Guard on the number of steps. From a good `f64` start each step doubles the number of right digits, and seven steps
-/// suffice for 1024 bits. Next to a double root (a flight that nearly touches the ground) a step of Newton's method only
-/// halves the distance, and a step that would leave the bracket is replaced by a bisection, which halves the bracket:
-/// 1024 bits take fewer than 1100 such steps. A search that needs more is not settled, and the hop is inconclusive.
+/// Guard on the number of steps. From a good `f64` start each step doubles the number of right digits, and seven
+/// steps suffice for 1024 bits. Next to a double root (a flight that nearly touches the ground) a step of Newton's
+/// method only halves the distance, and a step that would leave the bracket is replaced by a bisection, which
+/// halves the bracket: 1024 bits take fewer than 1100 such steps. A search that needs more is not settled, and the
+/// hop is inconclusive.
 const STEPS: usize = 1200;
 
 /// The search takes its last step from a residual within this many EPSILON of 1 + x + |V| + h. It is twice the rounding

@@ -1,18 +1,19 @@
 //! The first flight by tables.
 //!
-//! In the interval (nπ, (n+1)π) the landing depends on δ = α − α*_n alone. The table cuts the interval into pieces whose
-//! length is a 16th of their distance from δ = 0, or less. On each piece α − h and Γ are polynomials of degree 7. A piece is
-//! the set of numbers δ of one sign with the same exponent and the same first four bits of the fraction: its index is
-//! read from the bits of δ, without a search. In the code δ is measured from the `f64` nearest to α*_n, because the
-//! difference of two close `f64` is exact.
+//! In the interval (nπ, (n+1)π) the landing depends on δ = α − α*_n alone. The table cuts the interval into pieces
+//! whose length is a 16th of their distance from δ = 0, or less. On each piece α − h and Γ are polynomials of
+//! degree 7. A piece is the set of numbers δ of one sign with the same exponent and the same first four bits of the
+//! fraction: its index is read from the bits of δ, without a search. In the code δ is measured from the `f64`
+//! nearest to α*_n, because the difference of two close `f64` is exact.
 //!
 //! # Why these pieces
-//! h(α) is the inverse of A(h) = (h² − S²)/D, which is meromorphic in the whole plane. Such an inverse is singular only above
-//! critical values and asymptotic values of A. A′ = 2u²/D² vanishes only where tan h = h ≠ 0, and these h are real:
-//! the critical values are ±α*_k, k ≥ 1. A tends to a finite value along a path to infinity only where |Im h| → ∞, and
-//! then A = tan h + … → ±i. So h(α) and Γ(α) continue analytically along every path that avoids ±α*_k and ±i. Therefore
-//! the error of a polynomial of degree 7 decreases as ρ⁻⁸, where ρ = z + √(z² − 1) and z is the distance of the nearest
-//! singularity from the centre of the piece, divided by half the length of the piece (Bernstein's ellipse):
+//! h(α) is the inverse of A(h) = (h² − S²)/D, which is meromorphic in the whole plane. Such an inverse is singular
+//! only above critical values and asymptotic values of A. A′ = 2u²/D² vanishes only where tan h = h ≠ 0, and these
+//! h are real: the critical values are ±α*_k, k ≥ 1. A tends to a finite value along a path to infinity only where
+//! |Im h| → ∞, and then A = tan h + … → ±i. So h(α) and Γ(α) continue analytically along every path that avoids
+//! ±α*_k and ±i. Therefore the error of a polynomial of degree 7 decreases as ρ⁻⁸, where ρ = z + √(z² − 1) and z is
+//! the distance of the nearest singularity from the centre of the piece, divided by half the length of the piece
+//! (Bernstein's ellipse):
 //!
 //! ```text
 //!   interval n     nearest singularities                smallest ρ
@@ -20,9 +21,9 @@
 //!   0              ±i, and next to π α*_1               83        α = 0 is not singular
 //! ```
 //!
-//! In the interval 0 pieces of a 16th would have ρ = 42 next to π, because α*_1 is only 1.35 from π. The error would grow by
-//! a factor (66/42)⁸ ≈ 40. The pieces there are half as long. No speed lies below α*_0 = 0, so that the places of the
-//! other sign are free for them.
+//! In the interval 0 pieces of a 16th would have ρ = 42 next to π, because α*_1 is only 1.35 from π. The error
+//! would grow by a factor (66/42)⁸ ≈ 40. The pieces there are half as long. No speed lies below α*_0 = 0, so that
+//! the places of the other sign are free for them.
 //!
 //! A table is computed when a speed in its interval is used for the first time. That takes some milliseconds.
 
@@ -44,23 +45,23 @@ pub(crate) const TABLES: usize = 32;
 /// Bound on the error of the tables, in units of ε = 2⁻⁵²: TABLE_ULPS·ε·Γ for Γ, and
 /// TABLE_ULPS·ε·(|α − h| + [`BEYOND_FLOOR`]) for α − h.
 ///
-/// *Rounding.* Let q be Σ|cₖ|/|c₀| over k ≥ 1, with |c₀| + BEYOND_FLOOR instead of |c₀| for α − h. On every piece q ≤ 0.065.
-/// c₀ is rounded once and takes part in three additions of [`polynomial`]. Every other term takes part in at most eleven
-/// roundings. The error is at most (4 + 11q)/(1 − q) half-units, below 2.6 ε.
-/// *Interpolation.* Its error is T₈ times a function that changes little on a piece. At the extrema of T₈ it is at most
-/// 0.45 ε Γ and 1.05 ε (|α − h| + BEYOND_FLOOR), computed with 40 digits. `xtask/generators/first_flight.py` makes these
-/// numbers and q. docs/theory.md, Lemma 61, uses the bound.
+/// *Rounding.* Let q be Σ|cₖ|/|c₀| over k ≥ 1, with |c₀| + BEYOND_FLOOR instead of |c₀| for α − h. On every piece q
+/// ≤ 0.065. c₀ is rounded once and takes part in three additions of [`polynomial`]. Every other term takes part in
+/// at most eleven roundings. The error is at most (4 + 11q)/(1 − q) half-units, below 2.6 ε. *Interpolation.* Its
+/// error is T₈ times a function that changes little on a piece. At the extrema of T₈ it is at most 0.45 ε Γ and
+/// 1.05 ε (|α − h| + BEYOND_FLOOR), computed with 40 digits. `xtask/generators/first_flight.py` makes these numbers
+/// and q. docs/theory.md, Lemma 61, uses the bound.
 ///
 /// Measured with both: 1.9 and 1.7, at 214 723 speeds on all pieces of all intervals, against 40 digits.
 pub(crate) const TABLE_ULPS: f64 = 4.0;
 
-/// α − h vanishes at nπ and (n+1)π, but the error of its polynomial does not vanish there. The value is the smallest power
-/// of two for which the bound of the rounding stays below three units: a smaller one makes q larger.
+/// α − h vanishes at nπ and (n+1)π, but the error of its polynomial does not vanish there. The value is the
+/// smallest power of two for which the bound of the rounding stays below three units: a smaller one makes q larger.
 pub(crate) const BEYOND_FLOOR: f64 = 0.25;
 
-/// The decisions of a hop count LANDING_ULPS for each quantity of a landing. The errors of Γ² and of x′ = 2h (α − h) are
-/// twice those of the factors, and |α − h| < 1. If the tables were worse, the difference would be negative, which is no
-/// `usize`, and the crate would not compile.
+/// The decisions of a hop count LANDING_ULPS for each quantity of a landing. The errors of Γ² and of x′ = 2h (α −
+/// h) are twice those of the factors, and |α − h| < 1. If the tables were worse, the difference would be negative,
+/// which is no `usize`, and the crate would not compile.
 const _: usize = (2.0 * TABLE_ULPS * (1.0 + BEYOND_FLOOR) < LANDING_ULPS) as usize - 1;
 
 /// Octaves of |δ| with pieces, from 2⁻¹³ up to 4; |δ| is at most π. Speeds within 2⁻¹³ of α*_n have no piece. Such
@@ -69,7 +70,8 @@ const OCTAVES: usize = 15;
 /// The exponent field of 2⁻¹³ in an `f64`.
 const FIRST_OCTAVE: u64 = 1023 - 13;
 
-/// Pieces on one side of α*_n: 16 in each octave, by four bits of the fraction. In the interval 0 there are twice as many.
+/// Pieces on one side of α*_n: 16 in each octave, by four bits of the fraction. In the interval 0 there are twice
+/// as many.
 const PIECES: usize = 16 * OCTAVES;
 
 /// Speeds nearer to nπ than this, in units of π, have no piece. The kind of the landing changes at nπ, and α/π has a
@@ -318,8 +320,8 @@ mod tests {
 
     /// α, then Γ and α − h as sums of two numbers: from 50 digits, made with mpmath from A(h) = α.
     ///
-    /// The first two are the places with the largest errors of each of both, among 214 723. At the third and fourth, next to π,
-    /// pieces of a 16th had errors of up to 20 units in Γ and 330 in α − h.
+    /// The first two are the places with the largest errors of each of both, among 214 723. At the third and
+    /// fourth, next to π, pieces of a 16th had errors of up to 20 units in Γ and 330 in α − h.
     const WORST: [(f64, [f64; 2], [f64; 2]); 6] = [
         (
             48.174857773621056,

@@ -74,8 +74,8 @@ impl FixedPointInterval {
 mod tests {
     use super::*;
 
-    /// docs/theory.md, Lemma 65: the computed α*_n errs by less than 2⁻¹⁰¹ of it. No `f64` is nearer than 2⁻⁸⁰ of it for
-    /// these n, so that each is on the right side.
+    /// docs/theory.md, Lemma 65: the computed α*_n errs by less than 2⁻¹⁰¹ of it. No `f64` is nearer than 2⁻⁸⁰ of
+    /// it for these n, so that each is on the right side.
     #[test]
     fn no_number_is_as_near_to_a_fixed_point_as_its_error() {
         for n in 1..20_000 {

@@ -79,8 +79,8 @@ impl FlightDerivative {
         (Variation { excess, velocity: dv - dt + self.kappa * closing }, closing)
     }
 
-    /// Bound on the change of the time to first order, N/Γ with N = (1 − cos τ) dx + (τ − sin τ) dV, for changes bounded
-    /// by `change`.
+    /// Bound on the change of the time to first order, N/Γ with N = (1 − cos τ) dx + (τ − sin τ) dV, for changes
+    /// bounded by `change`.
     pub(crate) fn largest_delay(&self, change: Variation) -> f64 {
         (self.versine * change.excess + self.delay.abs() * change.velocity) / self.closing_speed
     }

@@ -1,7 +1,8 @@
 //! The first landing of a flight that starts in any state.
 //!
-//! In exact arithmetic no root is missed. Here the signs are computed in `f64` without bounds on their errors: next to a touch
-//! without speed, where G is as small as its rounding error, the result may be the landing before or after it.
+//! In exact arithmetic no root is missed. Here the signs are computed in `f64` without bounds on their errors: next
+//! to a touch without speed, where G is as small as its rounding error, the result may be the landing before or
+//! after it.
 //!
 //! G'' = s − 1 changes its sign only where s = 1: at τ = φ ± γ + 2πk with R e^{iφ} = s₀ + iṡ₀ and γ = acos(1/R).
 //! Between two neighbouring times of this lattice G is convex (s > 1) or concave (s < 1). Therefore the signs of G at

@@ -36,10 +36,11 @@ impl HalfFlight {
         HalfFlight(HalfTime::at(h))
     }
 
-    /// The flight from a take-off to its first landing, by a search for h. The relative error of h is about 10⁻⁹; one step of Newton's method, (V −
-    /// `start_speed`)/`start_speed_slope`, takes it to that of an `f64`.
+    /// The flight from a take-off to its first landing, by a search for h. The relative error of h is about 10⁻⁹;
+    /// one step of Newton's method, (V − `start_speed`)/`start_speed_slope`, takes it to that of an `f64`.
     ///
-    /// `None` if there is no flight: for x < 0, for x = 0 with V ≤ 0, or if V or x is no number up to [`LARGEST_LIFT_OFF_SPEED`].
+    /// `None` if there is no flight: for x < 0, for x = 0 with V ≤ 0, or if V or x is no number up to
+    /// [`LARGEST_LIFT_OFF_SPEED`].
     ///
     /// ```
     /// use passive_hopper::{HalfFlight, TakeOff};

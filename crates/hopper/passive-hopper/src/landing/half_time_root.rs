@@ -14,9 +14,10 @@ pub(crate) struct HalfTimeRoot {
     pub(crate) bracket: (f64, f64),
 }
 
-/// Number of steps after which only the middle of the bracket is taken. Halving alone leaves no `f64` in a bracket after 53
-/// steps from a bracket of the root's own size, and after 1127 from one that reaches down to 0. So the search always ends
-/// by one of the rules of docs/theory.md, Lemma 59. Halley's steps converge long before in all tests.
+/// Number of steps after which only the middle of the bracket is taken. Halving alone leaves no `f64` in a bracket
+/// after 53 steps from a bracket of the root's own size, and after 1127 from one that reaches down to 0. So the
+/// search always ends by one of the rules of docs/theory.md, Lemma 59. Halley's steps converge long before in all
+/// tests.
 const HALLEY_STEPS: usize = 200;
 
 /// Added to |V − h| in the scale of the tolerance, so that the tolerance is not zero where V − h vanishes.
@@ -27,13 +28,13 @@ const HALLEY_STEPS: usize = 200;
 /// (`error_bound.rs`).
 pub(crate) const LARGE_DIFFERENCE: f64 = 8.0;
 
-/// Largest relative corrections of h and of Γ² that are left to first order. What they leave is at most 8·10⁻¹⁸ of h, or
-/// of 1 where h > 1: a tenth of half an ulp (docs/theory.md, Lemma 59). A larger value would lose digits; a smaller one
-/// costs steps.
+/// Largest relative corrections of h and of Γ² that are left to first order. What they leave is at most 8·10⁻¹⁸ of
+/// h, or of 1 where h > 1: a tenth of half an ulp (docs/theory.md, Lemma 59). A larger value would lose digits; a
+/// smaller one costs steps.
 const FIRST_ORDER: f64 = 1e-9;
 
-/// The correction may leave the bracket by this many ε = 2⁻⁵² of h: the ends nπ and (n+1)π of a bracket are rounded by an
-/// ulp, and a landing may lie between the rounded end and the exact one. V(h) increases there too.
+/// The correction may leave the bracket by this many ε = 2⁻⁵² of h: the ends nπ and (n+1)π of a bracket are rounded
+/// by an ulp, and a landing may lie between the rounded end and the exact one. V(h) increases there too.
 const ROUNDED_ENDS: f64 = 1.0;
 
 impl HalfTimeRoot {

@@ -6,20 +6,21 @@
 //!
 //! The orbit goes one step to the right if a hop is inconclusive, or if its bound is larger than [`COARSE`].
 //!
-//! The bounds in `f64` grow by a factor of some hundred in a hop. So the orbit in 106 bits is followed beside the first hops in `f64`: the
-//! distance from it is the error that they really have.
+//! The bounds in `f64` grow by a factor of some hundred in a hop. So the orbit in 106 bits is followed beside the
+//! first hops in `f64`: the distance from it is the error that they really have.
 
 use crate::error::Error;
 use crate::map::extended_orbit::{Arithmetic, ExtendedOrbit, ExtendedStep};
 use crate::map::hop_within::HopWithin;
 use crate::map::lift_off_map::LiftOffMap;
 
-/// A bound larger than this part of its speed moves the orbit to longer arithmetic: a table of speeds then shows nine digits at
-/// least. A smaller number costs time, since a hop in 106 bits takes fifty times as long; a larger one shows fewer digits.
+/// A bound larger than this part of its speed moves the orbit to longer arithmetic: a table of speeds then shows
+/// nine digits at least. A smaller number costs time, since a hop in 106 bits takes fifty times as long; a larger
+/// one shows fewer digits.
 const COARSE: f64 = 1e-9;
 
-/// Most hops in each of [`Arithmetic::ALL`]: they take some tenths of a second. After them the orbit goes on in `f64`, from the last speed and
-/// its error: one that is caught by a fixed point forgets them.
+/// Most hops in each of [`Arithmetic::ALL`]: they take some tenths of a second. After them the orbit goes on in
+/// `f64`, from the last speed and its error: one that is caught by a fixed point forgets them.
 const EXTENDED_BUDGETS: [usize; 4] = [2048, 512, 128, 64];
 
 /// The exact orbit of a speed, with a bound on the error of each speed that it shows.
@@ -60,7 +61,8 @@ pub struct FollowedOrbit {
 }
 
 impl<'a> BoundedOrbit<'a> {
-    /// Follows the orbit of `alpha` under `map` for `hops` hops, or until the hopper is grounded or a hop is inconclusive.
+    /// Follows the orbit of `alpha` under `map` for `hops` hops, or until the hopper is grounded or a hop is
+    /// inconclusive.
     ///
     /// ```
     /// use passive_hopper::{BoundedOrbit, ExtendedStep, LiftOffMap, MassRatio};
@@ -119,7 +121,8 @@ impl<'a> BoundedOrbit<'a> {
         self.extended.as_ref().map(|(arithmetic, _)| *arithmetic)
     }
 
-    /// Follows one hop. After [`ExtendedStep::Grounded`] and [`ExtendedStep::Inconclusive`] the orbit stays where it was.
+    /// Follows one hop. After [`ExtendedStep::Grounded`] and [`ExtendedStep::Inconclusive`] the orbit stays where
+    /// it was.
     ///
     /// # Errors
     /// [`Error::SuddenLiftOffBudget`] after a million sudden lift-offs in a hop.
@@ -164,7 +167,8 @@ impl<'a> BoundedOrbit<'a> {
         Ok(known.unwrap_or(ExtendedStep::Inconclusive))
     }
 
-    /// Whether the next hop is tried in `f64`: up to the first one that needs more, and after the last that longer arithmetic has time for.
+    /// Whether the next hop is tried in `f64`: up to the first one that needs more, and after the last that longer
+    /// arithmetic has time for.
     fn is_in_f64(&self) -> bool {
         let most = |own: Arithmetic| EXTENDED_BUDGETS[own as usize];
         self.arithmetic().is_none_or(|own| self.hops >= most(own))

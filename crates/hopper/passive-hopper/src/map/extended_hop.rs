@@ -27,8 +27,8 @@ pub(crate) struct ExtendedMasses<R> {
     pub(crate) kappa: R,
 }
 
-/// Larger mass ratios are scaled: the product of two numbers of 106 bits splits its factors, and above 2⁹⁹⁵ a factor times 2²⁷ + 1 is
-/// infinite.
+/// Larger mass ratios are scaled: the product of two numbers of 106 bits splits its factors, and above 2⁹⁹⁵ a
+/// factor times 2²⁷ + 1 is infinite.
 const LARGEST_UNSCALED: f64 = 1e250;
 
 /// 2⁻⁵⁰⁰: with it the largest M, 4.5·10³⁰⁷, is far from both ends of the exponents.
@@ -163,8 +163,8 @@ impl<R: Extended> StartIn<R> {
         StartIn { alpha: star + offset, first, first_is_sudden: offset.nearest() < 0.0 }
     }
 
-    /// The hop, for a start and a κ that are known to within `changes`; `None` if the hop exceeds the budget of `R`. `see` receives each
-    /// landing, with the bounds after it.
+    /// The hop, for a start and a κ that are known to within `changes`; `None` if the hop exceeds the budget of
+    /// `R`. `see` receives each landing, with the bounds after it.
     pub(crate) fn hop(
         self,
         changes: Changes,
@@ -224,10 +224,10 @@ pub(crate) fn watched_hop_with<R: Extended>(
         Next { speed: speed.nearest(), loss: lost.nearest(), offset: (offset - lost).nearest() }
     });
     let speed = alpha.nearest();
-    // The bound is absolute. At an offset from a fixed point the time of the first flight and the state after it have
-    // small relative errors instead, and a short second flight keeps them (docs/theory.md, Lemma 73 and Theorem 74, to
-    // first order in the rounding; Section 12). There the propagated error is neglected; an offset far below the spacing
-    // of the arithmetic would otherwise never be precise.
+    // The bound is absolute. At an offset from a fixed point the time of the first flight and the state after it
+    // have small relative errors instead, and a short second flight keeps them (docs/theory.md, Lemma 73 and
+    // Theorem 74, to first order in the rounding; Section 12). There the propagated error is neglected; an offset
+    // far below the spacing of the arithmetic would otherwise never be precise.
     let relative = matches!(start, Start::Offset { .. })
         && match hop.landings.as_slice() {
             [_] => true,

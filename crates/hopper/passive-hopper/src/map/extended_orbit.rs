@@ -1,7 +1,7 @@
 //! An orbit in 106 to 1024 bits, with a bound on its error.
 //!
-//! The speed is not rounded to `f64` between hops. The error of a hop has two parts: the rounding errors of the hop, and
-//! the error of its start, which the hop propagates by its slope (`speed_error.rs`).
+//! The speed is not rounded to `f64` between hops. The error of a hop has two parts: the rounding errors of the
+//! hop, and the error of its start, which the hop propagates by its slope (`speed_error.rs`).
 
 use crate::error::Error;
 use crate::kernel::scalar::bounded_next::ROUND_UP;
@@ -43,7 +43,8 @@ pub enum ExtendedStep {
     LiftsOff,
     /// The hopper is grounded; the orbit stays where it was.
     Grounded,
-    /// The arithmetic does not decide the hop, or its budget of sudden lift-offs is used up; the orbit stays where it was.
+    /// The arithmetic does not decide the hop, or its budget of sudden lift-offs is used up; the orbit stays where
+    /// it was.
     Inconclusive,
 }
 
@@ -111,14 +112,15 @@ impl ExtendedOrbit {
         self.0.offset_from(n)
     }
 
-    /// The speed minus α*_n as the sum of two `f64`, and a bound on the error of this sum. The first is the nearest `f64`.
+    /// The speed minus α*_n as the sum of two `f64`, and a bound on the error of this sum. The first is the nearest
+    /// `f64`.
     pub fn long_offset_from(&self, n: u64) -> (f64, f64, f64) {
         self.0.long_offset_from(n)
     }
 
-    /// Follows all starts within `radius` of the start with this orbit, by its [`tangent`](Self::tangent), at all mass ratios whose κ
-    /// = M/(1+M) lies within `kappa_radius` of its own. A hop is then inconclusive unless it is of one kind for all of them. Call it
-    /// before the first hop.
+    /// Follows all starts within `radius` of the start with this orbit, by its [`tangent`](Self::tangent), at all
+    /// mass ratios whose κ = M/(1+M) lies within `kappa_radius` of its own. A hop is then inconclusive unless it is
+    /// of one kind for all of them. Call it before the first hop.
     pub fn with_radii(mut self, radius: f64, kappa_radius: f64) -> Self {
         self.0.set_radii(radius, kappa_radius);
         self
@@ -129,8 +131,8 @@ impl ExtendedOrbit {
         self.0.tangent()
     }
 
-    /// Moves the orbit to α*_n + `delta`, which is known to within `error`: the end of hops that were not followed one by
-    /// one. Nothing of the speed before is kept.
+    /// Moves the orbit to α*_n + `delta`, which is known to within `error`: the end of hops that were not followed
+    /// one by one. Nothing of the speed before is kept.
     ///
     /// # Errors
     /// The errors of [`LiftOffMap::hop`] for the new speed; a wrong `error` makes the next hop inconclusive.
@@ -241,8 +243,9 @@ impl<R: Extended> OrbitIn<R> {
 
 /// Distance of a speed from nπ, relative to the speed, within which its side counts as undecided.
 ///
-/// The stored nπ errs by at most 2⁻¹⁰⁵ = 2.5·10⁻³² of itself (docs/theory.md, Lemma 65). 10⁻²⁹ is 400 times as much. All
-/// arithmetics use the same nπ. A larger value leaves more orbits undecided, those that come so near to an nπ.
+/// The stored nπ errs by at most 2⁻¹⁰⁵ = 2.5·10⁻³² of itself (docs/theory.md, Lemma 65). 10⁻²⁹ is 400 times as
+/// much. All arithmetics use the same nπ. A larger value leaves more orbits undecided, those that come so near to
+/// an nπ.
 const BITS_OF_N_PI: f64 = 1e-29;
 
 impl<R: Extended + Send> Orbit for OrbitIn<R> {

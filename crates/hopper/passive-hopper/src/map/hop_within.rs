@@ -69,16 +69,16 @@ impl LiftOffMap {
             .unwrap_or_else(|| self.signed_hop_within(alpha, error))
     }
 
-    /// As [`hop_within`](Self::hop_within), with the signs of the derivative: the error hardly grows where the map's slope
-    /// is near 1. It takes about a third of a microsecond.
+    /// As [`hop_within`](Self::hop_within), with the signs of the derivative: the error hardly grows where the
+    /// map's slope is near 1. It takes about a third of a microsecond.
     pub fn signed_hop_within(&self, alpha: f64, error: f64) -> HopWithin {
         self.signed_square_within(alpha, Changes::of_speed(error))
             .and_then(|found| HopWithin::from_kernel(found.next()))
             .unwrap_or(HopWithin::Inconclusive)
     }
 
-    /// As [`signed_hop_within`](Self::signed_hop_within), for all mass ratios from `first` to `last` as well, which contain that of the
-    /// map.
+    /// As [`signed_hop_within`](Self::signed_hop_within), for all mass ratios from `first` to `last` as well, which
+    /// contain that of the map.
     ///
     /// ```
     /// use passive_hopper::{HopWithin, LiftOffMap, MassRatio};
@@ -106,7 +106,8 @@ impl LiftOffMap {
             .unwrap_or(HopWithin::Inconclusive)
     }
 
-    /// The largest |Δκ| between the map and the mass ratios from the first to the last; `None` unless its own is among them.
+    /// The largest |Δκ| between the map and the mass ratios from the first to the last; `None` unless its own is
+    /// among them.
     fn change_of_kappa(&self, (first, last): (MassRatio, MassRatio)) -> Option<f64> {
         let kappa = self.factors.kappa;
         let (below, above) = (kappa - first.kappa(), last.kappa() - kappa);

@@ -41,8 +41,8 @@ pub struct LiftOffMap {
     pub(crate) factors: MassFactors,
 }
 
-/// One hop, with every decision larger than its error: the change of the lift-off speed, the number of sudden lift-offs,
-/// and the time.
+/// One hop, with every decision larger than its error: the change of the lift-off speed, the number of sudden
+/// lift-offs, and the time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hop {
     /// The lift-off speed α at the start of the hop.
@@ -62,8 +62,8 @@ pub struct Hop {
 impl Hop {
     /// The energy that the landings of the hop take, ½(1+M)(α² − α′²) in units of m₁m₂g²/k.
     ///
-    /// Gradual lift-offs differ in the energy ½(1+M)α² alone. If the hopper is grounded, α′² is negative, and the result is the
-    /// loss up to the last landing.
+    /// Gradual lift-offs differ in the energy ½(1+M)α² alone. If the hopper is grounded, α′² is negative, and the
+    /// result is the loss up to the last landing.
     pub fn energy_loss(&self, mass_ratio: MassRatio) -> f64 {
         let of_square = match (self.loss, self.next) {
             // α² − α′² = (α − α′)(α + α′), which does not cancel.
@@ -115,8 +115,9 @@ impl LiftOffMap {
     /// The hop that starts with speed `alpha`.
     ///
     /// # Errors
-    /// The errors of [`check_speed`](Self::check_speed); [`Error::Undecided`] if a decision of the hop is not larger than
-    /// its error in 1024 bits, or would take too long; [`Error::SuddenLiftOffBudget`] after a million sudden lift-offs.
+    /// The errors of [`check_speed`](Self::check_speed); [`Error::Undecided`] if a decision of the hop is not
+    /// larger than its error in 1024 bits, or would take too long; [`Error::SuddenLiftOffBudget`] after a million
+    /// sudden lift-offs.
     pub fn hop(&self, alpha: f64) -> Result<Hop, Error> {
         match kernel_hop(alpha, self.factors) {
             Some(decided) => Ok(decided.hop(alpha)),
@@ -172,8 +173,8 @@ impl LiftOffMap {
         Ok((self.rounded(alpha, &hop), Some(hop.landings)))
     }
 
-    /// The hop in plain `f64`, and whether every decision is larger than its error. `see` receives each landing, with the
-    /// bounds after it.
+    /// The hop in plain `f64`, and whether every decision is larger than its error. `see` receives each landing,
+    /// with the bounds after it.
     pub(crate) fn plain_hop(
         &self,
         alpha: f64,

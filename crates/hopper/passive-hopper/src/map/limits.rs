@@ -1,4 +1,5 @@
-//! Limits on the number of sudden lift-offs, on the speed of hops in plain `f64`, and on the time of a short second flight.
+//! Limits on the number of sudden lift-offs, on the speed of hops in plain `f64`, and on the time of a short second
+//! flight.
 
 /// Sudden lift-offs that one hop may have. A hop with more is an error.
 ///
@@ -14,11 +15,11 @@ pub const SUDDEN_LIFT_OFF_BUDGET: usize = 1_000_000;
 /// this limit, the result does not.
 pub(crate) const LARGEST_PLAIN_SPEED: f64 = 268_435_456.0;
 
-/// A second flight that is shorter than this, after a first flight from an offset from α*_n, is *short*. Near α*_n it lasts
-/// 3|t| (docs/theory.md, Theorem 36).
+/// A second flight that is shorter than this, after a first flight from an offset from α*_n, is *short*. Near α*_n
+/// it lasts 3|t| (docs/theory.md, Theorem 36).
 ///
 /// A short flight is not followed by a sudden lift-off, whatever the rounding of its landing (Lemma 75, which needs
-/// τ < α*_1 = 4.49). It keeps the small relative error of the first flight: Theorem 74 derives the error of δ′ for flights
-/// shorter than 1, to first order in the rounding (Section 12 lists what is measured beyond it). A larger value has no
-/// derivation; a smaller one sends more local hops to the longer arithmetic.
+/// τ < α*_1 = 4.49). It keeps the small relative error of the first flight: Theorem 74 derives the error of δ′ for
+/// flights shorter than 1, to first order in the rounding (Section 12 lists what is measured beyond it). A larger
+/// value has no derivation; a smaller one sends more local hops to the longer arithmetic.
 pub(crate) const SHORT_FLIGHT: f64 = 1.0;

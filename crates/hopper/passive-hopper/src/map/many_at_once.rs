@@ -38,8 +38,8 @@ impl LiftOffMap {
         first
     }
 
-    /// Writes the images of `speeds` into `images`, with the bits of [`image`](Self::image). A grounded hopper gives NaN, and NaN
-    /// stays NaN. For callers whose numbers lie in plain arrays.
+    /// Writes the images of `speeds` into `images`, with the bits of [`image`](Self::image). A grounded hopper
+    /// gives NaN, and NaN stays NaN. For callers whose numbers lie in plain arrays.
     ///
     /// ```
     /// use passive_hopper::{LiftOffMap, MassRatio};
@@ -68,7 +68,8 @@ impl LiftOffMap {
         first
     }
 
-    /// As [`images_into`](Self::images_into), with the reason of each NaN: a hop that cannot be decided is a status, and no error.
+    /// As [`images_into`](Self::images_into), with the reason of each NaN: a hop that cannot be decided is a
+    /// status, and no error.
     ///
     /// # Errors
     /// [`Error::Lengths`] for slices of different lengths; else the first error other than an undecided hop, after all images are
@@ -153,8 +154,8 @@ impl LiftOffMap {
         first
     }
 
-    /// Replaces each `Next` by its hop under the map beside it, with the bits of [`hop_within`](Self::hop_within). All other
-    /// entries stay as they are.
+    /// Replaces each `Next` by its hop under the map beside it, with the bits of [`hop_within`](Self::hop_within).
+    /// All other entries stay as they are.
     ///
     /// ```
     /// use passive_hopper::{HopWithin, LiftOffMap, MassRatio};

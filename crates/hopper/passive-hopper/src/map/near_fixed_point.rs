@@ -16,13 +16,14 @@ use crate::model::motion::LARGEST_LIFT_OFF_SPEED;
 
 /// Up to this ratio of the loss to |δ| the plain result is used.
 ///
-/// The plain loss has a relative error of up to 111 ulps, and δ′ = δ − loss must be right to 8 ulps: 1/16 is the largest
-/// power of two that ensures this (docs/theory.md, Theorem 74). Hops with a larger loss are computed in extended
-/// arithmetic. A smaller value would send more hops there.
+/// The plain loss has a relative error of up to 111 ulps, and δ′ = δ − loss must be right to 8 ulps: 1/16 is the
+/// largest power of two that ensures this (docs/theory.md, Theorem 74). Hops with a larger loss are computed in
+/// extended arithmetic. A smaller value would send more hops there.
 const SMALL_LOSS: f64 = 1.0 / 16.0;
 
-/// Smallest |δ| other than 0. Here t³ ∝ δ, the smallest term of δ(t), is 10⁸ times the smallest normal number, so that no
-/// factor of the local functions underflows (docs/theory.md, Lemma 73). Further down the terms would lose digits.
+/// Smallest |δ| other than 0. Here t³ ∝ δ, the smallest term of δ(t), is 10⁸ times the smallest normal number, so
+/// that no factor of the local functions underflows (docs/theory.md, Lemma 73). Further down the terms would lose
+/// digits.
 const SMALLEST_OFFSET: f64 = 1e-300;
 
 /// A hop near a fixed point.
@@ -32,8 +33,9 @@ pub struct LocalHop {
     pub next: Option<f64>,
     /// δ − δ′, without cancellation; `None` if the hopper is grounded.
     ///
-    /// The loss is about λ|δ|^{4/3}, ten times as much on the left. For |δ| below some 10⁻²³¹ (with λ = 1) it is a subnormal
-    /// number and has fewer digits, and below 10⁻²⁴³ it rounds to 0. δ′ then is δ: the loss is far below its last digit.
+    /// The loss is about λ|δ|^{4/3}, ten times as much on the left. For |δ| below some 10⁻²³¹ (with λ = 1) it is a
+    /// subnormal number and has fewer digits, and below 10⁻²⁴³ it rounds to 0. δ′ then is δ: the loss is far below
+    /// its last digit.
     pub loss: Option<f64>,
     /// Number of sudden lift-offs.
     pub sudden: usize,
@@ -166,7 +168,8 @@ mod tests {
         (next / f64::EPSILON, loss / f64::EPSILON)
     }
 
-    /// Starts with the largest errors of a search: right, left with a short second flight, left with a long one, large n.
+    /// Starts with the largest errors of a search: right, left with a short second flight, left with a long one,
+    /// large n.
     const PLANTED: [(u64, f64, f64); 8] = [
         (1, 0.010907304827861081, 0.0002546572882442288),
         (9843555168, 0.13431827198618587, 1.2613044519465298e-25),
@@ -189,8 +192,8 @@ mod tests {
         assert!(next.iter().any(|&next| next > 0.5), "{next:?}");
     }
 
-    /// Next to the largest loss of the plain arithmetic, on both sides of the limit, the loss has at most the error that
-    /// the limit is derived from.
+    /// Next to the largest loss of the plain arithmetic, on both sides of the limit, the loss has at most the error
+    /// that the limit is derived from.
     #[test]
     fn losses_next_to_the_limit_have_the_derived_error() {
         const LOSS_ULPS: f64 = 111.0;
@@ -239,7 +242,8 @@ mod tests {
         }
     }
 
-    /// The second landing of a flight that is shorter than `SHORT_FLIGHT` is below stretch one (docs/theory.md, Lemma 75).
+    /// The second landing of a flight that is shorter than `SHORT_FLIGHT` is below stretch one (docs/theory.md,
+    /// Lemma 75).
     #[test]
     fn short_second_flights_end_in_contact() {
         for k in 0..2000 {

@@ -1,7 +1,7 @@
 //! The landings of a hop in plain `f64`, one after the other, without any bound on their errors.
 //!
-//! `lift_off_map.rs` adds the bounds, and computes the hop again in longer arithmetic if a decision is inconclusive. The
-//! landings here are no result for users: their decisions may be wrong.
+//! `lift_off_map.rs` adds the bounds, and computes the hop again in longer arithmetic if a decision is
+//! inconclusive. The landings here are no result for users: their decisions may be wrong.
 
 use crate::error::Error;
 use crate::landing::first_landing::first_landing;

@@ -1,9 +1,10 @@
 //! The map as the paper prints it: Eqs. (6)–(8), solved by Brent's method.
 //!
-//! The printed form gives the same values as the stable form. But it subtracts nearly equal numbers and loses digits
-//! where their difference is small. It serves to show this loss, and as a check of the stable form. The check is
-//! independent except for the bracket of each landing, which is that of the stable form (`printed_bracket.rs`). Its
-//! decisions (sudden or not, grounded or not) are the signs of plain `f64`: next to a change of branch they may be wrong.
+//! The printed form gives the same values as the stable form. But it subtracts nearly equal numbers and loses
+//! digits where their difference is small. It serves to show this loss, and as a check of the stable form. The
+//! check is independent except for the bracket of each landing, which is that of the stable form
+//! (`printed_bracket.rs`). Its decisions (sudden or not, grounded or not) are the signs of plain `f64`: next to a
+//! change of branch they may be wrong.
 
 use crate::error::Error;
 use crate::landing::flight_ends::TakeOff;

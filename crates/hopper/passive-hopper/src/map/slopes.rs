@@ -27,10 +27,10 @@ pub struct Slopes {
 impl Slopes {
     /// The unit of the error of `next` = α′: the effect on α′ of half an ulp in each of α, M, α′ and α², added up.
     ///
-    /// It is ε (α′ + |∂α′/∂α| α + |∂α′/∂M| M + α²/α′) with ε = 2⁻⁵³, but for a very small α′. An error h = εα² of α² moves
-    /// α′ by √(α′² + h) − α′, which is below h/(2α′) and below √h. Near α′ = 0 only the second bound is finite, so that the
-    /// last term is at most √h/ε. The error of [`LiftOffMap`] is at most 4 (1 +
-    /// sudden lift-offs) of these units.
+    /// It is ε (α′ + |∂α′/∂α| α + |∂α′/∂M| M + α²/α′) with ε = 2⁻⁵³, but for a very small α′. An error h = εα² of
+    /// α² moves α′ by √(α′² + h) − α′, which is below h/(2α′) and below √h. Near α′ = 0 only the second bound is
+    /// finite, so that the last term is at most √h/ε. The error of [`LiftOffMap`] is at most 4 (1 + sudden
+    /// lift-offs) of these units.
     pub fn error_unit(&self, alpha: f64, mass_ratio: f64, next: f64) -> f64 {
         // √(ε/2) α in units of ε/2 is α √(2/ε); ε is the spacing of numbers at 1 here.
         let most = (2.0 / f64::EPSILON).sqrt();

@@ -1,8 +1,8 @@
 //! How far α′² moves if the lift-off speed and the mass ratio move by at most given errors.
 //!
-//! The derivative of α′² = α² − μ Σ Γ² along the flights of a hop keeps its signs, so that the parts of a chain of flights
-//! cancel as they do in the map. An orbit that leaves a fixed point slowly then loses a factor near 1 at each hop. A sum of
-//! absolute values would lose a factor of 2 to 12 there, and after some ten hops all digits.
+//! The derivative of α′² = α² − μ Σ Γ² along the flights of a hop keeps its signs, so that the parts of a chain of
+//! flights cancel as they do in the map. An orbit that leaves a fixed point slowly then loses a factor near 1 at
+//! each hop. A sum of absolute values would lose a factor of 2 to 12 there, and after some ten hops all digits.
 //!
 //! ```text
 //!   |F(ξ) − F(α)| ≤ |∂F/∂α| g + g² + second order          |ξ − α| ≤ g
@@ -16,25 +16,27 @@ use crate::kernel::scalar::hop::MassFactors;
 use crate::landing::flight_derivative::{FlightDerivative, Variation};
 use crate::landing::flight_ends::{Landing, TakeOff};
 
-/// The second order in units of q times the sum of the absolute values of all terms of the derivative, for each flight of
-/// the hop. q is the largest relative change of a time of flight, of a closing speed or of the stretch of a sudden lift-off
-/// within the error. A term of the derivative has at most five factors that change with q, each of them by about q, and the
-/// changes add up from flight to flight. It is an estimate: searches that climb to large ratios needed up to about 16, and
-/// found none that needs 64. `cargo xtask check-bounds` measures the bound against longer arithmetic.
+/// The second order in units of q times the sum of the absolute values of all terms of the derivative, for each
+/// flight of the hop. q is the largest relative change of a time of flight, of a closing speed or of the stretch of
+/// a sudden lift-off within the error. A term of the derivative has at most five factors that change with q, each
+/// of them by about q, and the changes add up from flight to flight. It is an estimate: searches that climb to
+/// large ratios needed up to about 16, and found none that needs 64. `cargo xtask check-bounds` measures the bound
+/// against longer arithmetic.
 const SECOND_ORDER: f64 = 64.0;
 
 /// Largest q. Beyond it the expansion is not used, and the orbit is followed in longer arithmetic.
 const LARGEST_CHANGE: f64 = 1.0 / 64.0;
 
-/// Bound on the change of Σ Γ² in units of Σ Γ |dΓ|: 2, and the second order, for the product with the change of μ. With relative changes
-/// of at most 1/64 the second order is below the first.
+/// Bound on the change of Σ Γ² in units of Σ Γ |dΓ|: 2, and the second order, for the product with the change of μ.
+/// With relative changes of at most 1/64 the second order is below the first.
 const CHANGES_OF_BOTH: f64 = 4.0;
 
-/// Rounding error of the slope, in ulps of the sizes of its terms, for each flight. The coefficients of a flight's derivative
-/// err by less than 32 ulps (docs/theory.md, Theorem 60); 64 leaves room for the sums. It is an estimate as well. It does
-/// not contain the error of the phase in the sines, 4ετ. In `f64` the second order is larger than that, because the error of
-/// the speed is at least its rounding. In longer arithmetic it is neglected; it matters only if the slope cancels to a part
-/// 4ετ of its terms. A larger value makes no visible difference: this term is 10⁻¹⁴ of the bound, unless the slope cancels.
+/// Rounding error of the slope, in ulps of the sizes of its terms, for each flight. The coefficients of a flight's
+/// derivative err by less than 32 ulps (docs/theory.md, Theorem 60); 64 leaves room for the sums. It is an estimate
+/// as well. It does not contain the error of the phase in the sines, 4ετ. In `f64` the second order is larger than
+/// that, because the error of the speed is at least its rounding. In longer arithmetic it is neglected; it matters
+/// only if the slope cancels to a part 4ετ of its terms. A larger value makes no visible difference: this term is
+/// 10⁻¹⁴ of the bound, unless the slope cancels.
 const SLOPE_ULPS: f64 = 64.0;
 
 /// The largest changes of a speed and of κ.
@@ -51,8 +53,8 @@ impl Changes {
     }
 }
 
-/// Bound on |F(ξ, κ′) − F(α, κ)| for all ξ and κ′ within `changes`, to second order, from the `landings` of the hop from `alpha`.
-/// `None` if the changes are too large for the expansion.
+/// Bound on |F(ξ, κ′) − F(α, κ)| for all ξ and κ′ within `changes`, to second order, from the `landings` of the hop
+/// from `alpha`. `None` if the changes are too large for the expansion.
 pub(crate) fn change_of_square(
     alpha: f64,
     changes: Changes,
@@ -65,8 +67,8 @@ pub(crate) fn change_of_square(
     tangent_of_square(alpha, changes, landings, factors).map(|tangent| tangent.change())
 }
 
-/// The tangent of F: |F(α + y, κ + k) − F(α, κ) − `by_speed` y − `by_kappa` k| ≤ `rounding` s + `second` s², where s ≤ 1 is the larger
-/// one of |y| and |k| in units of the largest changes.
+/// The tangent of F: |F(α + y, κ + k) − F(α, κ) − `by_speed` y − `by_kappa` k| ≤ `rounding` s + `second` s², where
+/// s ≤ 1 is the larger one of |y| and |k| in units of the largest changes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SquareTangent {
     pub(crate) changes: Changes,
@@ -121,7 +123,8 @@ pub(crate) struct TangentSums {
     speed_sum: f64,
     kappa_sum: f64,
     squares: f64,
-    /// For the largest changes: the terms of ΓdΓ by absolute value, and the part of the second order from a change of x′.
+    /// For the largest changes: the terms of ΓdΓ by absolute value, and the part of the second order from a change
+    /// of x′.
     sizes: f64,
     bend: f64,
     largest_change: f64,
@@ -218,8 +221,8 @@ mod tests {
     use crate::map::lift_off_map::LiftOffMap;
     use crate::model::mass_ratio::MassRatio;
 
-    /// Just above nπ the stretch after a landing is small, and an error of the speed changes it most. A bound without the
-    /// relative change of the stretch was up to 1.4 times too small here.
+    /// Just above nπ the stretch after a landing is small, and an error of the speed changes it most. A bound
+    /// without the relative change of the stretch was up to 1.4 times too small here.
     #[test]
     fn speeds_just_above_multiples_of_pi_meet_their_bound() {
         for (m, alpha, error) in [

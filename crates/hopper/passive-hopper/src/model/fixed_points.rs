@@ -38,7 +38,8 @@ pub fn alpha_star(n: u64) -> f64 {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FixedPointSpeed(DoubleDouble);
 
-/// Bound on the error of the 100 bits of α*_n, relative to α*_n: 2⁻¹⁰⁰. The theorem gives 2⁻¹⁰¹ (docs/theory.md, Lemma 65).
+/// Bound on the error of the 100 bits of α*_n, relative to α*_n: 2⁻¹⁰⁰. The theorem gives 2⁻¹⁰¹ (docs/theory.md,
+/// Lemma 65).
 const RELATIVE_ERROR: f64 = 7.9e-31;
 
 impl FixedPointSpeed {

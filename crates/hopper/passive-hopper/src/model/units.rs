@@ -95,8 +95,8 @@ impl PhysicalHopper {
         self.upper_mass * self.gravity * self.length_unit()
     }
 
-    /// Bounds on the relative errors of the units, if each of the four given quantities has a relative error of `given` at most: that of their
-    /// conversion to metres, kilograms and seconds.
+    /// Bounds on the relative errors of the units, if each of the four given quantities has a relative error of
+    /// `given` at most: that of their conversion to metres, kilograms and seconds.
     pub fn unit_errors(given: f64) -> UnitErrors {
         // So many given quantities, and so many roundings of half an ulp, enter each of them.
         let of = |quantities: f64, roundings: f64| {

@@ -1,7 +1,7 @@
 //! Numbers with a bound on their error: a middle in extended arithmetic, and a radius.
 //!
-//! Each operation adds the bound on its own rounding (docs/theory.md, Lemmas 55 to 57) to what the errors of its operands do. So a formula that
-//! is written once gives its value and a bound on the error of the value.
+//! Each operation adds the bound on its own rounding (docs/theory.md, Lemmas 55 to 57) to what the errors of its
+//! operands do. So a formula that is written once gives its value and a bound on the error of the value.
 
 use crate::precision::real::Extended;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -77,7 +77,8 @@ impl<R: Extended> Ball<R> {
     /// t − sin t and t²/2 − 1 + cos t, from sine and cosine of t ≥ 0.
     pub(crate) fn sine_remainders(self, sin: Self, cos: Self) -> (Self, Self) {
         let (lag, bend) = self.middle.sine_remainders(sin.middle, cos.middle);
-        // Below 1 the series have small relative errors. From there on the differences have those of sine and cosine, and of t and t²/2.
+        // Below 1 the series have small relative errors. From there on the differences have those of sine and
+        // cosine, and of t and t²/2.
         let (t, longest) = (self.middle.nearest().abs(), self.size());
         let own = if t < 1.0 {
             (4.0 * lag.nearest(), 4.0 * bend.nearest())

@@ -283,8 +283,8 @@ mod tests {
         ((Long::<4>::from(found) - exact) / exact).nearest().abs() * 2f64.powi(106)
     }
 
-    /// docs/theory.md, Lemmas 55 and 57: at most 4, 8, 8 and 5 units, and 40 for sines. The errors of 20 000 random numbers
-    /// come to a third of these bounds at least, so that a bound is not far too wide.
+    /// docs/theory.md, Lemmas 55 and 57: at most 4, 8, 8 and 5 units, and 40 for sines. The errors of 20 000 random
+    /// numbers come to a third of these bounds at least, so that a bound is not far too wide.
     #[test]
     fn operations_err_by_less_than_their_bounds() {
         let generator = SplitMix64::from_state(13);

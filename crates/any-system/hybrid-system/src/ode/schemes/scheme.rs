@@ -21,16 +21,17 @@ pub(in crate::ode) struct Scheme {
     /// bᵢ minus the weights of the lower order: h Σ eᵢ kᵢ estimates the error of a step. The first is 0.
     pub(in crate::ode) errors: &'static [f64],
     /// The estimate of the error of a step over a kink of the field: the larger one of `kink_ratio` times the usual
-    /// estimate, and h Σ wᵢ kᵢ with these weights: bᵢ minus the weights of least squares of a quadrature of degree three.
+    /// estimate, and h Σ wᵢ kᵢ with these weights: bᵢ minus the weights of least squares of a quadrature of degree
+    /// three.
     ///
-    /// For ẋ = max(0, t − θ) all these sums are h² times a function of the place of the kink in the step. The error itself
-    /// can be much larger than the usual estimate. It is at most six times the estimate for kinks.
+    /// For ẋ = max(0, t − θ) all these sums are h² times a function of the place of the kink in the step. The error
+    /// itself can be much larger than the usual estimate. It is at most six times the estimate for kinks.
     pub(in crate::ode) kinks: &'static [f64],
     pub(in crate::ode) kink_ratio: f64,
     /// cᵢ: stage i is at time t + cᵢ h.
     pub(in crate::ode) times: &'static [f64],
-    /// Row i: the aᵢⱼ that are not zero, as (j, aᵢⱼ), in pairs; the first is cᵢ. The last pair may be filled with a zero.
-    /// A step sums the first and the second terms of the pairs separately.
+    /// Row i: the aᵢⱼ that are not zero, as (j, aᵢⱼ), in pairs; the first is cᵢ. The last pair may be filled with a
+    /// zero. A step sums the first and the second terms of the pairs separately.
     pub(in crate::ode) rows: &'static [&'static [[(usize, f64); 2]]],
     /// Row i: the weights of stage i in the interpolant at the Chebyshev nodes of the step; in row 0 the place of the
     /// node in the step, from 0 to 1. The coefficients by powers are as large as 10⁷ and cancel: rounded to doubles,

@@ -126,7 +126,8 @@ fn polynomials(coefficients: [&Piece; LANES], at: &[f64; LANES]) -> [f64; LANES]
 /// coefficients by hand in AVX-512 registers would save another 4 % (the README has the measurement). The gain does not
 /// justify 60 lines of unsafe code.
 ///
-/// With `WITHIN` the errors of the speeds are propagated through the first flight. α − h is then needed for all landings.
+/// With `WITHIN` the errors of the speeds are propagated through the first flight. α − h is then needed for all
+/// landings.
 #[inline(always)]
 pub(crate) fn first_flights<const WITHIN: bool>(
     hops: &mut HopRows,

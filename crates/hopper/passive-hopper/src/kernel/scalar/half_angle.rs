@@ -68,8 +68,8 @@ fn four_terms(c: &[f64; 6], z: f64) -> f64 {
     (c[0] + c[1] * z) + (z * z) * (c[2] + c[3] * z)
 }
 
-/// Bound on the errors of S and C in units of ε = 2⁻⁵² of the value (docs/theory.md, Lemma 57). The largest error measured
-/// is 1.2.
+/// Bound on the errors of S and C in units of ε = 2⁻⁵² of the value (docs/theory.md, Lemma 57). The largest error
+/// measured is 1.2.
 pub(crate) const SINE_ULPS: f64 = 2.0;
 
 impl HalfAngle {

@@ -44,8 +44,8 @@ pub(crate) struct DecidedHop {
 }
 
 impl FlightSums {
-    /// The sums after the first flight. No error is propagated to the first flight. The error of the table is counted by
-    /// [`end`](Self::end).
+    /// The sums after the first flight. No error is propagated to the first flight. The error of the table is
+    /// counted by [`end`](Self::end).
     #[inline(always)]
     pub(crate) fn of_first(first: &FirstFlight) -> Self {
         let square = first.closing_speed * first.closing_speed;
@@ -70,10 +70,11 @@ impl FlightSums {
 
     /// The end of the hop, and whether the sign of α′² is larger than its error bound (I2).
     ///
-    /// As long as the hop continues, μ times the partial sum is below α², because the remaining energy is positive. The
-    /// roundings of μ, of the squares and of the sums are therefore counted in ulps of α²: at most 4 + 2 flights halves of
-    /// an ulp. The first flight's Γ², from the table, has at most 8 ulps. `LANDING_ULPS` for each flight and for two more
-    /// is above both (docs/theory.md, Theorem 66). The rounding errors of the later Γ² are in `error`.
+    /// As long as the hop continues, μ times the partial sum is below α², because the remaining energy is positive.
+    /// The roundings of μ, of the squares and of the sums are therefore counted in ulps of α²: at most 4 + 2
+    /// flights halves of an ulp. The first flight's Γ², from the table, has at most 8 ulps. `LANDING_ULPS` for each
+    /// flight and for two more is above both (docs/theory.md, Theorem 66). The rounding errors of the later Γ² are
+    /// in `error`.
     #[inline(always)]
     pub(crate) fn end(&self, alpha: f64, mu: f64) -> (DecidedHop, bool) {
         let loss_of_square = mu * self.closing_speeds_squared;
@@ -91,8 +92,8 @@ impl FlightSums {
 }
 
 impl FlightSums {
-    /// α′² with a bound on its error, for a hop whose start has an error that changes α′² by at most `direct`, apart from its
-    /// part through later flights.
+    /// α′² with a bound on its error, for a hop whose start has an error that changes α′² by at most `direct`,
+    /// apart from its part through later flights.
     #[inline(always)]
     pub(crate) fn within(&self, alpha: f64, mu: f64, direct: f64) -> BoundedSquare {
         let (hop, _) = self.end(alpha, mu);

@@ -1,7 +1,7 @@
 //! The hop of all speeds within an error of a given speed: α′ and a bound on its error.
 //!
-//! On the contact part dF/dα = 2α (1 − 4μW) with 0 ≤ W = D (h − α) ≤ (h + ½)(h − α) (docs/theory.md, Lemma 26). In a window
-//! D ≤ h, since SC ≥ 0, and with b = α − h and h′ = dh/dα = D/Γ
+//! On the contact part dF/dα = 2α (1 − 4μW) with 0 ≤ W = D (h − α) ≤ (h + ½)(h − α) (docs/theory.md, Lemma 26). In
+//! a window D ≤ h, since SC ≥ 0, and with b = α − h and h′ = dh/dα = D/Γ
 //!
 //! ```text
 //!   dx′/dα = 2bh′ + 2h (1 − h′)      dV′/dα = 1 − 2h′ − 4κ α b h′      d(Γ²)/dα = −8αDb
@@ -22,7 +22,8 @@ use std::f64::consts::FRAC_1_PI;
 /// interval of the tables, α ≤ 32π, the bounds below change by less than 10⁻² within 10⁻⁵.
 const LARGEST_SPEED_ERROR: f64 = 1e-5;
 
-/// Largest error relative to the distance from α*_n. The derivatives of the first flight grow like δ^{−2/3} towards δ = 0.
+/// Largest error relative to the distance from α*_n. The derivatives of the first flight grow like δ^{−2/3} towards
+/// δ = 0.
 const LARGEST_PART_OF_DISTANCE: f64 = 1.0 / 1024.0;
 
 /// A factor for the change of the derivatives of the first flight within the error, and for the terms of second order.
@@ -36,8 +37,8 @@ pub(crate) fn error_in_range(alpha: f64, error: f64, fixed_points: &FixedPoints)
     let (_, interval) = nearest_integer(alpha_over_pi - 0.5);
     let delta = alpha - fixed_points[interval as usize % TABLES];
     let (nearest, _) = nearest_integer(alpha_over_pi);
-    // The distance of nπ, divided by π: two thirds of the distance are left for the rounding of α/π. The table refuses speeds
-    // within 10⁻⁷π of nπ.
+    // The distance of nπ, divided by π: two thirds of the distance are left for the rounding of α/π. The table
+    // refuses speeds within 10⁻⁷π of nπ.
     let from_n_pi = (alpha_over_pi - nearest).abs();
     (error <= LARGEST_SPEED_ERROR)
         & (error <= LARGEST_PART_OF_DISTANCE * delta.abs())
@@ -75,8 +76,8 @@ pub(crate) fn square_error_from_start(
     2.0 * alpha * (DERIVATIVE_CHANGE * error) * if sudden { in_window } else { in_contact }
 }
 
-/// The hop of all speeds within `error` of `alpha`; `None` if a landing is inconclusive, or if the speed or the error lies
-/// outside the kernel's range.
+/// The hop of all speeds within `error` of `alpha`; `None` if a landing is inconclusive, or if the speed or the
+/// error lies outside the kernel's range.
 #[inline]
 pub(crate) fn kernel_hop_within(
     alpha: f64,

@@ -8,10 +8,11 @@ use std::f64::consts::PI;
 /// Coefficients cᵢⱼ of aⁱ qʲ with i + j ≤ 4, row by row.
 struct Quartic([f64; 5], [f64; 4], [f64; 3], [f64; 2], [f64; 1]);
 
-// The 45 coefficients below are made by xtask/generators/guesses.py, a weighted fit to the later flights of 5500 hops:
-// 5000 with M from 0.05 to 20 and α from 4.5 to 20.5, and 500 with M from 0.05 to 200 and α from 20 to 100. A higher degree makes a guess more expensive. A lower degree leaves more
-// flights for which one step of order four is not enough: such flights are searched again, one by one (the tests below
-// bound their fraction). Six decimals are far more than the fit needs.
+// The 45 coefficients below are made by xtask/generators/guesses.py, a weighted fit to the later flights of 5500
+// hops: 5000 with M from 0.05 to 20 and α from 4.5 to 20.5, and 500 with M from 0.05 to 200 and α from 20 to 100. A
+// higher degree makes a guess more expensive. A lower degree leaves more flights for which one step of order four
+// is not enough: such flights are searched again, one by one (the tests below bound their fraction). Six decimals
+// are far more than the fit needs.
 
 /// For V < π, see [`below_pi`].
 const BELOW_PI: Quartic = Quartic(
@@ -107,8 +108,8 @@ mod tests {
     /// A guess this close to the landing needs one step of order four.
     const CLOSE: f64 = 0.03;
 
-    /// Over the later flights of 4000 hops, other ones than those of the fit: below π at most 0.5 % of the guesses are not
-    /// close, from π on at most 5 %; the largest errors are 0.036 and 0.103 (measured).
+    /// Over the later flights of 4000 hops, other ones than those of the fit: below π at most 0.5 % of the guesses
+    /// are not close, from π on at most 5 %; the largest errors are 0.036 and 0.103 (measured).
     #[test]
     fn most_guesses_are_close_to_the_landing() {
         // Flights with V < π, then flights with V ≥ π.

@@ -24,9 +24,10 @@ const LARGEST_VELOCITY: f64 = 128.0;
 
 /// Within this distance of mπ, in units of π, the general solver computes the flight.
 ///
-/// There ⌊V/π⌋ depends on rounding. The rounding error of V/π below [`LARGEST_VELOCITY`] is 10⁻¹⁴ (two roundings of a
-/// number up to 41), and that of (m+1)π and mπ as much. The error of V itself does no harm: the flights on both sides of
-/// mπ land on one branch (docs/theory.md, Theorem 12). The value 10⁻⁹ leaves two flights in 10⁹ to the general solver.
+/// There ⌊V/π⌋ depends on rounding. The rounding error of V/π below [`LARGEST_VELOCITY`] is 10⁻¹⁴ (two roundings of
+/// a number up to 41), and that of (m+1)π and mπ as much. The error of V itself does no harm: the flights on both
+/// sides of mπ land on one branch (docs/theory.md, Theorem 12). The value 10⁻⁹ leaves two flights in 10⁹ to the
+/// general solver.
 const NEAR_MULTIPLE_OF_PI: f64 = 1e-9;
 
 /// Bound on the error of the sine and cosine in the maximum test, and of the test relative to 1 + x + V: the terms that
@@ -133,8 +134,8 @@ mod tests {
     use crate::precision::double_double::DoubleDouble;
     use basin_of_attraction::SplitMix64;
 
-    /// docs/theory.md, Lemma 64, for exact starts. The error comes to nine tenths of its bound, 1.8·10⁻⁹ of 2·10⁻⁹, where
-    /// V is an odd multiple of π/4 and Y ≪ V or V ≪ Y; 20 000 speeds next to such multiples find it.
+    /// docs/theory.md, Lemma 64, for exact starts. The error comes to nine tenths of its bound, 1.8·10⁻⁹ of 2·10⁻⁹,
+    /// where V is an odd multiple of π/4 and Y ≪ V or V ≪ Y; 20 000 speeds next to such multiples find it.
     #[test]
     fn the_maximum_test_errs_by_less_than_its_bound() {
         let generator = SplitMix64::from_state(64);

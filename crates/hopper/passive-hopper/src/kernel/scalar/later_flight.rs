@@ -39,8 +39,8 @@ const FIRST_ORDER: f64 = 1e-9;
 /// Bound on the direct rounding errors of x′, V′ and Γ, in ulps of the size 1 + x + |V| + τ + Γ (docs/theory.md,
 /// Lemma 61).
 ///
-/// It is twice [`LANDING_ULPS`](crate::landing::error_bound::LANDING_ULPS), because h is rounded once more after the last
-/// step, by up to half an ulp of h; this moves x′ by 2h max(D, Γ) half ulps, for h up to 32π.
+/// It is twice [`LANDING_ULPS`](crate::landing::error_bound::LANDING_ULPS), because h is rounded once more after
+/// the last step, by up to half an ulp of h; this moves x′ by 2h max(D, Γ) half ulps, for h up to 32π.
 const KERNEL_LANDING_ULPS: f64 = 64.0;
 
 /// Largest size · T/Γ of a flight that is accepted, with T the bound on the error of the time of flight and the size
@@ -220,8 +220,8 @@ mod tests {
 
     type Four = Long<4>;
 
-    /// docs/theory.md, Lemma 61: starts whose errors are 0, or known to 10⁻¹⁴ … 10⁻⁵. The exact landings from the corners
-    /// of the error's square are within the bounds of an accepted flight.
+    /// docs/theory.md, Lemma 61: starts whose errors are 0, or known to 10⁻¹⁴ … 10⁻⁵. The exact landings from the
+    /// corners of the error's square are within the bounds of an accepted flight.
     #[test]
     fn accepted_landings_are_within_their_bounds() {
         let generator = SplitMix64::from_state(61);

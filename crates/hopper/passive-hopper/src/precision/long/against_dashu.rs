@@ -5,8 +5,8 @@
 //! of 2000 numbers a and 2000 numbers b by the addition theorem, in dashu-float's arithmetic with 128 bits more than
 //! ours.
 //!
-//! The largest errors found, in units of 2^(−64 W): 2 for sums and products, 3.7 for quotients and roots, 36 (1 + |x|) for
-//! sines and cosines, 0.6 for π.
+//! The largest errors found, in units of 2^(−64 W): 2 for sums and products, 3.7 for quotients and roots, 36 (1 +
+//! |x|) for sines and cosines, 0.6 for π.
 
 #[cfg(test)]
 mod tests {

@@ -1,11 +1,11 @@
 //! Binary floating point with `W` words of 64 bits, for hops that magnify an error beyond 106 bits.
 //!
-//! Every operation is truncated to 64 W bits. Quotients and roots, by Newton's method, lose two bits more. Exponents have
-//! 64 bits: they do not overflow.
+//! Every operation is truncated to 64 W bits. Quotients and roots, by Newton's method, lose two bits more.
+//! Exponents have 64 bits: they do not overflow.
 //!
 //! # Why not a crate
-//! dashu-float 0.6 has every function needed here, correctly rounded at any length. One operation takes (one core, release
-//! build, ns; dashu-float with its constants cached):
+//! dashu-float 0.6 has every function needed here, correctly rounded at any length. One operation takes (one core,
+//! release build, ns; dashu-float with its constants cached):
 //!
 //! ```text
 //!                        256 bits              512 bits              1024 bits
