@@ -167,7 +167,7 @@ pub use power_law::{NoInterval, PowerLaw, power_law};
 pub use preimage::{preimage_levels, preimage_levels_from_known};
 pub use preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};
 pub use probes::{TrapGround, check_branches, check_trap};
-pub use raster::{Grid, LabelImage, LegendEntry, columns_in_parallel, raster, raster_by_strips};
+pub use raster::{Grid, LabelImage, columns_in_parallel, raster, raster_by_strips};
 pub use recurrence_limits::RecurrenceLimits;
 pub use recurrences::{Attractor, Attractors};
 pub use refinement::{Refinement, StopReason};

@@ -123,23 +123,6 @@ impl LabelImage {
         }
         counts.into_iter().collect()
     }
-
-    /// The labels that occur, each with its name and number of pixels.
-    pub fn legend(&self, name: impl Fn(Label) -> String) -> Vec<LegendEntry> {
-        let entry = |(label, pixels)| LegendEntry { label, name: name(label), pixels };
-        self.counts().into_iter().map(entry).collect()
-    }
-}
-
-/// A label of an image, with its meaning.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct LegendEntry {
-    /// The label.
-    pub label: Label,
-    /// Its name.
-    pub name: String,
-    /// The number of pixels with this label.
-    pub pixels: usize,
 }
 
 /// Labels every pixel of `grid` by its middle. Columns are computed in parallel, each pixel by pixel.

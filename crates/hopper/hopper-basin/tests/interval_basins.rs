@@ -62,12 +62,12 @@ fn where_the_branches_are_proved_every_probe_has_the_fate_of_its_interval() {
 fn the_ends_of_every_interval_have_its_fate() {
     for m in [0.12, 0.2, 0.5, 0.8] {
         let fates = fates(m);
-        let refinement = Refinement { undecided: 0.05, ..Refinement::default() };
+        let refinement = Refinement { undecided: 0.1, ..Refinement::default() };
         let found = hopper_basins(&fates, 1, 6, 400, refinement).unwrap();
         let parts = found.basins.intervals();
         assert!(parts.len() > 100, "{m}");
         let (mut ends, mut grounded) = (Vec::new(), 0);
-        for part in parts.iter().step_by(3) {
+        for part in parts.iter().step_by(5) {
             let Interval { left, right } = part.interval;
             // The doubles beside an end have images beside the end of a trap, within its error.
             let inside = |speed: &f64| (left..=right).contains(speed);

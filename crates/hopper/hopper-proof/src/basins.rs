@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::hop::strip::Strip;
 use crate::line::ProvedLine;
 use basin_of_attraction::{Interval, IntervalBasins, Refinement, StopReason};
-use hopper_basin::{BranchGround, Fates, HopperBasins, HopperFate, Probes, hopper_basins};
+use hopper_basin::{BranchGround, Fates, HopperBasins, HopperFate, hopper_basins};
 use passive_hopper::alpha_star;
 
 /// Parts of the window of a sweep, each with a budget of its own. They affect the time, and what stays open.
@@ -28,10 +28,6 @@ const MORE: usize = 4;
 /// are narrower than any spacing of `f64` (docs/theory.md, Section 4: 10⁻²² at M = 50), so that a sweep would take
 /// long for little.
 const LARGEST_ENCLOSED: f64 = 50.0;
-
-/// Random speeds that test the intervals, and their seed, as in [`hopper_basins`].
-const PROBES: usize = 1000;
-const SEED: u64 = 1;
 
 /// The basins of all fates on [α*_`from`, α*_`to`], from images of intervals that are enclosed with rounding
 /// outwards. No label is wrong, at any M. Levels are not counted.
@@ -80,10 +76,7 @@ pub fn proved_basins(
         }
         share /= FINER;
     };
-    let probes = Probes { compared: 0, wrong: 0, first_wrong: None };
-    let mut found = HopperBasins { basins, ground: BranchGround::Enclosures, probes };
-    found.probes = found.probe(fates, PROBES, SEED)?;
-    Ok(found)
+    Ok(HopperBasins::probed(basins, BranchGround::Enclosures, fates)?)
 }
 
 /// The basins of all fates on [α*_`from`, α*_`to`]: by branches, sharp to an ulp of the map and with levels, where

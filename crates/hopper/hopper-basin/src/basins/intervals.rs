@@ -52,7 +52,33 @@ pub struct Probes {
     pub first_wrong: Option<f64>,
 }
 
+/// Random speeds that test the basins. A thousand find wrong intervals of more than 0.3 % of the decided length in
+/// 95 of 100 cases. More speeds take longer: a fate takes about a microsecond, and some that are close to an edge
+/// take milliseconds.
+const PROBES: usize = 1000;
+
+/// Seed of these speeds.
+const SEED: u64 = 1;
+
 impl HopperBasins {
+    /// Basins on this ground, tested by a thousand random speeds. One with another fate is a contradiction.
+    ///
+    /// # Errors
+    /// As [`Fates::fate`].
+    pub fn probed(
+        basins: IntervalBasins,
+        ground: BranchGround,
+        fates: &Fates,
+    ) -> Result<Self, Error> {
+        let probes = Probes { compared: 0, wrong: 0, first_wrong: None };
+        let mut found = HopperBasins { basins, ground, probes };
+        found.probes = found.probe(fates, PROBES, SEED)?;
+        if found.probes.wrong > 0 {
+            found.basins = found.basins.with_stop_reason(StopReason::Contradiction);
+        }
+        Ok(found)
+    }
+
     /// Compares the intervals with the fates of `points` random speeds of the window.
     ///
     /// The fate of a speed needs no branches ([`Fates::fate`]). Without a wrong one among n, the wrong intervals
@@ -81,14 +107,6 @@ impl HopperBasins {
         Ok(probes)
     }
 }
-
-/// Random speeds that test the basins. A thousand find wrong intervals of more than 0.3 % of the decided length in
-/// 95 of 100 cases. More speeds take longer: a fate takes about a microsecond, and some that are close to an edge
-/// take milliseconds.
-const PROBES: usize = 1000;
-
-/// Seed of these speeds.
-const SEED: u64 = 1;
 
 /// The basins of all fates on [α*_`from`, α*_`to`]. Each sudden window is searched for branches with `samples`
 /// points, where it is proved which there are; elsewhere the windows stay undecided. The crate hopper-proof has the
@@ -155,13 +173,7 @@ pub fn hopper_basins(
     let whole = Interval::new(0.0, top)?;
     let basins = interval_basins_from_known(fates, &traps, &branches, whole, refinement)?;
     let basins = with_inward_ends(fates, basins)?.within(window)?;
-    let probes = Probes { compared: 0, wrong: 0, first_wrong: None };
-    let mut found = HopperBasins { basins, ground, probes };
-    found.probes = found.probe(fates, PROBES, SEED)?;
-    if found.probes.wrong > 0 {
-        found.basins = found.basins.with_stop_reason(StopReason::Contradiction);
-    }
-    Ok(found)
+    HopperBasins::probed(basins, ground, fates)
 }
 
 /// The traps of α*_0 … α*_`to`−1 and the gaps between `branches` below `top` in which the hopper is grounded, with

@@ -87,9 +87,10 @@ impl Beside {
         }
         let is_unclear = side == TrapSide::Unclear;
         let is_contact_end = trap.edge == TrapEdge::ContactEnd;
-        self.open |= is_unclear && is_contact_end;
         // Beside a crisis f may stay above α*_n behind the end.
-        let ends_certainly = trap.error < CERTAIN_END * trap.delta && !is_contact_end;
+        let is_certain = trap.error < CERTAIN_END * trap.delta;
+        self.open |= is_unclear && is_contact_end && is_certain;
+        let ends_certainly = is_certain && !is_contact_end;
         self.first = (is_unclear && ends_certainly).then_some((trap.n, first));
         None
     }
@@ -270,7 +271,10 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
             }
             let trap = (self.trap)(n)?;
             let mut side = trap.side_of_offset(offset, error);
-            if side == TrapSide::Unclear && trap.edge == TrapEdge::ContactEnd && offset > error {
+            // Beside a crisis the end is no end of the contact part for certain.
+            let is_contact_end =
+                trap.edge == TrapEdge::ContactEnd && trap.error < CERTAIN_END * trap.delta;
+            if side == TrapSide::Unclear && is_contact_end && offset > error {
                 side = match orbit.compare_with_multiple_of_pi(n + 1) {
                     Some(Ordering::Less) => TrapSide::Inside,
                     Some(_) => TrapSide::Outside,

@@ -129,6 +129,7 @@ impl ErrorBound {
         self.error.velocity += error;
     }
 
+    #[cfg(feature = "hybrid-system")]
     /// The same bound for a flight that starts after a sudden landing, in a state without error.
     pub(crate) fn starting_at(self, start: TakeOff) -> Self {
         ErrorBound { start, flights: 1.0, ..self }

@@ -45,6 +45,7 @@ impl Flight {
         }
     }
 
+    #[cfg(feature = "hybrid-system")]
     /// The first coordinate or rate over [`LARGEST_LIFT_OFF_SPEED`] or not a number; `None` if there is none.
     pub(crate) fn unresolved(&self) -> Option<f64> {
         [self.stretch, self.momentum, self.height]
