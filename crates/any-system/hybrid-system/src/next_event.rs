@@ -10,13 +10,16 @@ use crate::point::Point;
 use crate::start_rule::{Start, Undeclared, start_of_arc};
 use crate::system::{FlowFrom, HybridSystem};
 
+/// The next event of an arc, and the guards on whose surfaces it starts.
+type NextAndLeaving<T> = (
+    NextEvent<<T as HybridSystem>::Surface, <T as HybridSystem>::State>,
+    LeavingGuards<<T as HybridSystem>::Surface>,
+);
+
 impl<T: HybridSystem> Execution<'_, T> {
     /// The next event: at once, at a preset time, or the first crossing; and the guards on whose surfaces the arc
     /// starts.
-    pub(crate) fn next_event(
-        &self,
-        horizon: f64,
-    ) -> Result<(NextEvent<T::Surface, T::State>, LeavingGuards<T::Surface>), Error> {
+    pub(crate) fn next_event(&self, horizon: f64) -> Result<NextAndLeaving<T>, Error> {
         let Point { mode, ref state, ref time, ref arrival, ref residues, initial, .. } = self.at;
         let flow = FlowFrom { system: self.system, mode, start: state };
         let mut leaving = LeavingGuards::new();

@@ -35,7 +35,6 @@ mod quasi_polynomial;
 mod quasi_polynomial_search;
 mod quasi_term;
 mod rounded;
-#[cfg(feature = "ode")]
 mod sampled;
 mod search_request;
 mod under_bounds;
@@ -45,7 +44,6 @@ mod zero_test;
 
 #[cfg(feature = "ode")]
 pub(crate) use bounded::{Bounded, Leave};
-#[cfg(feature = "ode")]
 pub use certainty::Certainty;
 #[cfg(feature = "ode")]
 pub(crate) use clear_distance::clear_distance;
@@ -64,7 +62,6 @@ pub(crate) use guarded_flow::GuardedFlow;
 pub use next_event::{Crossing, EventKind, NextEvent};
 pub use quasi_polynomial::{QuasiPolynomial, QuasiPolynomialPart};
 pub(crate) use search_request::LeavingGuards;
-#[cfg(feature = "ode")]
 pub(crate) use search_request::MOST_INTERVALS;
 pub use search_request::{Leaving, Search};
 #[cfg(feature = "ode")]

@@ -149,9 +149,8 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             let before = time.next_down().max(on_step.from());
             let [at_end, at_before] = [along(time), along(before)];
             // At the same double as the event, it comes at the same instant: the next arc begins with it.
-            if !(at_end * side < 0.0 && at_before * side <= 0.0)
-                || !guard.direction.admits(side, -side)
-            {
+            let is_past = at_end * side < 0.0 && at_before * side <= 0.0;
+            if !is_past || !guard.direction.admits(side, -side) {
                 continue;
             }
             if let Some(at) = on_step.first_zero((before, at_before), side, along)?
