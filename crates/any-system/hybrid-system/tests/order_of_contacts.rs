@@ -225,3 +225,64 @@ fn jumps_at_the_end_of_a_step_come_in_time() {
         assert!(error < 1e3 * tolerance, "{tolerance}: {found:?}");
     }
 }
+
+/// A bounce that keeps so little that its apex is below rounding: the ball rests by an error or a Zeno limit, and never
+/// falls through.
+#[test]
+fn a_bounce_below_rounding_never_falls_through() {
+    for exponent in 1..14 {
+        let kept = 10f64.powi(-exponent);
+        for height in [0.57, 0.5, 1.3] {
+            let ball = Model::integrated(|(), x: &State<2>| [x[1], -1.0])
+                .falling((), |x| x[0], move |x| ((), [x[0], -kept * x[1]]))
+                .contact();
+            let mut execution = ball.run((), [height, 0.3], 6.0);
+            let failed = execution.by_ref().any(|arc| arc.is_err());
+            let low = execution.state()[0];
+            assert!(failed || low > -1e-9, "{kept} {height}: {low}");
+        }
+    }
+}
+
+/// A wall that reverses the motion, with an observer a little behind it: each is met once, and the wall holds.
+#[test]
+fn a_wall_with_an_observer_behind_it_holds() {
+    for apart in [1e-6, 1e-9, 1e-12, 1e-16] {
+        for k in 0..40 {
+            let start = [0.3 + 0.01 * f64::from(k), 0.3 - 0.007 * f64::from(k)];
+            let oscillator = Model::integrated(|(), x: &State<2>| [x[1], -x[0]])
+                .either((), |x| x[0], |x| ((), [x[0], -x[1]]))
+                .contact()
+                .rising((), move |x| x[0] - apart, |x| ((), *x))
+                .crossing();
+            let mut execution = oscillator.run((), start, 3.0);
+            let found = events(execution.by_ref());
+            let hits = found.iter().filter(|event| event.0 == 0).count();
+            assert!(hits == 1 && execution.state()[0] > 0.0, "{apart} {start:?}: {found:?}");
+        }
+    }
+}
+
+/// A guard of two components that jumps at its zero by unequal heights is met at every crossing.
+#[test]
+fn a_jump_of_two_components_loses_no_later_crossing() {
+    for k in 0..60 {
+        let (a, b, c) = (-0.1 + 0.02 * f64::from(k), 1.4 - 0.03 * f64::from(k), 0.175);
+        let u = move |x: &State<2>| a * x[0] + b * x[1] + c;
+        let count = |jumps: bool| {
+            let oscillator = Model::integrated(|(), x: &State<2>| [x[1], -x[0]])
+                .either(
+                    (),
+                    move |x| match u(x) {
+                        u if !jumps => u,
+                        u if u > 0.0 => u + 1.0,
+                        u => u - 1e-3,
+                    },
+                    |x| ((), *x),
+                )
+                .crossing();
+            events(oscillator.run((), [0.4, 0.9], 20.0)).len()
+        };
+        assert_eq!(count(true), count(false), "{k}");
+    }
+}

@@ -73,24 +73,44 @@ pub(crate) fn guard_rounding<X: StateVector>(
     size: &X,
     guard: impl Fn(&X) -> f64,
 ) -> f64 {
-    smaller_side(guard(state).abs(), |side| {
-        rounding_on_side(state, (size, side), &guard) + scatter(state, side, &guard)
-    })
-}
-
-/// The rounding that is measured on one side of a state, unless it would hide the guard's `value`, and is much
-/// smaller on the other side: then a jump or a kink of the guard next to the state was measured.
-fn smaller_side(value: f64, on_side: impl Fn(f64) -> f64) -> f64 {
-    let finite = |side: f64| {
-        let sum = on_side(side);
-        if sum.is_finite() { sum } else { 0.0 }
-    };
-    let ahead = finite(1.0);
-    if ahead < value {
+    let ahead = rounding_of_state(state, size, &guard) + scatter(state, 1.0, &guard);
+    if ahead < guard(state).abs() {
         return ahead;
     }
-    let behind = finite(-1.0);
-    if ONE_SIDED * behind < ahead { behind } else { ahead }
+    let own = smaller(ahead, scatter(state, -1.0, &guard));
+    let sum = rounding_beside_jumps(state, size, &guard) + own.min(scatter(state, 1.0, &guard));
+    if sum.is_finite() { sum } else { 0.0 }
+}
+
+/// An estimate that would hide the guard's value, or another one of the same, measured on the other side, that is much
+/// smaller: then a jump or a kink of the guard next to the state was measured.
+fn smaller(here: f64, there: f64) -> f64 {
+    if ONE_SIDED * there < here { there } else { here }
+}
+
+/// The rounding of the state, each component moved to the side on which the guard does not jump.
+fn rounding_beside_jumps<X: StateVector>(state: &X, size: &X, guard: impl Fn(&X) -> f64) -> f64 {
+    if state.dimension() > SINGLE_COMPONENTS {
+        let [up, down] = [1.0, -1.0].map(|side| rounding_on_side(state, (size, side), &guard));
+        return smaller(up, down);
+    }
+    let value = guard(state);
+    let mut moved = state.clone();
+    let mut sum = 0.0;
+    for axis in 0..state.dimension() {
+        let component = state.components()[axis];
+        let reach = COMPONENT_ULPS * f64::EPSILON * size.components()[axis].abs();
+        let [up, down] = [1.0, -1.0].map(|side| {
+            let mut change = |distance: f64| {
+                moved.components_mut()[axis] = component + side * distance;
+                (guard(&moved) - value).abs()
+            };
+            (change(FARTHER * reach) - change(reach)).abs()
+        });
+        moved.components_mut()[axis] = component;
+        sum += if ONE_SIDED * up < down { up } else { smaller(up, down) };
+    }
+    ROOM * sum / (FARTHER - 1.0)
 }
 
 /// The same, with the error of the guard's own operations as the model has `stated` it, if it has.
@@ -101,8 +121,11 @@ pub(crate) fn stated_or_measured<X: StateVector>(
 ) -> f64 {
     match stated {
         Some(stated) => {
-            let on_side = |side| rounding_on_side(state, (state, side), &guard) + stated;
-            smaller_side(guard(state).abs(), on_side)
+            let ahead = rounding_of_state(state, state, &guard);
+            match ahead + stated < guard(state).abs() {
+                true => ahead + stated,
+                false => rounding_beside_jumps(state, state, &guard) + stated,
+            }
         }
         None => guard_rounding(state, state, guard),
     }

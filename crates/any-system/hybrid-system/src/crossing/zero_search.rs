@@ -79,7 +79,7 @@ impl ZeroSearch {
     /// The side on which the function is, as far as its start has told, although rounding may hide it now.
     #[cfg(feature = "ode")]
     pub(crate) fn known_side(&self) -> Option<f64> {
-        self.side.filter(|_| !self.leaving && self.level == 0.0)
+        self.side.filter(|_| !self.leaving && self.level == 0.0 && !self.passes)
     }
 
     /// True if the last crossing was found on the first interval that showed a side after the start at zero: rounding

@@ -69,7 +69,6 @@ impl ZeroSearch {
             (Some(leaving), Some(side)) if leaving == side => {
                 Self::before_zero(direction, time, side, error)
             }
-            (Some(leaving), Some(side)) if leaving == -side => Self::passing(direction, time, side),
             _ => Self::leaving(direction, (time, value), error.max(at.magnitude()), leaving),
         }
     }

@@ -54,6 +54,10 @@ pub(super) struct Pass<'a, T: HybridSystem + ?Sized> {
     pub(super) tolerances: Tolerances,
 }
 
+/// Looks at a guard behind a jump, each four times as far as the one before: up to 2¹⁶ ulps. A motion that takes longer to
+/// come back over the surface may turn round before, so that its side is left open.
+const LOOKS: u32 = 9;
+
 impl<T: HybridSystem + ?Sized> Pass<'_, T> {
     /// How a guard starts: on a side, or on its surface.
     pub(super) fn follow(
@@ -82,7 +86,11 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 let error = stated_or_measured(stated, start, along);
                 ZeroSearch::before_zero(direction, 0.0, side, error)
             }
-            Some(side) if known == Some(-side) => ZeroSearch::passing(direction, 0.0, side),
+            Some(side)
+                if known == Some(-side) && self.passes_at_once(surface, (start, rate), -side) =>
+            {
+                ZeroSearch::passing(direction, 0.0, side)
+            }
             _ => {
                 // An exact zero has no error of its own, but the states of the step have.
                 let error = match value == 0.0 {
@@ -94,6 +102,29 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             }
         };
         Ok(Followed { guard, stated: stated.unwrap_or(0.0), search })
+    }
+
+    /// Whether the guard comes to `side` as soon as the state moves along its field: it jumps there.
+    fn passes_at_once(
+        &self,
+        surface: T::Surface,
+        (start, rate): (&T::State, &T::State),
+        side: f64,
+    ) -> bool {
+        let scale = f64::EPSILON * (1.0 + start.largest()) / rate.largest();
+        let is_there = |state: &T::State| self.system.guard_value(surface, state) * side > 0.0;
+        (0..LOOKS).any(|look| {
+            let time = scale * f64::from(1 << (2 * look));
+            let mut moved = start.clone();
+            moved.add_scaled(time, rate);
+            // Further on as well: the motion must not have turned round.
+            let further = self.system.vector_field(self.mode, &moved).map(|rate| {
+                let mut further = moved.clone();
+                further.add_scaled(time, &rate);
+                further
+            });
+            is_there(&moved) && further.is_none_or(|further| is_there(&further))
+        })
     }
 
     /// True if the guard stays on its side along the last step, as far as a few values show: the smallest distance from
