@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
     if !measure {
         // The page shows its calls; a test runs them.
         let mut program = Command::new(cargo());
-        program.args(["build", "--quiet", "--package", "hopper", "--target-dir"]);
+        program.args(["build", "--quiet", "--package", "passive-hopper-cli", "--target-dir"]);
         step(program.arg(target_folder()).current_dir(repository()), "the program hopper")?;
         let file = folder.join("explorer.html");
         let at = |source| Error::File { path: file.clone(), source };
