@@ -50,6 +50,7 @@ impl ZeroSearch {
 
     /// Starts at `time` on `side`, ±1, behind a zero that the function has had, at a jump: it passes to its other
     /// side first.
+    #[cfg(feature = "ode")]
     pub(crate) fn passing(direction: Direction, time: f64, side: f64) -> Self {
         ZeroSearch { passes: true, ..Self::on_side(direction, time, side) }
     }
