@@ -128,21 +128,16 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         if side == 0.0 || start == 0.0 && left.is_none() {
             return None;
         }
+        if !guard.direction.admits(side, -side) {
+            // From the far side it comes to an event after two zeros only, the second one at the end.
+            let came_back = now * side >= 0.0 && self.was_on_side_before(arc, guard.surface, -side);
+            return came_back.then_some(-side);
+        }
+        if now * side > 0.0 {
+            return None;
+        }
         // It may not have come to its side yet, if the arc is short.
         let is_there = left.is_none_or(|leaving| leaving.ahead) || start * side > 0.0;
-        if now * side > 0.0 {
-            // From the far side it may come back to it only after two zeros, the second one at the end.
-            let from = -side;
-            return (!guard.direction.admits(side, from)
-                && guard.direction.admits(from, side)
-                && self.was_on_side_before(arc, guard.surface, from))
-            .then_some(from);
-        }
-        if !guard.direction.admits(side, -side) {
-            let from = -side;
-            let came_back = now == 0.0 && self.was_on_side_before(arc, guard.surface, from);
-            return came_back.then_some(from);
-        }
         (is_there || self.has_left(arc, guard.surface, side)).then_some(side)
     }
 
@@ -180,7 +175,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         })
     }
 
-    /// The same if the model has solved for the crossing. Two surfaces that are reached together by its formulas
+    /// The side from which a guard has come to its zero, if the model has solved for the crossing. Two surfaces that are reached together by its formulas
     /// have signs of rounding.
     fn side_by_rounding<T>(&self, arc: &FlowFrom<T>, surface: S) -> Option<f64>
     where
@@ -239,7 +234,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         (self.time_rounding, self.time_error)
     }
 
-    /// The same for a touch.
+    /// The arrival at a touch in place of a crossing.
     pub(crate) fn by_touch(mut self) -> Self {
         self.touched = true;
         self

@@ -94,11 +94,10 @@ fn jumps_of_an_observer_lose_no_later_crossing() {
 #[test]
 fn observers_from_their_far_side_are_met_together() {
     for apart in [0.0, 1e-16, 1e-15] {
-        let observed = |model: Model<(), usize, State<2>, _, _>| model;
         let flow = |(), x: &State<2>, t: f64| {
             [x[0] * t.cos() + x[1] * t.sin(), x[1] * t.cos() - x[0] * t.sin()]
         };
-        let integrated = observed(Model::integrated(|(), x: &State<2>| [x[1], -x[0]]))
+        let integrated = Model::integrated(|(), x: &State<2>| [x[1], -x[0]])
             .rising((), |x| x[0], |x| ((), *x))
             .crossing()
             .rising((), move |x| x[0] - apart, |x| ((), *x))

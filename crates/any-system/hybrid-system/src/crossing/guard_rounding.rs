@@ -73,12 +73,13 @@ pub(crate) fn guard_rounding<X: StateVector>(
     size: &X,
     guard: impl Fn(&X) -> f64,
 ) -> f64 {
-    let ahead = rounding_of_state(state, size, &guard) + scatter(state, 1.0, &guard);
+    let upwards = scatter(state, 1.0, &guard);
+    let ahead = rounding_of_state(state, size, &guard) + upwards;
     if ahead < guard(state).abs() {
         return ahead;
     }
     let own = smaller(ahead, scatter(state, -1.0, &guard));
-    let sum = rounding_beside_jumps(state, size, &guard) + own.min(scatter(state, 1.0, &guard));
+    let sum = rounding_beside_jumps(state, size, &guard) + own.min(upwards);
     if sum.is_finite() { sum } else { 0.0 }
 }
 
