@@ -79,6 +79,12 @@ impl<T: HybridSystem> Execution<'_, T> {
         if let Some((_, after)) = &after {
             // A reset that moves a guard off its surface leaves no residue.
             self.forget_residues(None, after);
+            let next = FlowFrom { system: self.system, mode: self.at.mode, start: after };
+            let rounding = next.rounding_at(surface, after);
+            let arrival = self.at.arrival.as_ref();
+            if arrival.is_some_and(|arrival| arrival.is_beyond_jump(&next, rounding)) {
+                self.at.residues.forget(surface);
+            }
         }
         let same = |(mode, after): &(T::Mode, T::State)| *mode == self.at.mode && *after == state;
         let changes_nothing = after.as_ref().is_some_and(same);

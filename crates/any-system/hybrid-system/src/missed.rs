@@ -43,8 +43,9 @@ pub(crate) fn check_missed<T: HybridSystem>(
             Arrival::new(arc, None, end, (length, LeavingGuards::new()))
         };
         let next = FlowFrom { system: arc.system, mode: arc.mode, start: end };
-        let error = arc.rounding_at(surface, end)
-            + arrival.error_after(&next, surface).max(residues.error(surface));
+        let rounding = arc.rounding_at(surface, end);
+        let by_time = arrival.error_after(&next, surface, rounding);
+        let error = rounding + by_time.max(residues.error(surface));
         if value.abs() > error {
             return Err(Error::MissedEvent {
                 mode: format!("{:?}", arc.mode),

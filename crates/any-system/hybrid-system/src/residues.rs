@@ -63,12 +63,18 @@ impl<S: Copy + PartialEq> Residues<S> {
         value: impl Fn(S) -> f64,
         rounding: impl Fn(S) -> f64,
     ) {
-        self.0.retain(|&mut Residue { surface, value: before, .. }| {
+        self.0.retain(|&mut Residue { surface, value: before, passes_later }| {
             let value = value(surface);
+            let is_behind = before * value > 0.0 || value == 0.0 && passes_later;
             Some(surface) != now
-                && before * value > 0.0
+                && is_behind
                 && (value.abs() <= before.abs() || value.abs() <= before.abs() + rounding(surface))
         });
+    }
+
+    /// The reset has moved this guard away.
+    pub(crate) fn forget(&mut self, surface: S) {
+        self.0.retain(|residue| residue.surface != surface);
     }
 
     /// The distance from zero within which a guard has had its event; 0 for a guard that is not among them.
@@ -76,9 +82,9 @@ impl<S: Copy + PartialEq> Residues<S> {
         self.of(surface).map_or(0.0, |known| known.value.abs())
     }
 
-    /// True if the guard of this surface has had its event, and has not passed through its zero yet.
-    pub(crate) fn passes_later(&self, surface: S) -> bool {
-        self.of(surface).is_some_and(|known| known.passes_later)
+    /// The side to which the guard of this surface passes, if it has had its event, and has not passed through its zero yet.
+    pub(crate) fn passes_later(&self, surface: S) -> Option<f64> {
+        self.of(surface).filter(|known| known.passes_later).map(|known| -known.value.signum())
     }
 
     fn of(&self, surface: S) -> Option<&Residue<S>> {

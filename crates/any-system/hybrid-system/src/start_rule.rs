@@ -26,7 +26,7 @@
 
 use crate::arrival::Arrival;
 use crate::crossing::{
-    Certainty, Departure, GuardedFlow, Leaving, LeavingGuards, departure, is_far,
+    Certainty, Departure, GuardedFlow, LONGEST_LOOK, Leaving, LeavingGuards, departure, is_far,
 };
 use crate::error::Error;
 use crate::guard::{Direction, Guard, Role};
@@ -104,7 +104,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         let crossed_by_flow = reached.is_some_and(|from| from * now < 0.0);
         let by_time = arrival
             .filter(|_| now != 0.0 && !crossed_by_flow)
-            .map_or(0.0, |arrival| arrival.error_after(flow, surface));
+            .map_or(0.0, |arrival| arrival.error_after(flow, surface, rounding));
         let error = rounding + by_time.max(residue);
         let on_surface = now.abs() <= error;
         let touched = arrival.is_some_and(|arrival| arrival.has_touched(flow, surface));
@@ -114,8 +114,11 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             continue;
         }
         // It has had its event at the last limit on time.
-        if on_surface && residues.passes_later(surface) && !switch {
-            leaving.push(Leaving { surface, side: -now.signum(), ahead: false });
+        if on_surface
+            && !switch
+            && let Some(side) = residues.passes_later(surface)
+        {
+            leaving.push(Leaving { surface, side, ahead: false });
             continue;
         }
         // Its event is still to come, however near: the signs of the computed trajectory decide.
@@ -126,12 +129,19 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             leaving.push(Leaving { surface, side: now.signum(), ahead: true });
             continue;
         }
+        let longest = horizon.min(LONGEST_LOOK);
+        let leads_beyond = |arrival: &Arrival<_, _, _>| {
+            now.abs() > rounding && arrival.leads_beyond(flow, surface, longest)
+        };
         let (side, certainty) = if on_surface {
             // Both are short on the time scale of the model.
             let interval = interval.filter(|interval| *interval > 0.0).unwrap_or(f64::INFINITY);
             let short = arrival.map_or(f64::INFINITY, Arrival::duration).min(interval);
             match departure(flow, surface, (error, rounding), (horizon, short), switch)? {
                 Departure::To { side, certainty } => (side, certainty),
+                Departure::Stays if beyond && arrival.is_some_and(leads_beyond) => {
+                    (now.signum(), Certainty::Sampled { interval: longest })
+                }
                 Departure::Stays => {
                     // On the side of the flow its value is the distance to the next event. Elsewhere it counts as zero.
                     if now == 0.0 || beyond {

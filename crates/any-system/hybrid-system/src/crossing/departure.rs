@@ -29,7 +29,7 @@ const SHORTEST_LOOK: f64 = 1.0 / 549_755_813_888.0;
 
 /// The longest of these times, unless the limit on time comes earlier: one unit of time, because the scale of the model
 /// is not known.
-const LONGEST_LOOK: f64 = 1.0;
+pub(crate) const LONGEST_LOOK: f64 = 1.0;
 
 /// A guard has left its surface when its value is this many times its error. A margin of a factor 4 over the error
 /// at the time 0: the error of the later value, and that of the flow in between, are not known here. A smaller
@@ -136,7 +136,8 @@ pub(crate) fn departure<F: GuardedFlow>(
             }
             return Ok(to(value, Certainty::Sampled { interval: time }));
         }
-        (time, first) = (2.0 * time, false);
+        // A look so short that the state has not moved tells nothing.
+        (time, first) = (2.0 * time, first && state == *start);
     }
     Ok(Departure::Stays)
 }

@@ -104,7 +104,8 @@ fn first_event<F: GuardedFlow>(
     };
     let mut budget = search.intervals;
     loop {
-        let found = zeros.advance(bounded, until, until >= search.horizon, &mut budget)?;
+        let horizon = (until >= search.horizon).then(|| search.horizon_reach());
+        let found = zeros.advance(bounded, until, horizon, &mut budget)?;
         return Ok(match found {
             Found::Crossing { time, error, .. } => OneGuard::Crossing { time, error },
             // The search goes on behind the touch.

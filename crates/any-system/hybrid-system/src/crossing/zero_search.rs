@@ -89,14 +89,15 @@ impl ZeroSearch {
         self.left_hidden
     }
 
-    /// Searches up to `until`. At the `horizon` no later stretch follows: a zero there, within rounding, is a crossing.
+    /// Searches up to `until`. At the horizon no later stretch follows: a zero that a function comes to within the time
+    /// `horizon` after it is a crossing there.
     ///
     /// `budget` is the number of intervals that may still be tested. After a touch a further call goes on behind it.
     pub(crate) fn advance(
         &mut self,
         function: &impl Bounded,
         until: f64,
-        horizon: bool,
+        horizon: Option<f64>,
         budget: &mut usize,
     ) -> Result<Found, Error> {
         let from = self.time;
@@ -149,7 +150,7 @@ impl ZeroSearch {
                     match (function.at(right)? - self.level).sign() {
                         Some(sign) => sign,
                         // Rounding hides the sign at the right end. The next interval decides.
-                        None if !(horizon && right >= until) => {
+                        None if horizon.is_none() || right < until => {
                             self.time = right;
                             continue;
                         }
@@ -157,7 +158,10 @@ impl ZeroSearch {
                         None => {
                             self.time = right;
                             let side = self.side.unwrap_or(slope);
-                            if slope * side < 0.0 && self.direction.admits(side, -side) {
+                            if slope * side < 0.0
+                                && self.direction.admits(side, -side)
+                                && self.is_there(function, from, (right, horizon.unwrap_or(0.0)))
+                            {
                                 let error =
                                     function.root_error(right, self.clear.max(from), right)?;
                                 return Ok(Found::Crossing {
@@ -201,15 +205,24 @@ impl ZeroSearch {
             let closest = closest(function, self.level, hidden, from, until);
             hidden.closest = Some(closest);
             let last = function.value(until) - self.level;
-            if horizon && self.side.is_some_and(|side| last * side < 0.0) {
+            if horizon.is_some() && self.side.is_some_and(|side| last * side < 0.0) {
                 // It has changed its sign on the last stretch, by a jump.
                 return Ok(self.crossing_at_horizon(from, until, last.signum()));
             }
-            if horizon && !self.unclear {
+            if horizon.is_some() && !self.unclear {
                 return Ok(Found::Undecided { time: closest.0, value: closest.1 });
             }
         }
         Ok(Found::Nothing)
+    }
+
+    /// Whether a function on its way to its zero is there at the horizon, or within a time `reach` after it.
+    fn is_there(&self, function: &impl Bounded, from: f64, (horizon, reach): (f64, f64)) -> bool {
+        let from = self.clear.max(from);
+        let [first, last] = [from, horizon].map(|time| function.value(time) - self.level);
+        let rate = (last - first) / (horizon - from);
+        let side = self.side.unwrap_or(first.signum());
+        last * side <= 0.0 || last.abs() <= rate.abs() * reach
     }
 
     /// What a change of sign to `sign` on a hidden stretch that ends at the horizon is.

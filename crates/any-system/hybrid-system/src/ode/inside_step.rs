@@ -30,6 +30,11 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         self.argument.with_components(self.vectors.row(STATE, self.n()))
     }
 
+    /// The field there.
+    pub(super) fn slope(&self) -> V {
+        self.argument.with_components(self.vectors.row(SLOPE, self.n()))
+    }
+
     /// The state at a time in the last step, by a separate step that ends there.
     ///
     /// The coefficients of the interpolant are large and cancel. This separate step loses no digits. Its stages
@@ -58,9 +63,9 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         Ok(self.argument.with_components(state))
     }
 
-    /// Degree and values at the nodes of the polynomial of the last step: at node j the state is
-    /// before + h Σᵢ bᵢ(sⱼ) kᵢ.
-    pub(super) fn inside(&mut self) -> Result<(usize, Rows<NODES>), Error> {
+    /// The polynomial of the last step: its degree, the state before the step, and the changes at the nodes. That at
+    /// node j is h Σᵢ bᵢ(sⱼ) kᵢ.
+    pub(super) fn inside(&mut self) -> Result<(usize, V, Rows<NODES>), Error> {
         let n = self.n();
         if !self.dense {
             for stage in self.scheme.stages..self.scheme.all_stages() {
@@ -72,7 +77,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
             self.dense = true;
         }
         let mut nodes = Rows::new(n);
-        let (slopes, before) = (self.slopes.all(n), self.vectors.row(BEFORE, n));
+        let slopes = self.slopes.all(n);
         for axis in 0..n {
             let mut changes = [0.0; NODES];
             for (stage, weights) in self.scheme.nodes.iter().enumerate() {
@@ -81,10 +86,11 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
                 }
             }
             for (j, change) in changes.iter().enumerate() {
-                nodes.all_mut(n)[j * n + axis] = before[axis] + self.last * change;
+                nodes.all_mut(n)[j * n + axis] = self.last * change;
             }
         }
-        Ok((self.scheme.degree, nodes))
+        let before = self.argument.with_components(self.vectors.row(BEFORE, n));
+        Ok((self.scheme.degree, before, nodes))
     }
 
     /// States along the last step that need no evaluation of the field: see

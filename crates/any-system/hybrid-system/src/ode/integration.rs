@@ -93,6 +93,11 @@ impl<F: Fn(f64, &V) -> V, V: StateVector> Integration<F, V> {
         self.inner.state()
     }
 
+    /// The field at the end of the last step.
+    pub(super) fn slope(&self) -> V {
+        self.inner.slope()
+    }
+
     /// True if the end has been reached.
     pub fn ended(&self) -> bool {
         self.inner.ended()
@@ -142,9 +147,8 @@ impl<F: Fn(f64, &V) -> V, V: StateVector> Integration<F, V> {
 
     /// The polynomial of the last step.
     pub(super) fn last_step(&mut self) -> Result<Step<V>, Error> {
-        let (degree, nodes) = self.inner.inside()?;
-        let (from, to) = self.interval();
-        Ok(Step::new(from, to, degree, self.inner.state(), nodes))
+        let (degree, before, changes) = self.inner.inside()?;
+        Ok(Step::new(self.interval(), degree, before, changes))
     }
 
     /// States along the last step that need no evaluation of the field: the states of the stages, and nine states of

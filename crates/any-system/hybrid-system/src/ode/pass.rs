@@ -2,7 +2,7 @@
 
 use super::followed_guard::GuardOnStep;
 use super::integration::Integration;
-use super::polish::{Accuracy, CorrectedStep, rate};
+use super::polish::{Accuracy, CorrectedStep};
 use super::step::Step;
 use super::tolerances::Tolerances;
 use crate::crossing::{
@@ -15,12 +15,6 @@ use crate::state::StateVector;
 use crate::system::HybridSystem;
 use smallvec::SmallVec;
 
-/// Rounding error of an interpolant, in units of that of the largest state on its step. The value is an estimate,
-/// not derived: with the factors of `guard_rounding` it is 6·10⁻¹⁴ of the state. Measured on the problem of
-/// `schemes`, steps of 1/16 and 1/32: the pair 9(8) is wrong by 2·10⁻¹⁶. If the value is too small, rounding is
-/// taken for a crossing; if it is too large, touches are reported too early.
-const INTERPOLANT_ROUNDING: f64 = 64.0;
-
 /// A step is skipped if the guard's smallest distance from zero is more than one half of its variation.
 const AWAY: f64 = 2.0;
 
@@ -31,6 +25,7 @@ const PARTS: f64 = 8.0;
 pub(super) const GUARDS_ON_STACK: usize = 8;
 
 /// One guard, followed from step to step.
+#[derive(Clone, Copy)]
 pub(super) struct Followed<S> {
     pub(super) guard: Guard<S>,
     /// The stated error of the guard's own arithmetic, or zero.
@@ -204,8 +199,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         // The middle one of three places stands for the interval: at one of them a guard may have a rate of zero,
         // and at another one it may jump.
         let rounding = move |left: f64, right: f64| {
-            let magnitude = step.magnitude();
-            let size = magnitude.filled(|axis| INTERPOLANT_ROUNDING * magnitude.components()[axis]);
+            let size = step.rounding_size();
             let middle = left + 0.5 * (right - left);
             let mut roundings = [left, middle, right]
                 .map(|time| stated + rounding_of_state(&step.state(time), &size, value));
@@ -243,8 +237,27 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         }
     }
 
-    /// No event before the horizon. A guard on its way to the surface that is nearer to it than its rounding has
-    /// its event on the horizon: the field is not evaluated beyond.
+    /// The rate at which a guard comes to its surface from `side` at the end of the last step; `None` if it goes away, or if
+    /// rounding hides the rate.
+    pub(super) fn approach<F>(
+        &self,
+        surface: T::Surface,
+        side: f64,
+        integration: &Integration<F, T::State>,
+    ) -> Option<f64>
+    where
+        F: Fn(f64, &T::State) -> T::State,
+    {
+        let state = integration.state();
+        let value = |state: &T::State| self.system.guard_value(surface, state);
+        let stated = self.system.guard_error(surface, &state);
+        let rounding = stated_or_measured(stated, &state, value);
+        let rate = guard_rate(&state, &integration.slope(), rounding, value)?;
+        (rate * side < 0.0).then_some(rate.abs())
+    }
+
+    /// No event before the horizon. A guard on its way to its surface that comes there within some ulps of time has its
+    /// event on the horizon: the field is not evaluated beyond.
     pub(super) fn at_horizon<F>(
         &self,
         followed: &[Followed<T::Surface>],
@@ -280,21 +293,18 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             }
         }
         for Followed { guard, search, .. } in followed {
-            let Some(side) = search.clear_side() else { continue };
+            let Some(side) = search.known_side() else { continue };
             let surface = guard.surface;
             let value = |state: &T::State| self.system.guard_value(surface, state);
+            let time = integration.interval().1;
+            let rate = self.approach(surface, side, &integration).unwrap_or(0.0);
             if !guard.direction.admits(side, -side)
+                || !(value(&state).abs() <= rate * self.request.horizon_reach())
                 || integration.at_rest()
-                || !(value(&state).abs()
-                    <= stated_or_measured(self.system.guard_error(surface, &state), &state, value))
             {
                 continue;
             }
             let step = integration.last_step()?;
-            if !(side * rate(&step, step.to, value) < 0.0) {
-                continue;
-            }
-            let time = step.to;
             let on_step = CorrectedStep::uncorrected(&step);
             let kind = EventKind::Crossing;
             let crossing = self.crossing(&on_step, (time, 0.0), (surface, kind), accuracy);

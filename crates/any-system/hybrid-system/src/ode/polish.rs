@@ -4,16 +4,24 @@
 use super::integration::Integration;
 use super::step::Step;
 use super::tolerances::Tolerances;
-use crate::crossing::{change_by_components, clear_distance};
+use crate::crossing::{change_by_components, clear_distance, rounding_of_state};
 use crate::error::Error;
 use crate::state::StateVector;
 use interval_arithmetic::root_beyond;
 
 /// The largest distances by which a crossing is moved when it is polished, in units of the step. The smallest distance
-/// that shows a change of sign is used. The rounding of an interpolant is about 1e-14 of a step for a guard of ordinary
-/// slope; a guard that is crossed slowly needs more. If the last value shows no change of sign, the crossing of the
-/// interpolant is kept.
-const POLISHING_REACHES: [f64; 4] = [1e-14, 1e-12, 1e-10, 1e-8];
+/// that shows a change of sign is used. The error of an interpolant moves a guard of ordinary slope by the tolerance, or by
+/// its rounding; a guard that is crossed slowly needs more. If the last value shows no change of sign, the crossing of
+/// the interpolant is kept.
+const POLISHING_REACHES: [f64; 6] = [1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4];
+
+/// Most corrections of one crossing. Each of them makes the last move smaller by the relative error of the interpolant: two
+/// are enough at tolerances up to 10⁻⁵. Each costs the stages of a step.
+const CORRECTIONS: u32 = 3;
+
+/// The rate of a polynomial of degree nine on a step is at most this many times its size, over the length of the step: 2·9²,
+/// by Markov's inequality.
+const BEND: f64 = 162.0;
 
 /// The rate of a guard at a crossing is taken over this part of the step on both sides. Over a shorter part rounding
 /// would show, over a longer one the bend of the guard.
@@ -27,6 +35,14 @@ const CLEAR: f64 = 0.75;
 /// its rate. A smaller number would take the rounding of a guard for a jump, which costs some evaluations; a larger
 /// one would give a jump an error of up to this many ulps too much.
 const JUMP: f64 = 1e3;
+
+/// Values of a guard on each side of its zero that must agree before they tell its direction: signs of pure rounding do so
+/// once in 2¹⁵. A larger number would cost evaluations of a guard that jumps, for each event.
+const AGREEING: u32 = 8;
+
+/// The first distance at which signs are compared is the time in which the state moves by so many of its roundings. At a
+/// shorter one several values would be those of one and the same rounded state.
+const STATE_ULPS: f64 = 16.0;
 
 /// How accurate a flow is: its tolerances, and the number of steps from the start.
 #[derive(Clone, Copy)]
@@ -91,11 +107,83 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
         Ok(None)
     }
 
+    /// The zero of a guard near `time`, on the shortest distance that shows a change of sign; `None` if none of them does.
+    fn zero_near(
+        &self,
+        (time, hidden): (f64, f64),
+        guard: impl Fn(&V) -> f64,
+    ) -> Result<Option<f64>, Error> {
+        let Step { from, to, .. } = *self.step;
+        let along = |time: f64| guard(&self.state(time));
+        let reaches = POLISHING_REACHES.map(|fraction| fraction * (to - from)).into_iter();
+        for reach in reaches.chain([hidden]) {
+            // A hidden stretch begins at the last double before its zero, which rounding of the difference must not miss.
+            let (left, right) = ((time - reach).next_down().max(from), (time + reach).min(to));
+            let (before, after) = (along(left), along(right));
+            if before.signum() != after.signum() {
+                // The first double at which the guard is zero, or has its new sign.
+                return Ok(Some(root_beyond(along, (left, before), (right, after))?));
+            }
+        }
+        Ok(None)
+    }
+
     /// The states beside a zero at `time`, before and behind it.
     pub(super) fn beside(&self, time: f64) -> [V; 2] {
         let Step { from, to, .. } = *self.step;
         let reach = RATE_REACH * (to - from);
         [(time - reach).max(from), (time + reach).min(to)].map(|time| self.state(time))
+    }
+
+    /// True if a guard that jumps at its zero passes it in the other direction than `rising` says.
+    ///
+    /// A sum of components is rounded, and a guard that jumps where the sum is zero changes its sign several times within
+    /// that rounding. The shortest time at which the values on each side agree tells from where the guard comes.
+    pub(super) fn crosses_back(&self, time: f64, rising: bool, guard: impl Fn(&V) -> f64) -> bool {
+        if !self.jumps(time, &guard) || !self.is_no_rounding(time, &guard) {
+            return false;
+        }
+        let Step { from, to, .. } = *self.step;
+        let sign = |time: f64| guard(&self.state(time.clamp(from, to))).signum();
+        let agreed = |distance: f64| {
+            let part = |k: u32| 1.0 - f64::from(k) / f64::from(2 * AGREEING);
+            let first = sign(time + distance);
+            let agree = (1..AGREEING).all(|k| sign(time + part(k) * distance) == first);
+            agree.then_some(first)
+        };
+        let mut distance = self.moved_by_rounding(time);
+        let longest = POLISHING_REACHES[POLISHING_REACHES.len() - 1] * (to - from);
+        while distance < longest {
+            if let (Some(before), Some(behind)) = (agreed(-distance), agreed(distance)) {
+                return before != behind && (behind > 0.0) != rising;
+            }
+            distance *= 2.0;
+        }
+        false
+    }
+
+    /// The time in which the state moves by some roundings of its largest component.
+    fn moved_by_rounding(&self, time: f64) -> f64 {
+        let [before, behind] = self.beside(time);
+        let length = 2.0 * RATE_REACH * (self.step.to - self.step.from);
+        let mut moved = behind;
+        moved.add_scaled(-1.0, &before);
+        let by_state = STATE_ULPS * f64::EPSILON * before.largest() * length / moved.largest();
+        by_state.max(2.0 * f64::EPSILON * time)
+    }
+
+    /// True if the guard changes at `time` by much more than its rounding beside it.
+    fn is_no_rounding(&self, time: f64, guard: impl Fn(&V) -> f64) -> bool {
+        let jump = (guard(&self.state(time)) - guard(&self.state(time.next_down()))).abs();
+        let beside = self.beside(time);
+        beside.iter().all(|state| jump > JUMP * rounding_of_state(state, state, &guard))
+    }
+
+    /// True if the guard jumps at its zero: it changes between two neighbouring doubles much more than by its rate.
+    fn jumps(&self, time: f64, guard: impl Fn(&V) -> f64) -> bool {
+        let rate = rate(self.step, time, &guard).abs();
+        let jump = (guard(&self.state(time)) - guard(&self.state(time.next_down()))).abs();
+        jump > JUMP * rate * (time - time.next_down())
     }
 
     /// The distance in time at which the guard differs from zero by more than its `error` there, at both sides of
@@ -143,21 +231,22 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
         accuracy: Accuracy,
     ) -> f64 {
         let error = |state: &V| accuracy.guard_error(state, &guard);
-        let state = self.state(time);
-        let rate = rate(self.step, time, &guard).abs();
-        let jump = (guard(&state) - guard(&self.state(time.next_down()))).abs();
-        let jumps = jump > JUMP * rate * (time - time.next_down());
-        let first = if jumps { 0.0 } else { error(&state) / rate };
+        let first = match self.jumps(time, &guard) {
+            true => 0.0,
+            false => error(&self.state(time)) / rate(self.step, time, &guard).abs(),
+        };
         self.clear_distance((time, time_rounding, first.max(time_rounding)), &guard, error)
     }
 }
 
-/// A crossing without the rounding error of the interpolant, and the step on which it lies.
+/// A crossing without the error of the interpolant, and the step on which it lies.
 ///
 /// A separate step from the start of the last step to `time` gives the state without that error. The difference
 /// between the two states changes little around `time`. Therefore it is added to the interpolant, and the crossing
-/// is searched again next to the old one. The rounding of the interpolant may hide the guard for a time `hidden`
-/// around the crossing: the values with the correction show a change of sign there.
+/// is searched again next to the old one. Where it has moved so far that the difference may have changed, the step is
+/// corrected there once more: an execution that ends at the time of its event ends on the surface. The rounding of the
+/// interpolant may hide the guard for a time `hidden` around the crossing: the values with the correction show a change of
+/// sign there.
 pub(super) fn polished<'a, F, V: StateVector>(
     integration: &mut Integration<F, V>,
     step: &'a Step<V>,
@@ -169,27 +258,27 @@ where
     F: Fn(f64, &V) -> V,
 {
     let uncorrected = CorrectedStep::uncorrected(step);
-    // Here the separate step would have length zero.
-    if time <= step.from {
-        return Ok((time, uncorrected));
-    }
-    let mut correction = integration.directly_at(time)?;
-    correction.add_scaled(-1.0, &step.state(time));
-    let corrected = CorrectedStep { step, correction: Some(correction) };
-    let along = |time: f64| guard(&corrected.state(time));
-    let length = step.to - step.from;
-    let reaches = POLISHING_REACHES.map(|fraction| fraction * length).into_iter();
-    for reach in reaches.chain([hidden]) {
-        let (left, right) = ((time - reach).max(step.from), (time + reach).min(step.to));
-        let (before, after) = (along(left), along(right));
-        if before.signum() != after.signum() {
-            // The first double at which the guard is zero, or has its new sign.
-            let time = root_beyond(along, (left, before), (right, after))?.min(until);
-            return Ok((time, corrected));
+    let (mut best, mut near) = ((time, uncorrected), time);
+    for _ in 0..CORRECTIONS {
+        // Here the separate step would have length zero.
+        if near <= step.from {
+            break;
         }
+        let mut correction = integration.directly_at(near)?;
+        correction.add_scaled(-1.0, &step.state(near));
+        let size = correction.largest();
+        let corrected = CorrectedStep { step, correction: Some(correction) };
+        let Some(moved) = corrected.zero_near((near, hidden), &guard)? else { break };
+        // The difference changes by this at most, if it is a polynomial like the interpolant.
+        let change = BEND * size * (moved - near).abs() / (step.to - step.from);
+        let is_rounding = change <= f64::EPSILON * corrected.state(moved).largest();
+        best = (moved.min(until), corrected);
+        if is_rounding || moved == near {
+            break;
+        }
+        near = moved;
     }
-    // The guard is crossed so slowly that the correction moves the crossing farther than the last reach.
-    Ok((time, uncorrected))
+    Ok(best)
 }
 
 /// ġ at a time of the step, by a difference along the interpolant.

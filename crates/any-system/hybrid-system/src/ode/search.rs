@@ -7,7 +7,7 @@ use super::step::Step;
 use super::tolerances::Tolerances;
 use crate::crossing::{Certainty, EventKind, Found, NextEvent, Search};
 use crate::error::Error;
-use crate::guard::{Guard, Role, Touch};
+use crate::guard::{Direction, Guard, Role, Touch};
 use crate::looked::Looked;
 use crate::system::HybridSystem;
 use smallvec::SmallVec;
@@ -22,12 +22,32 @@ const SHORTER_FIRST_STEP: f64 = 2.0;
 const SHORTER: f64 = 0.5;
 
 /// What is found first on a step.
-struct Finding<'a, S> {
+struct Finding<S> {
     found: Found,
     time: f64,
-    followed: &'a Followed<S>,
+    followed: Followed<S>,
     /// The guard had not left the zero at its start.
     leaving: bool,
+}
+
+/// A step on which something is found.
+struct OnStep<'a, S, X> {
+    step: &'a Step<X>,
+    /// The search ends here.
+    until: f64,
+    /// The number of steps from the start.
+    steps: usize,
+    /// The guards as they are where the step begins.
+    before: &'a [Followed<S>],
+}
+
+/// How long rounding hides a guard before what is found. On the step itself the polished values show it.
+fn hidden_time(found: &Found, time: f64, from: f64) -> f64 {
+    match *found {
+        Found::Touch { error, .. } => error,
+        Found::Crossing { error, hidden: true, .. } if time - error < from => error,
+        _ => 0.0,
+    }
 }
 
 /// The result of a search with one choice of the first step.
@@ -106,69 +126,105 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 continue;
             }
             let step = integration.last_step()?;
-            let sides = sides_before(&followed);
-            let first = self.first_on_step(&mut followed, &step, until, &mut budget)?;
-            let Some(Finding { found, time, followed, leaving }) = first else { continue };
-            let first_step = SHORTER_FIRST_STEP * time;
-            let hidden = leaving || matches!(found, Found::Touch { .. } | Found::Undecided { .. });
-            if hidden && step.from == 0.0 && first_step > 0.0 && first_step < SHORTER * step.to {
-                return Ok(Outcome::Hidden { first_step });
+            let before = followed.clone();
+            while let Some(finding) =
+                self.first_on_step(&mut followed, &step, until, &mut budget)?
+            {
+                let on_step = OnStep { step: &step, until, steps, before: &before };
+                if let Some(outcome) = self.event(&finding, &mut integration, &on_step)? {
+                    return Ok(outcome);
+                }
+                // The searches of the other guards begin anew on this step.
+                let passed = finding.followed.guard.surface;
+                for (now, before) in followed.iter_mut().zip(&before) {
+                    if now.guard.surface != passed {
+                        *now = *before;
+                    }
+                }
             }
-            let surface = followed.guard.surface;
-            let name = || format!("{surface:?}");
-            let value = |state: &T::State| self.system.guard_value(surface, state);
-            let accuracy = Accuracy { tolerances: self.tolerances, steps };
-            let kind = match found {
-                _ if leaving => {
-                    let (surface, looked) = (name(), Looked::OnSteps);
-                    return Err(Error::UndecidedStart { surface, interval: time, looked });
-                }
-                Found::Touch { value, .. } | Found::Undecided { value, .. }
-                    if followed.guard.touch == Touch::Error =>
-                {
-                    return Err(Error::Grazing { surface: name(), time, value });
-                }
-                Found::Touch { .. } | Found::Undecided { .. } => EventKind::Touch,
-                _ => EventKind::Crossing,
-            };
-            let (time, on_step) = match found {
-                Found::Crossing { error, .. } => {
-                    polished(&mut integration, &step, (time, error), until, value)?
-                }
-                _ => (time, CorrectedStep::uncorrected(&step)),
-            };
-            if let Some((time, sooner)) = self.sooner_on(&on_step, (Some(surface), time), &sides)? {
-                let event = (sooner, EventKind::Crossing);
-                let crossing = self.crossing(&on_step, (time, 0.0), event, accuracy);
-                return Ok(Outcome::Finished(NextEvent::Crossing(crossing)));
-            }
-            // On the step itself the polished values show how long rounding hides the guard.
-            let hidden = match found {
-                Found::Touch { error, .. } => error,
-                Found::Crossing { error, hidden: true, .. } if time - error < step.from => error,
-                _ => 0.0,
-            };
-            let crossing = self.crossing(&on_step, (time, hidden), (surface, kind), accuracy);
-            return Ok(Outcome::Finished(NextEvent::Crossing(crossing)));
         }
         self.at_horizon(&followed, integration, steps).map(Outcome::Finished)
     }
 
+    /// What is found first on a step, on the step as it is corrected there; `None` if it is no event: the guard crosses its
+    /// surface in the direction that does not count, or it is still on its way to it where the search ends.
+    fn event<F>(
+        &self,
+        finding: &Finding<T::Surface>,
+        integration: &mut Integration<F, T::State>,
+        on_step: &OnStep<T::Surface, T::State>,
+    ) -> Result<Option<Outcome<T::Surface, T::State>>, Error>
+    where
+        F: Fn(f64, &T::State) -> T::State,
+    {
+        let Finding { ref found, time, ref followed, leaving } = *finding;
+        let OnStep { step, until, steps, before } = *on_step;
+        let first_step = SHORTER_FIRST_STEP * time;
+        let hidden = leaving || matches!(found, Found::Touch { .. } | Found::Undecided { .. });
+        if hidden && step.from == 0.0 && first_step > 0.0 && first_step < SHORTER * step.to {
+            return Ok(Some(Outcome::Hidden { first_step }));
+        }
+        let surface = followed.guard.surface;
+        // Rounding hides the guard up to the end of the search, but it is still on its way to its zero.
+        if matches!(found, Found::Undecided { .. })
+            && let Some(side) = followed.search.known_side()
+            && self.approach(surface, side, integration).is_some()
+        {
+            return Ok(None);
+        }
+        let name = || format!("{surface:?}");
+        let value = |state: &T::State| self.system.guard_value(surface, state);
+        let accuracy = Accuracy { tolerances: self.tolerances, steps };
+        let kind = match *found {
+            _ if leaving => {
+                let (surface, looked) = (name(), Looked::OnSteps);
+                return Err(Error::UndecidedStart { surface, interval: time, looked });
+            }
+            Found::Touch { value, .. } | Found::Undecided { value, .. }
+                if followed.guard.touch == Touch::Error =>
+            {
+                return Err(Error::Grazing { surface: name(), time, value });
+            }
+            Found::Touch { .. } | Found::Undecided { .. } => EventKind::Touch,
+            _ => EventKind::Crossing,
+        };
+        let (time, corrected) = match *found {
+            Found::Crossing { error, rising, .. } => {
+                let polished = polished(integration, step, (time, error), until, value)?;
+                if followed.guard.direction != Direction::Either
+                    && polished.1.crosses_back(polished.0, rising, value)
+                {
+                    return Ok(None);
+                }
+                polished
+            }
+            _ => (time, CorrectedStep::uncorrected(step)),
+        };
+        let sides = sides_before(before);
+        let found_first = (Some(surface), time);
+        let (time, hidden, event) = match self.sooner_on(&corrected, found_first, &sides)? {
+            Some((time, sooner)) => (time, 0.0, (sooner, EventKind::Crossing)),
+            None => (time, hidden_time(found, time, step.from), (surface, kind)),
+        };
+        let crossing = self.crossing(&corrected, (time, hidden), event, accuracy);
+        Ok(Some(Outcome::Finished(NextEvent::Crossing(crossing))))
+    }
+
     /// The first crossing or touch of all guards on a step, no later than `until`. Of two at the same instant, that
     /// of the guard that is listed first.
-    fn first_on_step<'a>(
+    fn first_on_step(
         &self,
-        followed: &'a mut [Followed<T::Surface>],
+        followed: &mut [Followed<T::Surface>],
         step: &Step<T::State>,
         until: f64,
         budget: &mut usize,
-    ) -> Result<Option<Finding<'a, T::Surface>>, Error> {
+    ) -> Result<Option<Finding<T::Surface>>, Error> {
         let mut first: Option<Finding<T::Surface>> = None;
         let mut failure: Option<(f64, Error)> = None;
         for followed in followed.iter_mut() {
             let guard = followed.guard;
             let on_step = self.on_step(step, guard.surface, followed.stated);
-            let horizon = until >= self.request.horizon;
+            let horizon = (until >= self.request.horizon).then(|| self.request.horizon_reach());
             let found = loop {
                 match followed.search.advance(&on_step, until, horizon, budget) {
                     Ok(Found::Touch { .. } | Found::Undecided { .. })
@@ -198,6 +254,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 Ok(found) if first.as_ref().is_none_or(|first| time < first.time) => {
                     let leaving =
                         matches!(found, Found::Crossing { .. }) && followed.search.left_hidden();
+                    let followed = *followed;
                     first = Some(Finding { found, time, followed, leaving });
                 }
                 Err(error) if failure.as_ref().is_none_or(|(first, _)| time < *first) => {
