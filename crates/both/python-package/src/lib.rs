@@ -66,6 +66,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(basins::basin_labels, module)?)?;
     module.add("RASTER_VERSION", hopper_basin::RASTER_VERSION)?;
     module.add_function(wrap_pyfunction!(basins::basin_region, module)?)?;
+    module.add_function(wrap_pyfunction!(basins::layers, module)?)?;
     module.add_function(wrap_pyfunction!(basins::first_window, module)?)?;
     module.add_function(wrap_pyfunction!(basins::pixel_middles, module)?)?;
     module.add_function(wrap_pyfunction!(basins::interval_basins, module)?)?;

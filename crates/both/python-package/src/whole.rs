@@ -44,5 +44,7 @@ pub(crate) fn room_for(count: usize, bytes: usize) -> PyResult<()> {
 /// The exception where there is no memory for results.
 pub(crate) fn no_room(count: usize, bytes: usize) -> PyErr {
     let all = count as f64 * bytes as f64 / 1e9;
-    PyMemoryError::new_err(format!("{count} results need {all:.3} GB of memory, which cannot be had"))
+    PyMemoryError::new_err(format!(
+        "{count} results need {all:.3} GB of memory, which cannot be had"
+    ))
 }

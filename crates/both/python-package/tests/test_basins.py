@@ -135,3 +135,32 @@ def test_pictures_are_drawn(tmp_path):
     image = hopper.plot_basins(M=[0.2, 0.3], alpha=(5, 6), shape=(1, 1)).images[0]
     assert image.get_extent() == [0.2, 0.3, 5, 6]
     assert (tmp_path / "basins.png").stat().st_size > 1000
+
+
+def test_every_layer_is_an_array_and_a_dataset(tmp_path):
+    """What the table of layers has, Python has: as arrays, in memory, and in a store."""
+    pytest.importorskip("xarray")
+    wanted = dict(M=(0.1, 0.3), alpha=(8.0, 10.0), shape=(9, 7))
+    _, _, labels = hopper.basin_labels(**wanted)
+    numbered = [layer for layer in hopper.layers() if layer["dtype"] is not None]
+    assert {"label", "hops", "proof"} <= {layer["key"] for layer in numbered}
+    for layer in numbered:
+        key = layer["key"]
+        _, _, numbers = hopper.basin_labels(**wanted, layer=key)
+        assert (numbers.dtype, numbers.shape) == (layer["dtype"], (9, 7))
+        if layer["fates"]:
+            assert (numbers.astype(int) % 65536 == labels).all()
+        found = hopper.basins(**wanted, layer=key)
+        assert (found[key].values == numbers).all() and found[key].attrs["long_name"]
+        if layer["fates"]:
+            assert set(np.unique(numbers)) == set(found[key].attrs["flag_values"])
+        pytest.importorskip("zarr")
+        for _ in range(2):
+            stored = hopper.basins(**wanted, layer=key, store=tmp_path / f"{key}.zarr")
+            assert stored[key].dtype == layer["dtype"] and (stored[key].values == numbers).all()
+            assert stored.attrs["sha256"] == found.attrs["sha256"]
+    for key in ("coverage", "none"):
+        with pytest.raises(ValueError, match="there are 'label', 'hops', 'proof'"):
+            hopper.basins(**wanted, layer=key)
+        with pytest.raises(ValueError, match="there are 'label', 'hops', 'proof'"):
+            hopper.basin_labels(**wanted, layer=key)

@@ -183,10 +183,10 @@ def test_a_read_error_removes_nothing(tmp_path, monkeypatch):
     hopper.basins(**JOB, store=store)
     before = files(store)
 
-    def fails(path, mode):
+    def fails(path, job, mode):
         raise OSError(24, "too many open files")
 
-    monkeypatch.setattr(stores, "_labels", fails)
+    monkeypatch.setattr(stores, "_array", fails)
     with pytest.raises(OSError, match="too many"):
         hopper.basins(**JOB, store=store)
     assert files(store) == before
@@ -195,9 +195,9 @@ def test_a_read_error_removes_nothing(tmp_path, monkeypatch):
 def test_a_process_holds_one_region_at_a_time(tmp_path, monkeypatch):
     native, asked = stores._native.basin_region, []
 
-    def region(M, alpha, shape, columns, threads=None):
+    def region(M, alpha, shape, columns, **more):
         asked.append(columns)
-        return native(M, alpha, shape, columns, threads=threads)
+        return native(M, alpha, shape, columns, **more)
 
     monkeypatch.setattr(stores._native, "basin_region", region)
     hopper.basins(**JOB, store=tmp_path / "basins.zarr")

@@ -14,6 +14,8 @@ pub enum Order {
 pub enum Element {
     /// 16 bits.
     U16,
+    /// 32 bits.
+    U32,
     /// 64 bits.
     U64,
 }
@@ -41,6 +43,7 @@ pub fn npy_header(order: Order, element: Element, rows: usize, columns: usize) -
     };
     let bytes = match element {
         Element::U16 => 2,
+        Element::U32 => 4,
         Element::U64 => 8,
     };
     let mut text = format!(

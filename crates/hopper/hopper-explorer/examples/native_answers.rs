@@ -2,7 +2,7 @@
 //!
 //! `cargo run --example native_answers -- FILE`
 
-use hopper_explorer::{Depth, Layer, Window, motion, point, strip};
+use hopper_explorer::{Depth, Tile, motion, numbered, point, strip};
 use std::time::Instant;
 
 /// Ten points with fates of every kind.
@@ -44,8 +44,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut tiles = Vec::new();
     for (layer, logarithmic, x, alpha, pixels) in WINDOWS {
         let window =
-            Window { x: x.into(), logarithmic, alpha: alpha.into(), columns: pixels, rows: pixels };
-        let whole = || strip(Layer::numbered(layer)?, &window, 0..pixels);
+            Tile { x: x.into(), logarithmic, alpha: alpha.into(), columns: pixels, rows: pixels };
+        let whole = || strip(numbered(layer)?, &window, 0..pixels);
         let found = whole()?;
         // The best of some runs; a loaded machine is not measured.
         let seconds = |_| {

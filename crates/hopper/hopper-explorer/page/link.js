@@ -1,12 +1,10 @@
 // The address of a view. Doubles are written with all their digits, so that a link gives the same bits.
 import { DEEPEST } from "./deep.js";
-import { state } from "./state.js";
+import { layers, state } from "./state.js";
 import { isView } from "./view.js";
 
-const LAYERS = ["fate", "hops", "coverage", "proof"];
-
 function write({ view, layer, pin, hops, depth }) {
-  const parts = [`${view.logarithmic ? "log" : "lin"}=${[...view.x, ...view.alpha].join(",")}`, `layer=${LAYERS[layer]}`];
+  const parts = [`${view.logarithmic ? "log" : "lin"}=${[...view.x, ...view.alpha].join(",")}`, `layer=${layers[layer].key}`];
   if (pin) parts.push(`pin=${pin.m},${pin.alpha}`, `hops=${hops}`);
   if (depth) parts.push(`depth=${depth.m},${depth.alpha},${depth.depth}`);
   return `#${parts.join("&")}`;
@@ -34,8 +32,9 @@ export function read(hash) {
       good = all !== null && isView(view);
       if (good) fields.view = view;
     } else if (name === "layer") {
-      good = LAYERS.includes(value);
-      if (good) fields.layer = LAYERS.indexOf(value);
+      const found = layers.findIndex(({ key, otherKey }) => key === value || otherKey === value);
+      good = found >= 0;
+      if (good) fields.layer = found;
     } else if (name === "pin") {
       const all = doubles(value, 2);
       good = all !== null && all[0] > 0 && all[1] > 0;

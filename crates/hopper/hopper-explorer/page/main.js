@@ -15,7 +15,7 @@ import { showFate, showOrbit, showPin, showProof, showSentence } from "./point_p
 import { Pool } from "./pool.js";
 import { snippets } from "./same.js";
 import * as files from "./save.js";
-import { change, listen, say, state } from "./state.js";
+import { change, layers, listen, say, state } from "./state.js";
 import { stops } from "./tour.js";
 import { at, moved, toM, tooFine, withLogarithm, zoomed } from "./view.js";
 
@@ -38,6 +38,8 @@ const legend = await module.then((found) => WebAssembly.instantiate(found, {})).
   say(`The core cannot be loaded: ${error.message}. The page needs a web server and a browser of 2023 or newer.`);
   throw error;
 });
+layers.push(...legend.layers);
+document.getElementById("layer").replaceChildren(...layers.map(({ name }, k) => new Option(name, k)));
 const canvas = document.getElementById("canvas");
 const plane = new Plane(canvas, pool, legend);
 // After the first picture, so that they do not take its time.
@@ -193,10 +195,10 @@ function showSame() {
 
 function showLegend() {
   const swatch = ({ color, name }) => `<span><i class="swatch" style="background:${color}"></i>${pretty(name.split(":")[0])}</span>`;
-  const scale = legend.hops.map(({ color }) => color).join(",");
-  byId("legend").innerHTML = state.layer === 1 && !state.depth
-    ? `<span class="scale">0 <span style="background:linear-gradient(90deg,${scale})"></span> ${legend.hops.at(-1).hops} hops until the fate is known</span>`
-    : legend.fates.map(swatch).join("") + (state.layer === 2 || state.depth ? "<span>mixed by shares</span>" : state.layer === 3 ? swatch(legend.onlyComputed) : "");
+  const { kind, scale, color, legend: words } = state.depth ? layers.find((layer) => layer.kind === "shares") : layers[state.layer];
+  byId("legend").innerHTML = kind === "numbers"
+    ? `<span class="scale">0 <span style="background:linear-gradient(90deg,${scale.map((step) => step.color).join(",")})"></span> ${scale.at(-1).value} ${words}</span>`
+    : legend.fates.map(swatch).join("") + (kind === "shares" ? `<span>${words}</span>` : color ? swatch({ color, name: words }) : "");
 }
 
 // The tour.
@@ -286,7 +288,7 @@ keys({
   ArrowLeft: () => pan(-0.1, 0), ArrowRight: () => pan(0.1, 0), ArrowUp: () => pan(0, 0.1), ArrowDown: () => pan(0, -0.1),
   "+": scale(1 / 1.5, 1 / 1.5), "=": scale(1 / 1.5, 1 / 1.5), "-": scale(1.5, 1.5), "−": scale(1.5, 1.5),
   X: scale(1 / 1.5, 1), x: scale(1.5, 1), A: scale(1, 1 / 1.5), a: scale(1, 1.5),
-  Enter: pinCentre, h: goHome, l: () => setLogarithmic(!state.view.logarithmic), 1: setLayer(0), 2: setLayer(1), 3: setLayer(2), 4: setLayer(3),
+  Enter: pinCentre, h: goHome, l: () => setLogarithmic(!state.view.logarithmic), ...Object.fromEntries(layers.map((_, k) => [k + 1, setLayer(k)])),
   d: deepHere, t: () => goTo(0), n: () => stop >= 0 && goTo(stop + 1), p: () => stop > 0 && goTo(stop - 1),
   Escape: () => { if (state.depth) leaveDepth(); goTo(-1); },
   " ": () => play(), ",": () => step(-1), ".": () => step(1), s: saveDialog, c: dialogs.share, "?": dialogs.help,

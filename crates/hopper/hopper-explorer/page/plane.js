@@ -1,7 +1,7 @@
 // The canvas: tiles of the plane, axes, the pin. It asks for coarse tiles first, then for fine ones, and gives up what is out of view.
 import { MARGIN, fitLetters, inner, paintAxes, planeAxes } from "./axes.js";
 import { state, say } from "./state.js";
-import { COARSE, COARSE_PROOF, COVERAGE, FATE, PROOF, SIZE, TileStore, keyOf, needed, windowOf } from "./tiles.js";
+import { COARSE, QUICK, SIZE, TileStore, coarsePixels, isShares, keyOf, needed, windowOf } from "./tiles.js";
 import { place, toX } from "./view.js";
 
 export class Plane {
@@ -46,8 +46,8 @@ export class Plane {
     const focus = this.focus ?? centre;
     const pixels = this.#pixels();
     const missing = needed(state.view, state.layer, pixels, focus).filter((tile) => !this.store.isFine(tile));
-    const coarse = missing.filter((tile) => !this.store.isCoarse(tile)).map((tile) => ({ ...tile, pixels: tile.layer === PROOF ? COARSE_PROOF : COARSE }));
-    const quick = state.layer === COVERAGE ? coarse.map((tile) => ({ ...tile, layer: FATE, pixels: COARSE })).filter((tile) => !this.store.isCoarse(tile)) : [];
+    const coarse = missing.filter((tile) => !this.store.isCoarse(tile)).map((tile) => ({ ...tile, pixels: coarsePixels(tile.layer) }));
+    const quick = isShares(state.layer) ? coarse.map((tile) => ({ ...tile, layer: QUICK, pixels: COARSE })).filter((tile) => !this.store.isCoarse(tile)) : [];
     const wanted = [...quick, ...coarse, ...missing.map((tile) => ({ ...tile, pixels: SIZE }))];
     const nameOf = (tile) => `${keyOf(tile)}/${tile.pixels}`;
     const keys = new Set(wanted.map(nameOf));
@@ -58,7 +58,7 @@ export class Plane {
     const free = 2 * this.pool.members.length - this.asked.size;
     const fresh = wanted.filter((tile) => !this.asked.has(nameOf(tile)));
     fresh.slice(0, Math.max(free, 0)).forEach((tile) => this.#ask(tile, nameOf(tile)));
-    this.drawable = (state.layer === COVERAGE ? quick : coarse).length === 0;
+    this.drawable = (isShares(state.layer) ? quick : coarse).length === 0;
     this.idle = wanted.length === 0;
     if (this.idle) this.canvas.dispatchEvent(new Event("complete"));
   }

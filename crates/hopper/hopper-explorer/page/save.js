@@ -3,12 +3,12 @@ import { MARGIN, letterSize, svgAxes } from "./axes.js";
 import { address } from "./link.js";
 import { axesOf, paint } from "./plane.js";
 import { withTexts } from "./png_text.js";
-import { state } from "./state.js";
+import { layers, state } from "./state.js";
+import { isShares, stripOf } from "./tiles.js";
 import { toM } from "./view.js";
 
 /** Pixels of a table each way. */
 const TABLE = 256;
-const LAYERS = ["fate", "number of hops", "exact coverage", "proved or computed"];
 
 /** The parameters in words. */
 export function parameters(deep) {
@@ -17,7 +17,7 @@ export function parameters(deep) {
     ? deep.words()
     : `M from ${toM(view, view.x[0])} to ${toM(view, view.x[1])}${view.logarithmic ? " (logarithmic)" : ""}, alpha from ${view.alpha[0]} to ${view.alpha[1]}`;
   const point = pin ? `; pinned: M = ${pin.m}, alpha = ${pin.alpha}` : "";
-  return `Passive hopper, ${depth ? "shares about an edge" : LAYERS[layer]}: ${window}${point}`;
+  return `Passive hopper, ${depth ? "shares about an edge" : layers[layer].name}: ${window}${point}`;
 }
 
 /** Waits for the parts of the picture, as long as `wait` says so. The texts are those of the picture that is painted next. */
@@ -61,15 +61,15 @@ ${svgAxes(axesOf(plane))}
 /** A table of pixels' middles with their values, computed for exactly this window. */
 export async function csv(pool, desk, deep) {
   if (state.depth) throw new Error("the deep view has shares, no table; save it as PNG or SVG");
-  if (state.layer === 2) throw new Error("the coverage layer has shares, no table; show fates or hops to save one");
+  if (isShares(state.layer)) throw new Error(`the layer "${layers[state.layer].name}" has shares, no table; show fates or hops to save one`);
   const { view: { x, alpha, logarithmic }, layer } = state;
   // Now: the view may have changed when the answers come.
-  const lines = [`# ${parameters(deep)}`, `# ${address()}`, `M,alpha,${["label", "hops", "", "label,proved"][layer]}`];
-  const job = { layer, logarithmic, x, alpha, columns: TABLE, rows: TABLE, values: true };
+  const lines = [`# ${parameters(deep)}`, `# ${address()}`, `M,alpha,${layers[layer].columns}`];
+  const job = { layer, logarithmic, x, alpha, columns: TABLE, rows: TABLE, values: true, strip: stripOf(layer) };
   const places = await desk.ask("places", job);
   const { values } = await pool.ask("tile", job);
-  // A proved label has a bit above its code.
-  const valueOf = layer === 3 ? (value) => `${value & 0xffff},${value >> 16}` : String;
+  // A label with a flag has a bit above its code.
+  const valueOf = layers[layer].columns.includes(",") ? (value) => `${value & 0xffff},${value >> 16}` : String;
   for (let column = 0; column < TABLE; column++) {
     for (let row = 0; row < TABLE; row++) lines.push(`${places[column]},${places[TABLE + row]},${valueOf(values[column * TABLE + row])}`);
   }

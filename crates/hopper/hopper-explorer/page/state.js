@@ -8,6 +8,9 @@ export const state = {
   depth: null,    // { m, alpha, depth, about }: the deep view
 };
 
+/** The layers, as the libraries list them: key, name, kind, cost. The core fills it before anything is drawn. */
+export const layers = [];
+
 const listeners = [];
 let waiting = new Set();
 

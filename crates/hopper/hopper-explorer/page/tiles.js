@@ -1,12 +1,19 @@
 // Which tiles a view needs, and the tiles that are there. A tile is a dyadic part of the plane: its ends are exact doubles.
 
+import { layers } from "./state.js";
+
 export const SIZE = 256;
 /** Pixels of the first, coarse picture of a tile each way: a sixteenth of the work. */
 export const COARSE = 64;
-/** The same where a point takes longer. */
-export const COARSE_PROOF = 16;
-/** Numbers of layers. */
-export const [FATE, COVERAGE, PROOF] = [0, 2, 3];
+/** The same where a pixel takes many times as long as a fate; and the columns of a strip, some milliseconds of work. */
+const [COARSE_DEAR, DEAR, STRIP, STRIP_DEAR] = [16, 10, 32, 2];
+/** The number of the layer that is shown until one of shares is there. */
+export const QUICK = 0;
+
+const isDear = (layer) => layers[layer].cost > DEAR;
+export const coarsePixels = (layer) => (isDear(layer) ? COARSE_DEAR : COARSE);
+export const stripOf = (layer) => (isDear(layer) ? STRIP_DEAR : STRIP);
+export const isShares = (layer) => layers[layer].kind === "shares";
 /** A coarser tile whose picture is as good as the first one. */
 const AS_GOOD = 2;
 /** Tiles that are kept: 256 kB each. A view of 4K has 160. */
@@ -23,7 +30,7 @@ export const keyOf = (tile) => `${tile.layer}${tile.logarithmic ? "l" : ""}/${ti
 export function windowOf({ layer, logarithmic, lx, la, i, j }, pixels = SIZE) {
   const x = [i * 2 ** -lx, (i + 1) * 2 ** -lx];
   const alpha = [j * 2 ** -la, (j + 1) * 2 ** -la];
-  return { layer, logarithmic, x, alpha, columns: pixels, rows: pixels };
+  return { layer, logarithmic, x, alpha, columns: pixels, rows: pixels, strip: stripOf(layer) };
 }
 
 /** The tiles of a view, the nearest to a point first. */
@@ -80,8 +87,8 @@ export class TileStore {
     }
   }
 
-  /** The picture of a tile, or the part of a coarser one that covers it. Coverage, which takes longer, has fates until it comes. */
-  best(tile) { return this.#best(tile) ?? (tile.layer === COVERAGE ? this.#best({ ...tile, layer: FATE }) : null); }
+  /** The picture of a tile, or the part of a coarser one that covers it. Shares, which take longer, have fates until they come. */
+  best(tile) { return this.#best(tile) ?? (isShares(tile.layer) ? this.#best({ ...tile, layer: QUICK }) : null); }
 
   #best(tile) {
     for (let up = 0; up <= ANCESTORS; up++) {

@@ -3,7 +3,7 @@
 const plane = (x, alpha, more = {}) => ({ view: { logarithmic: false, x, alpha }, layer: 0, depth: null, pin: null, ...more });
 
 /** The stops; `legend` has the fixed points and the windows of the paper. */
-export const stops = ({ fixedPoints, home, figure9 }) => [
+export const stops = ({ fixedPoints, home, figure9, layers }) => [
   { title: "A lossless hop", text: "At α* the hopper lands with the spring exactly as it was at lift-off, and no energy is lost. This hop repeats for ever. Press Play.",
     fields: plane([0, 1], [home[2] - 0.3, home[3]], { pin: { m: 0.2, alpha: fixedPoints[1] }, hops: 3 }) },
   { title: "Stable from one side", text: "A start a little above α*₁ approaches it, ever more slowly. A start a little below leaves it. The cobweb shows the curve, which touches the diagonal.",
@@ -13,7 +13,7 @@ export const stops = ({ fixedPoints, home, figure9 }) => [
   { title: "The crisis", text: "At M = 0.1035 the minimum of the first hump touches the fixed point. For larger M orbits escape below it, and the green basin breaks up.",
     fields: plane([0.08, 0.14], [home[2] - 0.1, 7.9], { pin: { m: 0.1035, alpha: 6.0 }, hops: 6 }) },
   { title: "Needles", text: "The basins are long along M and thin along α. The layer of exact coverage shows needles that are thinner than a pixel. M and α zoom separately: hold Shift or Alt.",
-    fields: plane(figure9.slice(0, 2), figure9.slice(2), { layer: 2 }) },
+    fields: plane(figure9.slice(0, 2), figure9.slice(2), { layer: layers.findIndex(({ key }) => key === "coverage") }) },
   { title: "What is no Cantor set", text: "It looks fractal at any scale. But every boundary point falls onto a fixed point after finitely many hops: the boundary is countable, and its points gather only beside others.",
     fields: plane([0.1745, 0.1755], [17.38, 17.42], { pin: { m: 0.175, alpha: 17.399 }, hops: 6 }) },
   { title: "The circle", text: "Left of a fixed point an orbit leaves slowly, and only the fraction of a hop decides. The fates lie on a circle that is passed once a hop: the same shares at every scale. Open the circle of fates.",

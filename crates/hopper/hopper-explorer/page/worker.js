@@ -1,11 +1,6 @@
 // A worker: answers one job after the other. A tile is computed in strips, so that a newer wish can stop it between two of them.
 import { Core, Refusal } from "./core.js";
 
-/** Columns of a strip: some milliseconds of work. */
-const STRIP = 32;
-/** The same for proofs, which take up to a hundred times as long. */
-const STRIP_OF_PROOFS = 2;
-
 let core = null;
 let wanted = null; // the tile in work; another value stops it
 
@@ -20,7 +15,7 @@ async function tile(id, job) {
   const { columns, rows } = job;
   const image = new ImageData(columns, rows);
   const values = job.values ? new Uint32Array(columns * rows) : null;
-  const wide = job.layer === 3 ? STRIP_OF_PROOFS : STRIP;
+  const wide = job.strip ?? columns;
   for (let from = 0; from < columns; from += wide) {
     const to = Math.min(from + wide, columns);
     const strip = core.tile(job, from, to);

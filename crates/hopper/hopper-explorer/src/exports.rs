@@ -5,7 +5,7 @@ use crate::answer;
 use crate::depth::Depth;
 use crate::json::Json;
 use crate::refusal::Refusal;
-use crate::tile::{Layer, Window, strip};
+use crate::tile::{Tile, numbered, strip};
 use std::cell::RefCell;
 
 /// The address of the last answer.
@@ -42,14 +42,9 @@ pub(crate) extern "C" fn tile(
     from: usize,
     to: usize,
 ) -> u32 {
-    let window = Window {
-        x: (left, right),
-        logarithmic: logarithmic != 0,
-        alpha: (bottom, top),
-        columns,
-        rows,
-    };
-    let found = Layer::numbered(layer).and_then(|layer| strip(layer, &window, from..to));
+    let logarithmic = logarithmic != 0;
+    let tile = Tile { x: (left, right), logarithmic, alpha: (bottom, top), columns, rows };
+    let found = numbered(layer).and_then(|layer| strip(layer, &tile, from..to));
     answer::keep(found.map(|strip| {
         let mut bytes = strip.pixels;
         bytes.extend(strip.values.iter().flat_map(|value| value.to_le_bytes()));
@@ -69,8 +64,8 @@ pub(crate) extern "C" fn places(
     rows: usize,
 ) -> u32 {
     let logarithmic = logarithmic != 0;
-    let window = Window { x: (left, right), logarithmic, alpha: (bottom, top), columns, rows };
-    doubles(crate::tile::places(&window))
+    let tile = Tile { x: (left, right), logarithmic, alpha: (bottom, top), columns, rows };
+    doubles(crate::tile::places(&tile))
 }
 
 /// Colours, names and windows, as JSON.

@@ -2,13 +2,13 @@
 
 use crate::json::{Json, numbers, objects};
 use crate::labels;
-use crate::tile::{DARKEST_HOPS, ONLY_COMPUTED};
+use crate::tile::darkest;
 use basin_of_attraction::Label;
 use hopper_basin::{FIG_8, FIG_9, FigureWindow, HopperFate, RASTER_VERSION, first_humps};
-use hopper_figures::{fate_colors, hop_color};
+use hopper_figures::{Content, LAYERS, Layer, Meaning, Values, WITHOUT_FLAG, fate_colors};
 use passive_hopper::alpha_star;
 
-/// Colours of the scale of hops: more are not told apart.
+/// Colours of a scale of numbers: more are not told apart.
 const STEPS: u64 = 32;
 
 /// Fixed points with a name in the legend and a place on the axis.
@@ -25,32 +25,54 @@ pub(crate) fn legend_json() -> Json {
     let mut fates: Vec<Label> = all.collect();
     fates.extend([HopperFate::GROUNDED, HopperFate::UNDECIDED]);
     fates.dedup_by_key(|label| fate_colors::css(*label));
-    // Equal steps of the scale are equal steps of log(1 + hops).
-    let hops_at = |step: u64| {
-        let part = step as f64 / STEPS as f64;
-        (pxfm::f_exp(part * pxfm::f_log(1.0 + DARKEST_HOPS as f64)) - 1.0).round() as u64
-    };
-    let scale = (0..=STEPS).map(|step| {
-        let hops = hops_at(step);
-        let [red, green, blue] = hop_color(hops, DARKEST_HOPS);
-        Json::object()
-            .integer("hops", hops)
-            .text("color", &format!("#{red:02x}{green:02x}{blue:02x}"))
-    });
-    let [red, green, blue] = ONLY_COMPUTED;
-    let only_computed = Json::object()
-        .text("name", "computed, not proved")
-        .text("color", &format!("#{red:02x}{green:02x}{blue:02x}"));
     let humps = first_humps(5);
     Json::object()
         .integer("rasterVersion", u64::from(RASTER_VERSION))
         .json("fates", objects(fates.into_iter().map(labels::label)))
-        .json("onlyComputed", only_computed)
-        .json("hops", objects(scale))
+        .json("layers", objects(LAYERS.iter().map(layer)))
         .json("fixedPoints", numbers((0..=FIXED_POINTS).map(alpha_star)))
         .json("home", numbers([0.0, 1.0, humps.left, humps.right]))
         .json("figure8", window(&FIG_8))
         .json("figure9", window(&FIG_9))
+}
+
+/// What the page must know of a layer.
+fn layer(of: &Layer) -> Json {
+    let own = Json::object()
+        .text("key", of.key)
+        .text("otherKey", of.other_key)
+        .text("name", of.name)
+        .text("legend", of.legend)
+        .number("cost", of.cost);
+    match &of.content {
+        Content::Shares(_) => own.text("kind", "shares"),
+        Content::Values(values) => {
+            let columns = values.table_columns(of.key).join(",");
+            let own = own.text("columns", &columns);
+            match values.meaning {
+                Meaning::Numbers { .. } => {
+                    own.text("kind", "numbers").json("scale", objects(scale(values)))
+                }
+                Meaning::Fates { flag: None } => own.text("kind", "fates"),
+                Meaning::Fates { flag: Some(_) } => {
+                    own.text("kind", "fates").text("color", WITHOUT_FLAG.css)
+                }
+            }
+        }
+    }
+}
+
+/// The scale of numbers: equal steps of it are equal steps of log(1 + number).
+fn scale(values: &Values) -> impl Iterator<Item = Json> {
+    let largest = darkest(values);
+    (0..=STEPS).map(move |step| {
+        let part = step as f64 / STEPS as f64;
+        let value = (pxfm::f_exp(part * pxfm::f_log(1.0 + largest as f64)) - 1.0).round() as u64;
+        let [red, green, blue] = values.color(value, largest);
+        Json::object()
+            .integer("value", value)
+            .text("color", &format!("#{red:02x}{green:02x}{blue:02x}"))
+    })
 }
 
 fn window(of: &FigureWindow) -> Json {

@@ -11,7 +11,7 @@
 //!
 //! | item | role |
 //! |---|---|
-//! | [`Window`], [`Layer`], [`PROVED`], [`ONLY_COMPUTED`], [`strip`], [`places`] | pixels of the (M, α) plane: fates, numbers of hops, shares, proofs |
+//! | [`Tile`], [`TileStrip`], [`numbered`], [`strip`], [`places`] | pixels of the (M, α) plane, layer by layer of `hopper_figures::LAYERS` |
 //! | [`point`], [`proof`] | a fate with its reasons, and the orbit hop by hop; whether the fate is proved |
 //! | [`map`] | the map at one M: its pieces, fixed points, traps and crises |
 //! | [`motion`], [`units`] | both masses against time; metres and seconds |
@@ -42,4 +42,4 @@ pub use map::map;
 pub use motion::{motion, units};
 pub use point::{point, proof};
 pub use refusal::Refusal;
-pub use tile::{Layer, ONLY_COMPUTED, PROVED, Strip, Window, places, strip};
+pub use tile::{Tile, TileStrip, numbered, places, strip};

@@ -3,20 +3,25 @@
 use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{Fates, HopperFate, basin_columns};
 use hopper_explorer::{
-    Depth, Layer, ONLY_COMPUTED, PROVED, Window, circle, intervals, legend, map, motion, places,
-    point, proof, strip, units,
+    Depth, Tile, circle, intervals, legend, map, motion, numbered, places, point, proof, strip,
+    units,
 };
-use hopper_figures::fate_colors;
+use hopper_figures::{FLAG, Layer, WITHOUT_FLAG, fate_colors};
 use passive_hopper::MassRatio;
 
-fn window(x: (f64, f64), logarithmic: bool, alpha: (f64, f64), pixels: usize) -> Window {
-    Window { x, logarithmic, alpha, columns: pixels, rows: pixels }
+fn window(x: (f64, f64), logarithmic: bool, alpha: (f64, f64), pixels: usize) -> Tile {
+    Tile { x, logarithmic, alpha, columns: pixels, rows: pixels }
+}
+
+#[allow(clippy::unwrap_used)] // a test that names a layer that is none fails
+fn layer(key: &str) -> &'static Layer {
+    Layer::of(key).unwrap()
 }
 
 #[test]
 fn a_tile_has_the_labels_and_colours_of_the_library() {
     let of = window((0.1, 1.0), false, (4.5, 20.0), 48);
-    let found = strip(Layer::Fate, &of, 0..48).unwrap();
+    let found = strip(layer("label"), &of, 0..48).unwrap();
     let interval = |(from, to): (f64, f64)| Interval::new(from, to).unwrap();
     let grid = Grid { x: interval(of.x), y: interval(of.alpha), columns: 48, rows: 48 };
     let labels = basin_columns(&grid, 0..48).unwrap();
@@ -29,7 +34,9 @@ fn a_tile_has_the_labels_and_colours_of_the_library() {
 
 #[test]
 fn strips_make_the_tile() {
-    for (layer, logarithmic) in [(Layer::Fate, false), (Layer::Fate, true), (Layer::Hops, true)] {
+    for (layer, logarithmic) in
+        [(layer("label"), false), (layer("label"), true), (layer("hops"), true)]
+    {
         let of = window((0.1, 0.4), logarithmic, (4.5, 9.0), 20);
         let whole = strip(layer, &of, 0..20).unwrap();
         let parts = [0..7, 7..20].map(|part| strip(layer, &of, part).unwrap().values);
@@ -42,12 +49,12 @@ fn strips_make_the_tile() {
 fn a_fate_is_proved_or_computed() {
     let of = window((0.01, 1.0), false, (100.0, 120.0), 24);
     let [found, computed] =
-        [Layer::Proof, Layer::Fate].map(|layer| strip(layer, &of, 0..24).unwrap());
-    let bare: Vec<u32> = found.values.iter().map(|value| value & (PROVED - 1)).collect();
+        [layer("proof"), layer("label")].map(|layer| strip(layer, &of, 0..24).unwrap());
+    let bare: Vec<u32> = found.values.iter().map(|value| value & (FLAG as u32 - 1)).collect();
     assert_eq!(bare, computed.values);
-    let proved = found.values.iter().filter(|&&value| value >= PROVED).count();
+    let proved = found.values.iter().filter(|&&value| value >= FLAG as u32).count();
     assert!(proved > 500 && proved < 24 * 24, "{proved}");
-    let open = found.pixels.chunks(4).filter(|pixel| pixel[..3] == ONLY_COMPUTED).count();
+    let open = found.pixels.chunks(4).filter(|pixel| pixel[..3] == WITHOUT_FLAG.rgb).count();
     assert_eq!(open, 24 * 24 - proved);
     assert!(proof(0.2, 4.55).unwrap().contains(r#""name":"to α*_1""#));
     // Enclosures do not tell on which side of α*_1 its double lies.
@@ -58,7 +65,7 @@ fn a_fate_is_proved_or_computed() {
 #[test]
 fn the_logarithmic_axis_has_the_fates_of_its_places() {
     let of = window((-3.0, 0.0), true, (4.5, 9.0), 12);
-    let found = strip(Layer::Fate, &of, 0..12).unwrap();
+    let found = strip(layer("label"), &of, 0..12).unwrap();
     let at = places(&of).unwrap();
     for (column, &m) in at[..12].iter().enumerate() {
         let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
@@ -118,7 +125,7 @@ fn wrong_questions_are_refused_with_words() {
     assert!(map(0.2, 0.0, 1e9, 50).is_err() && map(0.2, 3.0, 2.0, 50).is_err());
     assert!(motion(0.2, 7.0, 100_000).is_err() && circle(0.2, 0).is_err());
     assert!(units(0.2, -1.0, 120.0, 9.81).is_err() && intervals(0.2, 3, 2).is_err());
-    let tile = |of: Window| strip(Layer::Fate, &of, 0..1).is_err();
+    let tile = |of: Tile| strip(layer("label"), &of, 0..1).is_err();
     assert!(
         tile(window((0.1, 0.2), false, (4.0, 5.0), 0))
             && tile(window((0.1, 0.2), false, (4.0, 5.0), 1 << 20))
@@ -127,8 +134,8 @@ fn wrong_questions_are_refused_with_words() {
         tile(window((nan, 0.2), false, (4.0, 5.0), 4))
             && tile(window((0.1, 0.2), false, (-9.0, 5.0), 4))
     );
-    assert!(strip(Layer::Fate, &window((0.1, 0.2), false, (4.0, 5.0), 4), 3..9).is_err());
-    assert!(Layer::numbered(4).is_err());
+    assert!(strip(layer("label"), &window((0.1, 0.2), false, (4.0, 5.0), 4), 3..9).is_err());
+    assert!(numbered(4).is_err());
     let depth = Depth::near(0.12, 11.920553918335775).unwrap();
     assert!(
         depth.frame(nan, 4, 4).is_err()

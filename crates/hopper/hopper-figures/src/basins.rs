@@ -11,7 +11,7 @@ pub type Inset = ((f64, f64), (f64, f64), &'static str);
 
 /// A window of (M, α), with the name and the layout of its figure.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Window {
+pub struct BasinWindow {
     /// The name of the figure in error messages, and of its file.
     pub name: &'static str,
     /// Mass ratios from and to.
@@ -31,13 +31,17 @@ pub const PIXELS: usize = 1200;
 ///
 /// # Errors
 /// As [`label_png`].
-pub fn draw_basins(window: &Window, image: &LabelImage) -> Result<Svg, Error> {
+pub fn draw_basins(window: &BasinWindow, image: &LabelImage) -> Result<Svg, Error> {
     let pixels = label_png(window.name, image)?;
     Ok(draw_pixels(window, &pixels, image.counts().into_iter().map(|(label, _)| label)))
 }
 
 /// The drawing of the pixels of a window, a PNG, with axes and a legend.
-pub fn draw_pixels(window: &Window, pixels: &[u8], labels: impl Iterator<Item = Label>) -> Svg {
+pub fn draw_pixels(
+    window: &BasinWindow,
+    pixels: &[u8],
+    labels: impl Iterator<Item = Label>,
+) -> Svg {
     let (x, y) = (window.mass_ratio, window.alpha);
     let mut svg = Svg::new(580.0, 560.0);
     let frame = Frame::linear(66.0, 44.0, 490.0, 460.0, x, y);

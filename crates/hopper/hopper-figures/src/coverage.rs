@@ -1,6 +1,6 @@
 //! The drawing of a coverage raster: every pixel has the colours of its basins, mixed by their shares.
 
-use crate::basins::{Window, draw_pixels};
+use crate::basins::{BasinWindow, draw_pixels};
 use crate::error::Error;
 use crate::fate_colors::mixed;
 use basin_of_attraction::Label;
@@ -16,7 +16,7 @@ const SHARED_OUT: f64 = 0.125;
 ///
 /// # Errors
 /// As [`coverage_png`].
-pub fn draw_coverage(window: &Window, raster: &ShareRaster) -> Result<Svg, Error> {
+pub fn draw_coverage(window: &BasinWindow, raster: &ShareRaster) -> Result<Svg, Error> {
     let pixels = coverage_png(window.name, raster)?;
     let grid = raster.grid();
     let all = (0..grid.rows).flat_map(|row| (0..grid.columns).map(move |column| (column, row)));

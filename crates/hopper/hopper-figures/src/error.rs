@@ -2,6 +2,12 @@
 
 use thiserror::Error;
 
+impl From<basin_of_attraction::Error> for Error {
+    fn from(error: basin_of_attraction::Error) -> Self {
+        Error::Basin(error.into())
+    }
+}
+
 /// Why a figure could not be drawn.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -15,6 +21,9 @@ pub enum Error {
     /// A trap could not be computed.
     #[error(transparent)]
     Basin(#[from] hopper_basin::Error),
+    /// A proof could not be tried.
+    #[error(transparent)]
+    Proof(#[from] hopper_proof::Error),
     /// A window of speeds that is empty.
     #[error("a window of speeds must increase, not go from {from:?} to {to:?}")]
     EmptyWindow {

@@ -1,6 +1,6 @@
 //! The picture of a raster of numbers of hops.
 
-use crate::basins::Window;
+use crate::basins::BasinWindow;
 use crate::error::Error;
 use basin_of_attraction::Grid;
 use journal_figures::{Anchor, Frame, Pen, Svg, rgb_png, ticks};
@@ -17,7 +17,7 @@ const STEPS: usize = 64;
 ///
 /// # Errors
 /// [`Error::Figure`] if the numbers are not one for each pixel, or there are none.
-pub fn draw_hops(window: &Window, grid: &Grid, hops: &[u64]) -> Result<Svg, Error> {
+pub fn draw_hops(window: &BasinWindow, grid: &Grid, hops: &[u64]) -> Result<Svg, Error> {
     let largest = hops.iter().copied().max().unwrap_or(0);
     let rows = hops.chunks(grid.columns.max(1)).rev();
     let pixels: Vec<u8> = rows.flatten().flat_map(|&count| hop_color(count, largest)).collect();
@@ -105,7 +105,7 @@ mod tests {
         let x = Interval::new(0.1, 1.0).unwrap_or_else(|error| panic!("{error}"));
         let grid = Grid { x, y: x, columns: 2, rows: 2 };
         let range = (x.left, x.right);
-        let window = Window {
+        let window = BasinWindow {
             name: "hops",
             mass_ratio: range,
             alpha: range,

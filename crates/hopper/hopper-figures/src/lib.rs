@@ -3,7 +3,8 @@
 //!
 //! | item | role |
 //! |---|---|
-//! | [`draw_basins`], [`Window`] | a raster of fates with axes, legend and the frame of an inset |
+//! | [`LAYERS`], [`Layer`], [`LayerColumns`], [`draw_layer`] | the table of what the pixels of a raster can show: fates, hops, shares, proofs |
+//! | [`draw_basins`], [`BasinWindow`] | a raster of fates with axes, legend and the frame of an inset |
 //! | [`label_png`], [`legend`] | its pixels alone; its legend alone |
 //! | [`draw_shares`], [`share_png`], [`share_pixels`], [`share_words`] | a raster whose pixels cover several fates |
 //! | [`draw_coverage`], [`coverage_png`], [`coverage_pixels`] | the same over (M, α), with undecided parts |
@@ -35,6 +36,8 @@ mod error;
 pub mod fate_colors;
 mod graph;
 mod hops;
+mod layer_columns;
+mod layers;
 mod machine;
 mod map_plot;
 mod motion;
@@ -45,11 +48,15 @@ mod shares;
 mod zoom;
 
 pub use animation::{AnimationForm, animation, frame_png};
-pub use basins::{Inset, PIXELS, Window, draw_basins, draw_pixels, label_png, legend};
+pub use basins::{BasinWindow, Inset, PIXELS, draw_basins, draw_pixels, label_png, legend};
 pub use coverage::{coverage_pixels, coverage_png, draw_coverage};
 pub use error::Error;
 pub use graph::{Graph, cuts, cuts_between, graph_pieces};
 pub use hops::{draw_hops, hop_color};
+pub use layer_columns::LayerColumns;
+pub use layers::{
+    Content, FLAG, LAYERS, Layer, Meaning, Values, WITHOUT_FLAG, draw_layer, label_of,
+};
 pub use machine::{draw_block, draw_ground, draw_spring};
 pub use map_plot::MapPlot;
 pub use motion::{Motion, MotionEvent, Sample};

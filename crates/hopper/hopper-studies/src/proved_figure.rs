@@ -5,7 +5,7 @@ use crate::job::Job;
 use crate::repository::Progress;
 use basin_of_attraction::{Grid, Interval, Label};
 use hopper_basin::{FigureWindow, HopperFate, first_humps};
-use hopper_figures::{Window, draw_pixels, fate_colors};
+use hopper_figures::{BasinWindow, draw_pixels, fate_colors};
 use hopper_proof::{Evidence, ProvedCells, ProvedLine, ProvedStrip, proved_strips};
 use journal_figures::{Svg, rgb_png};
 use std::ops::ControlFlow;
@@ -122,6 +122,6 @@ pub(crate) fn draw_window(
     png: &[u8],
     labels: impl Iterator<Item = Label>,
 ) -> Svg {
-    let window = Window { name, mass_ratio, alpha, inset: None, tick_counts: (6, 8) };
+    let window = BasinWindow { name, mass_ratio, alpha, inset: None, tick_counts: (6, 8) };
     draw_pixels(&window, png, labels)
 }

@@ -59,6 +59,8 @@ enum Outcome<S, X> {
     },
 }
 
+type OutcomeOf<T> = Outcome<<T as HybridSystem>::Surface, <T as HybridSystem>::State>;
+
 /// Follows `field` from `start` until a guard of `mode` has an event, or to the horizon of `request`.
 pub(super) fn search<T>(
     system: &T,
@@ -153,7 +155,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         finding: &Finding<T::Surface>,
         integration: &mut Integration<F, T::State>,
         on_step: &OnStep<T::Surface, T::State>,
-    ) -> Result<Option<Outcome<T::Surface, T::State>>, Error>
+    ) -> Result<Option<OutcomeOf<T>>, Error>
     where
         F: Fn(f64, &T::State) -> T::State,
     {

@@ -38,6 +38,7 @@ from ._native import (
     interval_basins,
     label_colour,
     label_name,
+    layers,
     motion_arrays,
     trap,
 )
@@ -72,6 +73,7 @@ __all__ = [
     "label_colour",
     "label_name",
     "labelling",
+    "layers",
     "motion",
     "motion_arrays",
     "plot_basins",

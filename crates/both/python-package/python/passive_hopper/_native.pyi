@@ -101,7 +101,9 @@ def basin_labels(
     alpha: tuple[float, float] | None = ...,
     shape: tuple[int, int] = ...,
     progress: Callable[[int, int], Any] | bool | None = ...,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint16]]: ...
+    layer: str = "label",
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[Any]]: ...
+def layers() -> list[dict[str, Any]]: ...
 def interval_basins(
     mass_ratio: float,
     first: int = 1,
@@ -135,7 +137,8 @@ def basin_region(
     columns: tuple[int, int],
     threads: int | None = None,
     progress: Callable[[int, int], Any] | bool | None = None,
-) -> NDArray[np.uint16]: ...
+    layer: str = "label",
+) -> NDArray[Any]: ...
 def first_window() -> tuple[float, float]: ...
 def pixel_middles(
     window: tuple[tuple[float, float], tuple[float, float]], shape: tuple[int, int]

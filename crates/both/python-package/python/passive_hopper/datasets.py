@@ -23,11 +23,13 @@ def basins(
     progress: Callable[[int, int], Any] | bool | None = None,
     store: str | os.PathLike[str] | None = None,
     client: distributed.Client | None = None,
+    layer: str = "label",
 ) -> xarray.Dataset:
     """The basins over a window of (M, α), as an ``xarray.Dataset`` with the dimensions ``M`` and ``alpha``.
 
     ``alpha`` is the window of the paper, from α*_1 to α*_6, unless given. Each label is the fate of its pixel's middle. The variable
-    ``label`` has the attributes ``flag_values`` and ``flag_meanings`` of the CF conventions. ``progress(done, all)`` counts columns;
+    ``label`` has the attributes ``flag_values`` and ``flag_meanings`` of the CF conventions. Another ``layer`` of ``layers()`` has its
+    own variable: ``hops`` until the fate is known, or ``proof``, whose labels say whether the fate is proved. ``progress(done, all)`` counts columns;
     ``progress=True`` shows a bar of tqdm.
 
     >>> from passive_hopper import basins
@@ -47,6 +49,7 @@ def basins(
     M = tuple(float(end) for end in M)
     alpha = tuple(float(end) for end in (_native.first_window() if alpha is None else alpha))
     shape = tuple(operator.index(side) for side in shape)
+    layer = layer_of(layer)["key"]
     if any(side < 1 for side in shape):
         raise ValueError(f"a raster has at least one pixel across and up, not {shape}")
     for name, window in (("M", M), ("alpha", alpha)):
@@ -60,14 +63,13 @@ def basins(
             raise TypeError(f"client is a dask.distributed.Client, not {client!r}")
         from .stores import write_basins
 
-        return write_basins(store, (M, alpha, shape), client=client, progress=progress)
+        return write_basins(store, (M, alpha, shape, layer), client=client, progress=progress)
     if client is not None:
         raise ValueError("the workers of a client write into a store: give store='….zarr' as well")
-    _, _, labels = _native.basin_labels(M=M, alpha=alpha, shape=shape, progress=progress)
+    _, _, numbers = _native.basin_labels(M=M, alpha=alpha, shape=shape, progress=progress, layer=layer)
     import numpy
 
-    codes = numpy.unique(labels)
-    return dataset(M, alpha, shape, labels, codes, hashlib.sha256(labels).hexdigest())
+    return dataset((M, alpha, shape, layer), numbers, numpy.unique(numbers), hashlib.sha256(numbers).hexdigest())
 
 
 def import_xarray(name, other):
@@ -79,7 +81,16 @@ def import_xarray(name, other):
     return xarray
 
 
-def coordinates(M, alpha, shape):
+def layer_of(key):
+    """The entry of a layer of numbers."""
+    found = [layer for layer in _native.layers() if layer["key"] == key and layer["dtype"] is not None]
+    if not found:
+        known = "', '".join(layer["key"] for layer in _native.layers() if layer["dtype"] is not None)
+        raise ValueError(f"there is no layer {key!r} of numbers; there are '{known}'")
+    return found[0]
+
+
+def coordinates(M, alpha, shape, layer):
     """The coordinates of a raster: names, values and attributes."""
     ratios, speeds = _native.pixel_middles((M, alpha), shape)
     return {
@@ -88,37 +99,45 @@ def coordinates(M, alpha, shape):
     }
 
 
-def job_attributes(M, alpha, shape):
-    """The attributes that say which job it is: the same for the same labels."""
+def job_attributes(M, alpha, shape, layer):
+    """The attributes that say which job it is: the same for the same numbers."""
+    # The first layer is not named: its stores are older than the others.
+    named = "" if layer == _native.layers()[0]["key"] else f", layer={layer!r}"
     return {
         "Conventions": CONVENTIONS,
         "title": "basins of a passive hopper",
         "source": f"passive_hopper {_native.__version__}",
         "computation": int(_native.RASTER_VERSION),
-        "command": f"passive_hopper.basins(M={M!r}, alpha={alpha!r}, shape={shape!r})",
+        "command": f"passive_hopper.basins(M={M!r}, alpha={alpha!r}, shape={shape!r}{named})",
         # Without a date: the same call gives the same file.
         "history": f"computed by passive_hopper {_native.__version__}",
     }
 
 
-def label_attributes(codes):
-    """The attributes of labels, for the codes that occur; without any, those of labels that are not there yet."""
+def number_attributes(layer, numbers):
+    """The attributes of the numbers that occur; without any, those of numbers that are not there yet."""
     import numpy
 
-    if not len(codes):
-        return {"long_name": "fate"}
-    codes = numpy.array(sorted(codes), dtype="uint16")
-    return flag_attributes(codes, [_native.label_name(int(code)) for code in codes], "fate")
+    own = layer_of(layer)
+    if not own["fates"]:
+        return {"long_name": own["about"], "units": "1"}
+    if not len(numbers):
+        return {"long_name": own["name"]}
+    codes = numpy.array(sorted(numbers), dtype=own["dtype"])
+    flag = own["columns"][1:]
+    # A label with a flag has a bit above its code.
+    words = [" ".join([_native.label_name(int(code) & 0xFFFF), *(flag if code >> 16 else [])]) for code in codes.tolist()]
+    return flag_attributes(codes, words, own["name"])
 
 
-def dataset(M, alpha, shape, labels, codes, sha256):
+def dataset(job, numbers, occurring, sha256):
     """A raster in memory."""
     import xarray
 
     return complete(
         xarray.Dataset(
-            {"label": (("M", "alpha"), labels, label_attributes(codes))},
-            coords={name: (name, *own) for name, own in coordinates(M, alpha, shape).items()},
-            attrs=job_attributes(M, alpha, shape) | {"sha256": sha256},
+            {job[3]: (("M", "alpha"), numbers, number_attributes(job[3], occurring))},
+            coords={name: (name, *own) for name, own in coordinates(*job).items()},
+            attrs=job_attributes(*job) | {"sha256": sha256},
         )
     )

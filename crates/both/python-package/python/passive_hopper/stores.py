@@ -4,7 +4,7 @@ A region is a strip of columns, and one shard: one file, which appears under its
 decoded is finished; each part of it has a checksum. The same region has the same bytes, whoever computes it and however often. So
 processes and workers may be killed at any instant, and a region may be computed twice.
 
-What is on disk is never believed. Beside the array, ``label/digests`` has a note for each region: the SHA-256 of its labels as they were computed.
+What is on disk is never believed. Beside the array, the folder ``digests`` has a note for each region: the SHA-256 of its numbers as they were computed.
 A region counts as finished if its labels have this digest; one that was changed, copied from another region, or damaged is computed again. So are
 coordinates, and the metadata of the group and of its arrays: they are compared with those of a new store of the same job. The digest of the
 whole store is that of the notes' labels, read back.
@@ -23,7 +23,7 @@ from . import _native
 from ._files import write_whole
 from ._progress import function_of
 from ._conventions import complete
-from .datasets import coordinates, import_xarray, job_attributes, label_attributes
+from .datasets import coordinates, import_xarray, job_attributes, layer_of, number_attributes
 
 #: Columns of a region. More make larger files and later progress; fewer make many small files. 64 columns of 16384 pixels are 2 MB.
 REGION = 64
@@ -36,7 +36,7 @@ TRIALS = 20
 
 
 def write_basins(store, job, client=None, progress=None):
-    """The raster of a job (M, α, shape) in a store, as a lazy Dataset. What is finished there is kept."""
+    """The raster of a job (M, α, shape, layer) in a store, as a lazy Dataset. What is finished there is kept."""
     xarray = import_xarray("basins", "basin_labels gives the same as arrays.")
     _import_zarr()
     progress = function_of(progress)
@@ -60,7 +60,7 @@ def write_basins(store, job, client=None, progress=None):
     else:
         _by_cluster(client, path, job, missing, count)
     _finish(path, job, regions)
-    return _opened(xarray.open_zarr(path, chunks=None if client is None else {}, consolidated=False))
+    return _opened(xarray.open_zarr(path, chunks=None if client is None else {}, consolidated=False), job[3])
 
 
 def _stored(attributes):
@@ -68,15 +68,15 @@ def _stored(attributes):
     return {name: value.tolist() if hasattr(value, "tolist") else value for name, value in attributes.items()}
 
 
-def _opened(found):
+def _opened(found, layer):
     """A store as a dataset. JSON forgets the type of its flags."""
     import numpy
 
     # Arrays that someone has put beside ours are none of ours.
-    found = found[["label"]]
-    flags = found["label"].attrs
+    found = found[[layer]]
+    flags = found[layer].attrs
     if "flag_values" in flags:
-        flags["flag_values"] = numpy.array(flags["flag_values"], dtype="uint16")
+        flags["flag_values"] = numpy.array(flags["flag_values"], dtype=layer_of(layer)["dtype"])
     return complete(found)
 
 
@@ -128,15 +128,15 @@ def _make(folder, job):
     chunks = (min(REGION, shape[0]), min(CHUNK, shape[1]))
     rows = -(-shape[1] // chunks[1]) * chunks[1]
     group.create_array(
-        "label",
+        job[3],
         shape=shape,
-        dtype="uint16",
+        dtype=layer_of(job[3])["dtype"],
         chunks=chunks,
         shards=(chunks[0], rows),
         compressors=[zarr.codecs.ZstdCodec(level=5, checksum=True)],
         fill_value=_native.label_codes()["OUTSIDE"],
         dimension_names=("M", "alpha"),
-        attributes=label_attributes([]),
+        attributes=number_attributes(job[3], []),
     )
 
 
@@ -146,13 +146,13 @@ def _mask():
     return mask
 
 
-def _labels(path, mode):
-    return _import_zarr().open_group(path, mode=mode, use_consolidated=False)["label"]
+def _array(path, job, mode):
+    return _import_zarr().open_group(path, mode=mode, use_consolidated=False)[job[3]]
 
 
-def _file(path, region):
+def _file(path, job, region):
     """The file of a region, which is one shard."""
-    return Path(path) / "label" / "c" / str(region) / "0"
+    return Path(path) / job[3] / "c" / str(region) / "0"
 
 
 def _columns(job, region):
@@ -179,7 +179,7 @@ def _mend_metadata(path, job):
     finished is compared then."""
     with tempfile.TemporaryDirectory() as folder:
         _make(Path(folder), job)
-        new = {name: _metadata(Path(folder) / name) for name in ("", "label")}
+        new = {name: _metadata(Path(folder) / name) for name in ("", job[3])}
     for name, wanted in new.items():
         own = _metadata(path / name) or {}
         # The labels' own are compared when the store is finished.
@@ -217,9 +217,9 @@ def _mend(path, job):
             _make_coordinate(mended, name, numbers, attributes)
 
 
-def _note(path, region):
+def _note(path, job, region):
     """The file that has the digest of a region."""
-    return Path(path) / "label" / "digests" / str(region)
+    return Path(path) / job[3] / "digests" / str(region)
 
 
 def _digest(job, region, labels):
@@ -231,11 +231,11 @@ def _digest(job, region, labels):
 
 def _read(path, job, region):
     """The labels of a region as they are on disk; None if they cannot be decoded."""
-    if not _file(path, region).is_file():
+    if not _file(path, job, region).is_file():
         return None
     begin, end = _columns(job, region)
     try:
-        return _labels(path, "r")[begin:end]
+        return _array(path, job, "r")[begin:end]
     except (ValueError, RuntimeError):
         return None
 
@@ -244,7 +244,7 @@ def _verified(path, job, region):
     """The labels of a region, if they are those that were computed; None if not."""
     labels = _read(path, job, region)
     try:
-        note = _note(path, region).read_text()
+        note = _note(path, job, region).read_text()
     except PermissionError:
         raise
     except (OSError, ValueError):
@@ -256,13 +256,13 @@ def _write_region(path, job, region, threads):
     """Computes and writes one region. It returns nothing, so that nothing travels between machines."""
     zarr = _import_zarr()
     begin, end = _columns(job, region)
-    M, alpha, shape = job
-    labels = _native.basin_region(M, alpha, shape, (begin, end), threads=threads)
+    M, alpha, shape, layer = job
+    labels = _native.basin_region(M, alpha, shape, (begin, end), threads=threads, layer=layer)
     # The last region fills only a part of its file. zarr then reads the rest first, and a damaged file cannot be read.
-    _file(path, region).unlink(missing_ok=True)
+    _file(path, job, region).unlink(missing_ok=True)
     with zarr.config.set({"array.write_empty_chunks": True}):
-        _labels(path, "r+")[begin:end] = labels
-    note = _note(path, region)
+        _array(path, job, "r+")[begin:end] = labels
+    note = _note(path, job, region)
     note.parent.mkdir(exist_ok=True)
     if note.is_dir():
         shutil.rmtree(note)
@@ -283,15 +283,15 @@ def _finish(path, job, regions):
             _write_region(str(path), job, region, None)
             labels = _verified(path, job, region)
             if labels is None:
-                raise RuntimeError(f"region {region} of {path} changes while it is read ({_file(path, region)}); is the disk damaged?")
+                raise RuntimeError(f"region {region} of {path} changes while it is read ({_file(path, job, region)}); is the disk damaged?")
         digest.update(labels)
         codes |= set(numpy.unique(labels).tolist())
     group = zarr.open_group(path, mode="r", use_consolidated=False)
-    attributes = _stored(label_attributes(sorted(codes)))
-    if group.attrs.get("sha256") == digest.hexdigest() and dict(group["label"].attrs) == attributes and _is_consolidated(path):
+    attributes = _stored(number_attributes(job[3], sorted(codes)))
+    if group.attrs.get("sha256") == digest.hexdigest() and dict(group[job[3]].attrs) == attributes and _is_consolidated(path, job):
         return
-    _labels(path, "r+").attrs.put(attributes)
-    for left in (path / "label" / "c").glob("*/*.partial"):
+    _array(path, job, "r+").attrs.put(attributes)
+    for left in (path / job[3] / "c").glob("*/*.partial"):
         # A killed process leaves the file that it was writing; that of a running one is young.
         try:
             if time.time() - left.stat().st_mtime > ABANDONED:
@@ -305,10 +305,10 @@ def _finish(path, job, regions):
         zarr.consolidate_metadata(path, zarr_format=3)
 
 
-def _is_consolidated(path):
+def _is_consolidated(path, job):
     """Whether the metadata that readers find in one place are those of the arrays."""
     of_all = ((_metadata(path) or {}).get("consolidated_metadata") or {}).get("metadata") or {}
-    arrays = {"M", "alpha", "label"}
+    arrays = {"M", "alpha", job[3]}
     return arrays <= set(of_all) and all(own == _metadata(path / name) for name, own in of_all.items())
 
 

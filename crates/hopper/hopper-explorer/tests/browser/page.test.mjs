@@ -275,7 +275,10 @@ onPage("keyboard only", "", async (page) => {
   assert.ok(there.x[0] > 0.1 && span(there.x) < 0.5 * span(home.x));
   await page.keyboard.press("Enter");
   await page.waitForSelector("#fate .verdict");
-  for (const [key, layer] of [["2", 1], ["4", 3], ["1", 0]]) {
+  // Every layer of the table has its key, its name and its legend.
+  const names = await page.evaluate(() => [...document.querySelectorAll("#layer option")].map(({ textContent }) => textContent));
+  assert.deepEqual(names, ["fate", "number of hops", "exact coverage", "proved or computed"]);
+  for (const [key, layer] of [["2", 1], ["3", 2], ["4", 3], ["1", 0]]) {
     await page.keyboard.press(key);
     assert.equal(await page.evaluate(() => explorer.state.layer), layer);
   }

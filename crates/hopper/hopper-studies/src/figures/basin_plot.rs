@@ -5,14 +5,14 @@ use crate::figure::Figure;
 use crate::repository::Progress;
 use basin_of_attraction::{Grid, Interval, Label, LabelImage};
 use hopper_basin::basin_raster;
-use hopper_figures::{PIXELS, Window, draw_basins, fate_colors, label_png};
+use hopper_figures::{BasinWindow, PIXELS, draw_basins, fate_colors, label_png};
 use journal_figures::DataFile;
 use resumable_job::{Element, Order, npy_header};
 use std::ops::ControlFlow;
 
 /// Computes and draws a window.
 pub(super) fn basin_figure(
-    window: &Window,
+    window: &BasinWindow,
     progress: &Progress,
     texts: (String, String, String),
 ) -> Result<Figure, Error> {

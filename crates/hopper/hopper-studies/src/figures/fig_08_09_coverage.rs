@@ -6,7 +6,7 @@ use crate::figure::Figure;
 use crate::repository::Progress;
 use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{CoverageLimits, coverage_raster};
-use hopper_figures::{Window, coverage_png, draw_coverage, share_words};
+use hopper_figures::{BasinWindow, coverage_png, draw_coverage, share_words};
 use journal_figures::DataFile;
 use resumable_job::{Element, Order, npy_header};
 use std::ops::ControlFlow;
@@ -29,7 +29,7 @@ pub(super) fn figure_9(progress: &Progress) -> Result<Figure, Error> {
     figure(&window_9("fig_09_basin_coverage"), "Fig. 9 with areas instead of points", progress)
 }
 
-fn figure(window: &Window, title: &str, progress: &Progress) -> Result<Figure, Error> {
+fn figure(window: &BasinWindow, title: &str, progress: &Progress) -> Result<Figure, Error> {
     let (x, y) = (window.mass_ratio, window.alpha);
     let grid = Grid {
         x: Interval::new(x.0, x.1)?,

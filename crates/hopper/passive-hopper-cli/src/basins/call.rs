@@ -5,9 +5,9 @@ use std::io::Write;
 
 /// The pieces of a job.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Work {
+pub(crate) struct Work<'a> {
     /// The folder of the finished ones.
-    pub(crate) folder: &'static str,
+    pub(crate) folder: &'a str,
     /// What messages call them.
     pub(crate) unit: &'static str,
     pub(crate) count: usize,

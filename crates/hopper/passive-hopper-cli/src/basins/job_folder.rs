@@ -1,6 +1,7 @@
 //! The folder of one job: who may write there, which job it has, and whether its results are there already.
 
 use crate::basins::call::{Call, Work};
+use crate::basins::layer::stored_layers;
 use crate::error::Error;
 use resumable_job::{
     AtomicFile, Contents, Lock, Part, Pieces, claim, digest, file_digest, is_claimed, make_folder,
@@ -15,25 +16,17 @@ const LOCK: &str = "basins";
 /// The beginning of the last line of a list of digests.
 const SEAL: &str = "all of this job: ";
 
-/// The folders with finished pieces.
-const PIECES: [&str; 4] = ["tiles", "tiles_hops", "columns", "frames"];
+/// The folders with finished pieces of other jobs than rasters.
+const PIECES: [&str; 2] = ["columns", "frames"];
 
-/// The results with fixed names.
-const RESULTS: [&str; 15] = [
-    "basin.npy",
-    "basin.png",
-    "legend.json",
-    "hops.npy",
-    "hops.png",
-    "hops.json",
+/// The results of other jobs with fixed names.
+const RESULTS: [&str; 7] = [
     "shares.png",
     "shares.json",
+    "shares.digests",
     "zoom.png",
     "zoom_animation.png",
     "zoom.json",
-    "basin.digests",
-    "hops.digests",
-    "shares.digests",
     "zoom.digests",
 ];
 
@@ -50,13 +43,13 @@ pub(crate) enum Share {
 
 /// The results of a job, or of a layer of it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Results {
+pub(crate) struct Results<'a> {
     /// The one that messages name.
-    pub(crate) main: &'static str,
+    pub(crate) main: &'a str,
     /// What the table shows, as JSON.
-    pub(crate) summary: &'static str,
+    pub(crate) summary: &'a str,
     /// The digest of every result, one a line. Written last.
-    pub(crate) digests: &'static str,
+    pub(crate) digests: &'a str,
 }
 
 /// The folder of a job, locked for this call.
@@ -130,7 +123,7 @@ impl JobFolder {
     ///
     /// # Errors
     /// [`Error::Job`] if their folder cannot be made.
-    pub(crate) fn pieces(&self, work: &Work) -> Result<Pieces, Error> {
+    pub(crate) fn pieces(&self, work: &Work<'_>) -> Result<Pieces, Error> {
         let description = format!("{}; {}", self.description, work.folder);
         let payload = work.payload;
         let kept = Pieces::open(&self.path.join(work.folder), &description)?;
@@ -161,8 +154,8 @@ impl JobFolder {
     /// [`Error::Job`] if files cannot be read or removed.
     pub(crate) fn complete(
         &self,
-        results: &Results,
-        work: &Work,
+        results: &Results<'_>,
+        work: &Work<'_>,
         call: &mut Call<'_>,
     ) -> Result<Option<Value>, Error> {
         // Without the digests, which are written last, the call was killed before its end.
@@ -225,7 +218,7 @@ impl JobFolder {
     /// As [`write`](Self::write).
     pub(crate) fn finish(
         &self,
-        results: &Results,
+        results: &Results<'_>,
         others: &[&str],
         summary: &Value,
         (kept, count): (Pieces, usize),
@@ -267,6 +260,7 @@ fn is_result(name: &str) -> bool {
         })
     };
     PIECES.contains(&name)
+        || stored_layers().any(|layer| layer.files().contains(&name))
         || RESULTS.contains(&name)
         || numbered("share_", ".npy")
         || numbered("zoom_", ".png")
@@ -278,7 +272,9 @@ mod tests {
 
     #[test]
     fn the_files_of_users_are_no_results() {
-        for name in ["basin.npy", "share_12.npy", "zoom_0100.png", "tiles", "basin.digests"] {
+        for name in
+            ["basin.npy", "share_12.npy", "zoom_0100.png", "tiles", "basin.digests", "proof.npy"]
+        {
             assert!(is_result(name), "{name}");
         }
         for name in ["job.txt", "notes.txt", "share_.npy", "share_x.npy", "zoom_1.pdf", "my_tiles"]

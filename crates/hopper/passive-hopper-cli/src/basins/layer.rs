@@ -1,13 +1,15 @@
-//! The layers of a raster: the labels of fates, and the numbers of hops until they are known.
+//! A layer of a raster on disk: its tiles, its array, its picture and its summary.
 
 use crate::basins::job_folder::{JobFolder, Results};
 use crate::basins::picture::Picture;
 use crate::basins::pieces::Finished;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use basin_of_attraction::{Grid, Label, LabelImage};
-use hopper_basin::{HopperFate, basin_columns, hop_columns};
-use hopper_figures::{Window, draw_basins, draw_hops};
+use basin_of_attraction::{Grid, Label};
+use hopper_basin::HopperFate;
+use hopper_figures::{
+    BasinWindow, FLAG, LAYERS, Layer, LayerColumns, Meaning, Values, draw_layer, label_of,
+};
 use journal_figures::{Svg, render};
 use resumable_job::{Element, Order, npy_header};
 use serde_json::{Value, json};
@@ -20,82 +22,68 @@ pub(crate) const TILE: usize = 16;
 /// Pixels of a picture for each point of its drawing.
 const SHARPNESS: f64 = 2.0;
 
-/// What a raster shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum Layer {
-    /// The fate of every pixel
-    Label,
-    /// The number of hops until this fate is known
-    Hops,
+/// A layer of numbers, and the names of its files.
+#[derive(Debug, Clone)]
+pub(crate) struct StoredLayer {
+    pub(crate) layer: &'static Layer,
+    pub(crate) values: &'static Values,
+    pub(crate) tiles: String,
+    pub(crate) array: String,
+    pub(crate) picture: String,
+    summary: String,
+    digests: String,
 }
 
-/// The names of a layer's files.
-pub(crate) struct Names {
-    pub(crate) tiles: &'static str,
-    /// What messages call a tile.
-    pub(crate) unit: &'static str,
-    pub(crate) array: &'static str,
-    pub(crate) picture: &'static str,
-    pub(crate) results: Results,
+/// All layers of numbers: coverage has a job of its own.
+pub(crate) fn stored_layers() -> impl Iterator<Item = StoredLayer> {
+    LAYERS.iter().filter_map(|layer| StoredLayer::of(layer.key))
 }
 
-impl Layer {
-    /// Bytes of an element of the array.
-    pub(crate) fn element_size(self) -> usize {
-        match self {
-            Layer::Label => size_of::<u16>(),
-            Layer::Hops => size_of::<u64>(),
-        }
+impl StoredLayer {
+    /// The layer with one of the keys; `None` for a layer of shares and for other words.
+    pub(crate) fn of(key: &str) -> Option<Self> {
+        let layer = Layer::of(key)?;
+        let values = layer.values()?;
+        let (file, key) = (layer.file, layer.key);
+        // The folders of the first layer have no key: they are older than the others.
+        let is_first = std::ptr::eq(layer, &raw const LAYERS[0]);
+        let [tiles, summary] = match is_first {
+            true => ["tiles".into(), "legend.json".into()],
+            false => [format!("tiles_{key}"), format!("{key}.json")],
+        };
+        let [array, picture, digests] =
+            ["npy", "png", "digests"].map(|end| format!("{file}.{end}"));
+        Some(StoredLayer { layer, values, tiles, array, picture, summary, digests })
     }
 
-    pub(crate) fn names(self) -> Names {
-        match self {
-            Layer::Label => Names {
-                tiles: "tiles",
-                unit: "tiles",
-                array: "basin.npy",
-                picture: "basin.png",
-                results: Results {
-                    main: "basin.npy",
-                    summary: "legend.json",
-                    digests: "basin.digests",
-                },
-            },
-            Layer::Hops => Names {
-                tiles: "tiles_hops",
-                unit: "tiles of hops",
-                array: "hops.npy",
-                picture: "hops.png",
-                results: Results {
-                    main: "hops.npy",
-                    summary: "hops.json",
-                    digests: "hops.digests",
-                },
-            },
-        }
+    /// The results whose digests tell whether they are complete.
+    pub(crate) fn results(&self) -> Results<'_> {
+        Results { main: &self.array, summary: &self.summary, digests: &self.digests }
+    }
+
+    /// The names of all its files, and of the folder of its tiles.
+    pub(crate) fn files(&self) -> [&str; 5] {
+        [&self.array, &self.picture, &self.summary, &self.digests, &self.tiles]
     }
 
     /// One tile, column by column from the lowest speed up, in little-endian order.
     pub(crate) fn tile(
-        self,
+        &self,
         grid: &Grid,
         tile: usize,
         interrupt: &Interrupt,
     ) -> Result<Vec<u8>, Error> {
         let columns = tile * TILE..grid.columns.min((tile + 1) * TILE);
+        // A tall tile takes minutes.
+        let width = self.values.together;
         let mut bytes = Vec::new();
-        match self {
-            Layer::Label => {
-                let labels = basin_columns(grid, columns)?;
-                bytes.extend(labels.iter().flatten().flat_map(|label| label.code().to_le_bytes()));
-            }
-            Layer::Hops => {
-                for column in columns {
-                    // A tall tile takes minutes.
-                    interrupt.check()?;
-                    let hops = hop_columns(grid, column..column + 1)?;
-                    bytes.extend(hops.iter().flatten().flat_map(|hops| hops.to_le_bytes()));
-                }
+        for from in columns.clone().step_by(width) {
+            interrupt.check()?;
+            let columns = from..columns.end.min(from + width);
+            let found =
+                (self.values.columns)(&LayerColumns { grid: *grid, logarithmic: false, columns })?;
+            for value in found.iter().flatten() {
+                bytes.extend(&value.to_le_bytes()[..self.values.bytes]);
             }
         }
         Ok(bytes)
@@ -103,64 +91,48 @@ impl Layer {
 
     /// Joins the tiles to the array, and draws the picture. Returns the summary, which is not written yet.
     pub(crate) fn assemble(
-        self,
+        &self,
         job: &JobFolder,
         grid: &Grid,
         (tiles, finished): (usize, &Finished),
         interrupt: &Interrupt,
     ) -> Result<Value, Error> {
-        // The joining of a large raster takes minutes.
-        let go_on = || interrupt.check();
-        let names = self.names();
-        let array = job.path.join(names.array);
+        let size = self.values.bytes;
+        let element = match size {
+            2 => Element::U16,
+            4 => Element::U32,
+            _ => Element::U64,
+        };
         // Row 0 is the lowest speed. In Fortran's order the columns, and therefore the tiles, follow one another in the
         // file.
-        let header = |element| npy_header(Order::Fortran, element, grid.rows, grid.columns);
-        let (drawing, summary) = match self {
-            Layer::Label => {
-                let (mut counts, mut values) = (BTreeMap::new(), Vec::new());
-                let mut picture = Picture::new(grid, TILE, Label::OUTSIDE);
-                finished.kept.assemble(
-                    &array,
-                    &header(Element::U16),
-                    tiles,
-                    go_on,
-                    |tile, bytes| {
-                        values.clear();
-                        let words = bytes.as_chunks::<2>().0.iter();
-                        values
-                            .extend(words.map(|word| Label::from_code(u16::from_le_bytes(*word))));
-                        for &label in &values {
-                            *counts.entry(label).or_insert(0u64) += 1;
-                        }
-                        picture.add(tile, &values);
-                    },
-                )?;
-                let image = LabelImage { grid: picture.grid, labels: picture.pixels };
-                (draw_basins(&window(grid, "basin"), &image)?, legend(&counts))
-            }
-            Layer::Hops => {
-                let (mut hops, mut values) = (Hops::default(), Vec::new());
-                let mut picture = Picture::new(grid, TILE, 0u64);
-                finished.kept.assemble(
-                    &array,
-                    &header(Element::U64),
-                    tiles,
-                    go_on,
-                    |tile, bytes| {
-                        values.clear();
-                        let words = bytes.as_chunks::<8>().0.iter();
-                        values.extend(words.map(|word| u64::from_le_bytes(*word)));
-                        values.iter().for_each(|&count| hops.add(count));
-                        picture.add(tile, &values);
-                    },
-                )?;
-                let drawing = draw_hops(&window(grid, "hops"), &picture.grid, &picture.pixels)?;
-                (drawing, hops.summary())
-            }
-        };
-        job.write(names.picture, &png(names.picture, &drawing)?)?;
-        Ok(summary)
+        let header = npy_header(Order::Fortran, element, grid.rows, grid.columns);
+        let (mut counts, mut values) = (BTreeMap::new(), Vec::new());
+        let mut picture = Picture::new(grid, TILE, u64::from(Label::OUTSIDE.code()));
+        finished.kept.assemble(
+            &job.path.join(&self.array),
+            &header,
+            tiles,
+            // The joining of a large raster takes minutes.
+            || interrupt.check(),
+            |tile, bytes| {
+                values.clear();
+                values.extend(bytes.chunks_exact(size).map(|bytes| {
+                    let mut word = [0; 8];
+                    word[..size].copy_from_slice(bytes);
+                    u64::from_le_bytes(word)
+                }));
+                values.iter().for_each(|&value| *counts.entry(value).or_insert(0u64) += 1);
+                picture.add(tile, &values);
+            },
+        )?;
+        let window = window(grid, self.layer.file);
+        let drawing =
+            draw_layer((self.layer, self.values), &window, &picture.grid, &picture.pixels)?;
+        job.write(&self.picture, &png(&self.picture, &drawing)?)?;
+        Ok(match self.values.meaning {
+            Meaning::Fates { flag } => legend(&counts, flag),
+            Meaning::Numbers { .. } => summary(&counts),
+        })
     }
 }
 
@@ -168,8 +140,8 @@ fn png(name: &str, drawing: &Svg) -> Result<Vec<u8>, Error> {
     Ok(render(name, drawing, SHARPNESS)?.png)
 }
 
-pub(crate) fn window(grid: &Grid, name: &'static str) -> Window {
-    Window {
+pub(crate) fn window(grid: &Grid, name: &'static str) -> BasinWindow {
+    BasinWindow {
         name,
         mass_ratio: (grid.x.left, grid.x.right),
         alpha: (grid.y.left, grid.y.right),
@@ -178,42 +150,34 @@ pub(crate) fn window(grid: &Grid, name: &'static str) -> Window {
     }
 }
 
-/// The labels that occur, with their names and numbers of pixels.
-fn legend(counts: &BTreeMap<Label, u64>) -> Value {
-    let entry = |(&label, &pixels): (&Label, &u64)| {
+/// The labels that occur, with their names, their flags and numbers of pixels.
+fn legend(counts: &BTreeMap<u64, u64>, flag: Option<&str>) -> Value {
+    let entry = |(&value, &pixels): (&u64, &u64)| {
+        let label = label_of(value);
         let name = HopperFate::label_name(label);
-        json!({ "label": label.code(), "name": name, "pixels": pixels })
+        let mut entry = json!({ "label": label.code(), "name": name, "pixels": pixels });
+        if let Some(flag) = flag {
+            entry[flag] = json!(value & FLAG != 0);
+        }
+        entry
     };
     Value::Array(counts.iter().map(entry).collect())
 }
 
-/// The smallest, the largest and the sum of numbers of hops.
-#[derive(Debug, Default)]
-struct Hops {
-    range: Option<(u64, u64)>,
-    /// 2³⁴ pixels with 2⁶⁴ hops each fit.
-    sum: u128,
-    pixels: u64,
-}
-
-impl Hops {
-    fn add(&mut self, hops: u64) {
-        let (smallest, largest) = self.range.unwrap_or((hops, hops));
-        self.range = Some((smallest.min(hops), largest.max(hops)));
-        self.sum += u128::from(hops);
-        self.pixels += 1;
-    }
-
-    fn summary(&self) -> Value {
-        let (smallest, largest) = self.range.unzip();
-        let mean = (self.pixels > 0).then(|| self.sum as f64 / self.pixels as f64);
-        json!({ "pixels": self.pixels, "smallest": smallest, "largest": largest, "mean": mean })
-    }
+/// The smallest, the largest and the mean of numbers. 2³⁴ pixels with numbers up to 2⁶⁴ fit.
+fn summary(counts: &BTreeMap<u64, u64>) -> Value {
+    let pixels: u64 = counts.values().sum();
+    let product = |(&value, &count): (&u64, &u64)| u128::from(value) * u128::from(count);
+    let sum: u128 = counts.iter().map(product).sum();
+    let (smallest, largest) = (counts.keys().next(), counts.keys().next_back());
+    let mean = (pixels > 0).then(|| sum as f64 / pixels as f64);
+    json!({ "pixels": pixels, "smallest": smallest, "largest": largest, "mean": mean })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::basins::tables;
     use basin_of_attraction::Interval;
     use hopper_basin::{Fates, HOP_BUDGET, basin_raster};
     use passive_hopper::{MassRatio, alpha_star};
@@ -231,8 +195,8 @@ mod tests {
         let whole = basin_raster(grid, |_| ControlFlow::Continue(())).unwrap();
         let interrupt = Interrupt::default();
         for tile in 0..3 {
-            let labels = Layer::Label.tile(&grid, tile, &interrupt).unwrap();
-            let hops = Layer::Hops.tile(&grid, tile, &interrupt).unwrap();
+            let [labels, hops] = ["label", "hops"]
+                .map(|key| StoredLayer::of(key).unwrap().tile(&grid, tile, &interrupt).unwrap());
             let pairs = labels.as_chunks::<2>().0.iter().zip(hops.as_chunks::<8>().0);
             for (k, (&label, &hops)) in pairs.enumerate() {
                 let (column, row) = (tile * TILE + k / 25, k % 25);
@@ -254,16 +218,28 @@ mod tests {
         }
     }
 
+    /// Two layers with one file would overwrite each other.
     #[test]
-    fn a_summary_of_hops_has_their_range_and_mean() {
-        let mut hops = Hops::default();
-        assert!(hops.summary()["mean"].is_null());
-        [3, u64::MAX, 0].into_iter().for_each(|count| hops.add(count));
-        let summary = hops.summary();
+    fn every_layer_has_files_and_a_table_of_its_own() {
+        let mut files: Vec<String> =
+            stored_layers().flat_map(|own| own.files().map(str::to_owned)).collect();
+        let all = files.len();
+        files.sort();
+        files.dedup();
+        assert_eq!((all, files.len()), (5 * stored_layers().count(), all));
+        for own in stored_layers() {
+            assert!(tables::of_layer(own.layer.key).is_some(), "{} has no table", own.layer.key);
+        }
+    }
+
+    #[test]
+    fn a_summary_of_numbers_has_their_range_and_mean() {
+        assert!(summary(&BTreeMap::new())["mean"].is_null());
+        let found = summary(&BTreeMap::from([(3, 1), (u64::MAX, 1), (0, 1)]));
         assert_eq!(
-            (summary["smallest"].as_u64(), summary["largest"].as_u64()),
+            (found["smallest"].as_u64(), found["largest"].as_u64()),
             (Some(0), Some(u64::MAX))
         );
-        assert_eq!(summary["mean"].as_f64(), Some((u64::MAX as f64 + 3.0) / 3.0));
+        assert_eq!(found["mean"].as_f64(), Some((u64::MAX as f64 + 3.0) / 3.0));
     }
 }

@@ -31,6 +31,7 @@ use crate::interrupt::Interrupt;
 use crate::streams::Streams;
 use call::Call;
 use job_folder::Share;
+use layer::StoredLayer;
 pub(crate) use options::{Options, PAGE};
 
 /// Pixels across and up unless others are given.
@@ -69,7 +70,10 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
             Some(tolerance) => {
                 coverage::run(place, &coverage::Coverage::new(grid, tolerance)?, &mut call)?
             }
-            None => rasters::run(place, &grid, &options.layer, &mut call)?,
+            None => {
+                let layers = options.layer.iter().filter_map(|key| StoredLayer::of(key));
+                rasters::run(place, &grid, &layers.collect::<Vec<_>>(), &mut call)?
+            }
         }
     };
     form.print(&tables.into_all(), streams.output)

@@ -1,10 +1,11 @@
 //! The options of `hopper basins`, and its help.
 
-use crate::basins::layer::Layer;
+use crate::basins::layer::{StoredLayer, stored_layers};
 use crate::basins::tables;
 use crate::commands::page::{Example, Page};
 use crate::options::form::OutputOptions;
 use crate::options::values;
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use hopper_asymptotics::Offset;
 use hopper_basin::HopperFate;
 use resumable_job::Part;
@@ -25,9 +26,9 @@ pub(crate) struct Options {
     /// Pixels across and up [default: 1024 1024; with --zoom 320 320]
     #[arg(long, num_args = 2, value_names = ["COLUMNS", "ROWS"], value_parser = values::count, allow_negative_numbers = true)]
     pub(crate) pixels: Option<Vec<usize>>,
-    /// What to compute, one or both
-    #[arg(long, num_args = 1.., value_name = "LAYER", value_enum, default_values_t = [Layer::Label], conflicts_with_all = ["about", "zoom"])]
-    pub(crate) layer: Vec<Layer>,
+    /// What to compute, one or several
+    #[arg(long, num_args = 1.., value_name = "LAYER", default_values = ["label"], value_parser = layers(), conflicts_with_all = ["about", "zoom"])]
+    pub(crate) layer: Vec<String>,
 
     /// Give each pixel the shares of the basins in it at the mass ratio of its column: a needle thinner than a
     /// pixel is a faint line. At most this part of a pixel stays undecided, unless too many basins meet there
@@ -76,6 +77,14 @@ pub(crate) struct Options {
     pub(crate) step: f64,
     #[command(flatten)]
     pub(crate) output: OutputOptions,
+}
+
+/// The words of `--layer`.
+fn layers() -> PossibleValuesParser {
+    let word = |own: StoredLayer| {
+        PossibleValue::new(own.layer.key).alias(own.layer.other_key).help(own.layer.about)
+    };
+    PossibleValuesParser::new(stored_layers().map(word))
 }
 
 /// A distance, which may be smaller than any `f64`.

@@ -32,7 +32,7 @@ pub(crate) struct Finished {
 /// [`Error::Interrupted`]; [`Error::MissingPieces`] if the pieces are to be joined and some are missing; errors of `piece`.
 pub(crate) fn compute(
     job: &JobFolder,
-    work: &Work,
+    work: &Work<'_>,
     call: &mut Call<'_>,
     piece: impl Fn(usize) -> Result<Vec<u8>, Error> + Sync,
 ) -> Result<Finished, Error> {
@@ -123,7 +123,7 @@ fn missing(kept: &Pieces, wanted: &[usize]) -> Result<Vec<(usize, Option<String>
 }
 
 /// The error that says which parts have not finished which pieces.
-fn missing_pieces(kept: &Pieces, work: &Work, missing: &[(usize, Option<String>)]) -> Error {
+fn missing_pieces(kept: &Pieces, work: &Work<'_>, missing: &[(usize, Option<String>)]) -> Error {
     let name = |(at, reason): &(usize, Option<String>)| match reason {
         Some(reason) => reason.clone(),
         None => at.to_string(),

@@ -5,37 +5,33 @@
 
 use crate::basins::call::{Call, Payload, Work};
 use crate::basins::job_folder::{JobFolder, Share};
-use crate::basins::layer::{Layer, TILE};
+use crate::basins::layer::{StoredLayer, TILE};
 use crate::basins::pieces::compute;
-use crate::basins::tables::{self, Tables};
+use crate::basins::tables::Tables;
 use crate::error::Error;
 use basin_of_attraction::Grid;
 use hopper_basin::RASTER_VERSION;
+use hopper_figures::{FLAG, Meaning};
 use std::path::Path;
 
 /// Computes the layers of a raster.
 pub(crate) fn run(
     place: (&Path, Share, bool),
     grid: &Grid,
-    layers: &[Layer],
+    layers: &[StoredLayer],
     call: &mut Call<'_>,
 ) -> Result<Tables, Error> {
     let description = format!(
         "basins, M {:?} to {:?}, α {:?} to {:?}, {} × {} pixels; computation {RASTER_VERSION}",
         grid.x.left, grid.x.right, grid.y.left, grid.y.right, grid.columns, grid.rows
     );
-    let results: Vec<&str> = layers
-        .iter()
-        .map(|layer| layer.names())
-        .flat_map(|names| {
-            [names.array, names.picture, names.results.summary, names.results.digests]
-        })
-        .collect();
+    let results: Vec<&str> =
+        layers.iter().flat_map(|layer| layer.files().into_iter().take(4)).collect();
     let job = JobFolder::open(place, description, &results)?;
     let mut tables = Tables::default();
-    let repeated = |at: usize| layers[..at].contains(&layers[at]);
-    for layer in (0..layers.len()).filter(|&at| !repeated(at)).map(|at| layers[at]) {
-        one_layer(&job, grid, layer, call, &mut tables)?;
+    let is_new = |at: usize| layers[..at].iter().all(|other| other.array != layers[at].array);
+    for at in (0..layers.len()).filter(|&at| is_new(at)) {
+        one_layer(&job, grid, &layers[at], call, &mut tables)?;
     }
     Ok(tables)
 }
@@ -43,52 +39,54 @@ pub(crate) fn run(
 fn one_layer(
     job: &JobFolder,
     grid: &Grid,
-    layer: Layer,
+    layer: &StoredLayer,
     call: &mut Call<'_>,
     tables: &mut Tables,
 ) -> Result<(), Error> {
-    let names = layer.names();
+    let results = layer.results();
     let tiles = grid.columns.div_ceil(TILE);
     let pixels = TILE.min(grid.columns) * grid.rows;
     let (columns, rows) = (grid.columns, grid.rows);
-    let payload = Payload::Tile { width: TILE, columns, rows, element: layer.element_size() };
-    let work = Work { folder: names.tiles, unit: names.unit, count: tiles, pixels, payload };
-    let summary = match job.complete(&names.results, &work, call)? {
+    let payload = Payload::Tile { width: TILE, columns, rows, element: layer.values.bytes };
+    let (folder, unit) = (layer.tiles.as_str(), layer.layer.pieces);
+    let work = Work { folder, unit, count: tiles, pixels, payload };
+    let summary = match job.complete(&results, &work, call)? {
         Some(summary) => summary,
         None => {
             let interrupt = call.interrupt.clone();
             let finished = compute(job, &work, call, |tile| layer.tile(grid, tile, &interrupt))?;
             if let Share::Part(part) = job.share {
-                tables.push_part(part, names.tiles, &finished);
+                tables.push_part(part, folder, &finished);
                 return Ok(());
             }
             let summary = layer.assemble(job, grid, (tiles, &finished), &call.interrupt)?;
-            let others = [names.array, names.picture];
-            job.finish(&names.results, &others, &summary, (finished.kept, tiles))?;
+            job.finish(
+                &results,
+                &[&layer.array, &layer.picture],
+                &summary,
+                (finished.kept, tiles),
+            )?;
             summary
         }
     };
-    match layer {
-        Layer::Label => tables.labels = tables::labels(&summary),
-        Layer::Hops => tables.hops = tables::hops(&summary),
-    }
-    let contents: [(&str, &str); 3] = match layer {
-        Layer::Label => [
-            (
-                names.array,
-                "labels: 16-bit integers, rows from the lowest speed, columns of mass ratios",
-            ),
-            (names.picture, "the picture, with axes and legend"),
-            (names.results.summary, "the meaning of the labels"),
-        ],
-        Layer::Hops => [
-            (names.array, "numbers of hops: 64-bit integers, in the same order"),
-            (names.picture, "the picture, with axes and scale"),
-            (names.results.summary, "their smallest, largest and mean"),
-        ],
+    tables.push_layer(layer.layer.key, layer.values, &summary);
+    let bits = 8 * layer.values.bytes;
+    let order = "rows from the lowest speed, columns of mass ratios";
+    let (numbers, about_summary) = match layer.values.meaning {
+        Meaning::Fates { flag: None } => ("labels".into(), "the meaning of the labels"),
+        Meaning::Fates { flag: Some(flag) } => {
+            (format!("labels, and {FLAG} more where they are {flag}"), "the meaning of the labels")
+        }
+        Meaning::Numbers { .. } => {
+            (layer.layer.name.into(), "the smallest, the largest and the mean")
+        }
     };
-    for (name, content) in contents {
-        tables.push_file(job.place_of(name), content);
+    for (name, content) in [
+        (&layer.array, format!("{numbers}: {bits}-bit integers, {order}")),
+        (&layer.picture, "the picture, with axes and legend".into()),
+        (&results.summary.into(), about_summary.into()),
+    ] {
+        tables.push_file(job.place_of(name), &content);
     }
     Ok(())
 }

@@ -28,7 +28,7 @@ use std::path::Path;
 /// The names of the results; every label has its own array.
 pub(crate) const PICTURE_FILE: &str = "shares.png";
 pub(crate) const LEGEND: &str = "shares.json";
-pub(crate) const RESULTS: Results =
+pub(crate) const RESULTS: Results<'static> =
     Results { main: PICTURE_FILE, summary: LEGEND, digests: "shares.digests" };
 
 /// The folder of finished columns.

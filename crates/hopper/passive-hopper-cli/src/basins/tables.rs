@@ -2,6 +2,7 @@
 
 use crate::basins::pieces::Finished;
 use crate::output::{Cell, Column, Table, TableKind};
+use hopper_figures::{Meaning, Values};
 use resumable_job::Part;
 use serde_json::Value;
 
@@ -19,6 +20,19 @@ pub(crate) static LABELS: TableKind = TableKind {
     columns: &[
         Column::new("label", "", "number in the array"),
         Column::new("fate", "", "its meaning"),
+        Column::new("pixels", "", "number of pixels"),
+        Column::new("fraction", "", "fraction of all pixels").measured(),
+    ],
+};
+
+pub(crate) static PROOFS: TableKind = TableKind {
+    name: "proofs",
+    about: "one row for each fate that occurs, proved or only computed, with --layer proof",
+    long: false,
+    columns: &[
+        Column::new("label", "", "number of the fate"),
+        Column::new("fate", "", "its meaning"),
+        Column::new("proved", "", "whether it is proved: then the array has 65536 more"),
         Column::new("pixels", "", "number of pixels"),
         Column::new("fraction", "", "fraction of all pixels").measured(),
     ],
@@ -75,15 +89,24 @@ pub(crate) static PARTS: TableKind = TableKind {
     ],
 };
 
+/// The table of each layer, by its key.
+const OF_LAYERS: [(&str, &TableKind); 3] =
+    [("label", &LABELS), ("hops", &HOPS), ("proof", &PROOFS)];
+
+/// The table of a layer; `None` for a layer that has none.
+pub(crate) fn of_layer(key: &str) -> Option<&'static TableKind> {
+    OF_LAYERS.iter().find(|(own, _)| *own == key).map(|(_, table)| *table)
+}
+
 /// All tables, the main one first.
-pub(crate) const ALL: &[&TableKind] = &[&LABELS, &HOPS, &SHARES, &EDGE, &PARTS, &FILES];
+pub(crate) const ALL: &[&TableKind] = &[&LABELS, &HOPS, &PROOFS, &SHARES, &EDGE, &PARTS, &FILES];
 
 /// The tables of a call: those that have no meaning for it are absent.
 #[derive(Debug, Default)]
 pub(crate) struct Tables {
     files: Option<Table>,
-    pub(crate) labels: Option<Table>,
-    pub(crate) hops: Option<Table>,
+    /// Those of layers.
+    layers: Vec<Table>,
     pub(crate) shares: Option<Table>,
     pub(crate) edge: Option<Table>,
     parts: Option<Table>,
@@ -95,6 +118,15 @@ impl Tables {
         self.files
             .get_or_insert_with(|| Table::new(&FILES))
             .push([path.into(), content.to_owned().into()]);
+    }
+
+    /// Adds the table of a layer, from its summary.
+    pub(crate) fn push_layer(&mut self, key: &str, values: &Values, summary: &Value) {
+        let Some(kind) = of_layer(key) else { return };
+        self.layers.extend(match values.meaning {
+            Meaning::Fates { flag } => labels(kind, flag, summary),
+            Meaning::Numbers { .. } => numbers(kind, summary),
+        });
     }
 
     /// Adds what was done of a part.
@@ -110,8 +142,9 @@ impl Tables {
 
     /// All tables that there are.
     pub(crate) fn into_all(self) -> Vec<Table> {
-        let Tables { files, labels, hops, shares, edge, parts } = self;
-        [labels, hops, shares, edge, parts, files].into_iter().flatten().collect()
+        let Tables { files, mut layers, shares, edge, parts } = self;
+        layers.sort_by_key(|table| ALL.iter().position(|kind| std::ptr::eq(*kind, table.kind)));
+        layers.into_iter().chain([shares, edge, parts, files].into_iter().flatten()).collect()
     }
 }
 
@@ -121,26 +154,35 @@ fn rounded_once(quotient: f64) -> Cell {
 }
 
 /// The table of a legend of labels; `None` if this is none.
-pub(crate) fn labels(legend: &Value) -> Option<Table> {
+fn labels(kind: &'static TableKind, flag: Option<&str>, legend: &Value) -> Option<Table> {
     let entries = legend.as_array()?;
     let pixels = |entry: &Value| entry["pixels"].as_u64();
     let all: u64 = entries.iter().filter_map(pixels).sum();
-    let mut table = Table::new(&LABELS);
+    let mut table = Table::new(kind);
     for entry in entries {
         let fraction = pixels(entry).map(|pixels| rounded_once(pixels as f64 / all as f64));
-        table.push([
-            entry["label"].as_u64().into(),
-            entry["name"].as_str().map(str::to_owned).into(),
-            pixels(entry).into(),
-            fraction.into(),
-        ]);
+        let (label, name) = (entry["label"].as_u64(), entry["name"].as_str().map(str::to_owned));
+        match flag {
+            None => table.push([label.into(), name.into(), pixels(entry).into(), fraction.into()]),
+            Some(flag) => {
+                let flag = entry[flag].as_bool();
+                let pixels = pixels(entry);
+                table.push([
+                    label.into(),
+                    name.into(),
+                    flag.into(),
+                    pixels.into(),
+                    fraction.into(),
+                ]);
+            }
+        }
     }
     Some(table)
 }
 
-/// The table of a summary of hops.
-pub(crate) fn hops(summary: &Value) -> Option<Table> {
-    let mut table = Table::new(&HOPS);
+/// The table of a summary of numbers.
+fn numbers(kind: &'static TableKind, summary: &Value) -> Option<Table> {
+    let mut table = Table::new(kind);
     table.push([
         summary["pixels"].as_u64().into(),
         summary["smallest"].as_u64().into(),

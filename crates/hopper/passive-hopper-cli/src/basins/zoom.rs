@@ -55,7 +55,8 @@ const SECONDS: f64 = 0.2;
 const OVERVIEW: &str = "zoom.png";
 const ANIMATION: &str = "zoom_animation.png";
 const SUMMARY: &str = "zoom.json";
-const RESULTS: Results = Results { main: ANIMATION, summary: SUMMARY, digests: "zoom.digests" };
+const RESULTS: Results<'static> =
+    Results { main: ANIMATION, summary: SUMMARY, digests: "zoom.digests" };
 
 /// The option that begins a zoom.
 const OPTION: &str = "--zoom";

@@ -1,0 +1,266 @@
+//! The layers of a raster over (M, α): what its pixels can show.
+//!
+//! [`LAYERS`] is the one table. The program, the Python package and the page read keys, names, columns and colours from
+//! it: a new entry is a new layer of all three.
+
+use crate::basins::{BasinWindow, draw_basins, draw_pixels};
+use crate::error::Error;
+use crate::fate_colors;
+use crate::hops::{draw_hops, hop_color};
+use crate::layer_columns::{LayerColumns, fates, hops, proofs, shares};
+use basin_of_attraction::{Grid, Label, LabelImage};
+use journal_figures::palette::Color;
+use journal_figures::{Anchor, Pen, Svg, rgb_png};
+
+/// All layers.
+pub static LAYERS: &[Layer] = &[
+    Layer {
+        key: "label",
+        other_key: "fate",
+        name: "fate",
+        about: "The fate of every pixel's middle",
+        legend: "",
+        file: "basin",
+        pieces: "tiles",
+        cost: 1.0,
+        content: Content::Values(Values {
+            bytes: 2,
+            meaning: Meaning::Fates { flag: None },
+            together: 16,
+            columns: fates,
+        }),
+    },
+    Layer {
+        key: "hops",
+        other_key: "hops",
+        name: "number of hops",
+        about: "The number of hops until this fate is known",
+        legend: "hops until the fate is known",
+        file: "hops",
+        pieces: "tiles of hops",
+        cost: 1.0,
+        content: Content::Values(Values {
+            bytes: 8,
+            meaning: Meaning::Numbers { largest: 10_000 },
+            together: 1,
+            columns: hops,
+        }),
+    },
+    Layer {
+        key: "coverage",
+        other_key: "coverage",
+        name: "exact coverage",
+        about: "The share of every basin in each pixel, mixed as light",
+        legend: "mixed by shares",
+        file: "coverage",
+        pieces: "columns",
+        cost: 170.0,
+        content: Content::Shares(shares),
+    },
+    Layer {
+        key: "proof",
+        other_key: "proof",
+        name: "proved or computed",
+        about: "The fate, and whether it is proved or only computed",
+        legend: "computed, not proved",
+        file: "proof",
+        pieces: "tiles of proofs",
+        cost: 25.0,
+        content: Content::Values(Values {
+            bytes: 4,
+            meaning: Meaning::Fates { flag: Some("proved") },
+            together: 1,
+            columns: proofs,
+        }),
+    },
+];
+
+/// What a value of a layer of fates has beside the code of its label if it has the flag of the layer.
+pub const FLAG: u64 = 1 << 16;
+
+/// The colour of a fate without the flag of its layer: a light blue. The colours of fates are black, grey, yellow and dark
+/// ones.
+pub const WITHOUT_FLAG: Color = Color { css: "#38c0ff", rgb: [0x38, 0xc0, 0xff] };
+
+/// What the pixels of a raster show.
+#[derive(Debug, Clone, Copy)]
+pub struct Layer {
+    /// Its word in options, links and datasets.
+    pub key: &'static str,
+    /// Another word that is read, too.
+    pub other_key: &'static str,
+    /// Its name in sentences.
+    pub name: &'static str,
+    /// What a pixel has, in one line.
+    pub about: &'static str,
+    /// What its legend says beside the fates.
+    pub legend: &'static str,
+    /// The name of its files, without the ending.
+    pub file: &'static str,
+    /// What messages call the pieces of a long computation.
+    pub pieces: &'static str,
+    /// The time that a pixel takes, in that of a fate: measured for 64 × 64 pixels of the window of Fig. 6.
+    pub cost: f64,
+    /// What a pixel is.
+    pub content: Content,
+}
+
+/// What the pixels of a layer are.
+#[derive(Debug, Clone, Copy)]
+pub enum Content {
+    /// A number for each pixel.
+    Values(Values),
+    /// The colours of some columns, mixed by the shares of the fates: red, green and blue, the highest row first.
+    Shares(fn(&LayerColumns) -> Result<Vec<u8>, Error>),
+}
+
+/// The numbers of a layer.
+#[derive(Debug, Clone, Copy)]
+pub struct Values {
+    /// Bytes of a number in arrays: 2, 4 or 8.
+    pub bytes: usize,
+    /// What the numbers mean.
+    pub meaning: Meaning,
+    /// Columns that are computed together, because they share work. Between them a long computation can end.
+    pub together: usize,
+    /// The numbers of some columns, each from below.
+    pub columns: fn(&LayerColumns) -> Result<Vec<Vec<u64>>, Error>,
+}
+
+/// What the numbers of a layer mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Meaning {
+    /// The code of a label in the lowest 16 bits; and [`FLAG`], if the layer has a flag of this name, and the pixel has it.
+    Fates {
+        /// The name of the flag.
+        flag: Option<&'static str>,
+    },
+    /// A number, from 0 on.
+    Numbers {
+        /// The one with the darkest colour where one scale serves many pictures. Few pixels have more.
+        largest: u64,
+    },
+}
+
+impl Layer {
+    /// The layer of a key; `None` for other words.
+    pub fn of(key: &str) -> Option<&'static Self> {
+        LAYERS.iter().find(|layer| layer.key == key || layer.other_key == key)
+    }
+
+    /// Its numbers; `None` for a layer of shares.
+    pub fn values(&self) -> Option<&Values> {
+        match &self.content {
+            Content::Values(values) => Some(values),
+            Content::Shares(_) => None,
+        }
+    }
+}
+
+impl Values {
+    /// The names of the columns of a table of these numbers.
+    pub fn table_columns(&self, key: &'static str) -> Vec<&'static str> {
+        match self.meaning {
+            Meaning::Fates { flag } => ["label"].into_iter().chain(flag).collect(),
+            Meaning::Numbers { .. } => vec![key],
+        }
+    }
+
+    /// The colour of a number, on a scale up to `largest`.
+    pub fn color(&self, value: u64, largest: u64) -> [u8; 3] {
+        match self.meaning {
+            Meaning::Fates { flag } => {
+                let label = label_of(value);
+                let bare = flag.is_some() && value & FLAG == 0 && !label.is_undecided();
+                if bare { WITHOUT_FLAG.rgb } else { fate_colors::rgb(label) }
+            }
+            Meaning::Numbers { .. } => hop_color(value.min(largest), largest),
+        }
+    }
+}
+
+/// The label of a number of a layer of fates.
+pub fn label_of(value: u64) -> Label {
+    Label::from_code((value % FLAG) as u16)
+}
+
+/// The drawing of the pixels of a layer, row after row, the lowest first.
+///
+/// # Errors
+/// [`Error::Figure`] if the pixels are not those of the grid, or there are none.
+pub fn draw_layer(
+    (layer, values): (&Layer, &Values),
+    window: &BasinWindow,
+    grid: &Grid,
+    pixels: &[u64],
+) -> Result<Svg, Error> {
+    match values.meaning {
+        Meaning::Numbers { .. } => draw_hops(window, grid, pixels),
+        Meaning::Fates { flag: None } => {
+            let labels = pixels.iter().map(|&value| label_of(value)).collect();
+            draw_basins(window, &LabelImage { grid: *grid, labels })
+        }
+        Meaning::Fates { flag: Some(_) } => {
+            let rows = pixels.chunks(grid.columns.max(1)).rev();
+            let colors: Vec<u8> =
+                rows.flatten().flat_map(|&value| values.color(value, 0)).collect();
+            let image = rgb_png(window.name, grid.columns, grid.rows, &colors)?;
+            let with_flag = pixels.iter().filter(|&&value| value & FLAG != 0);
+            let mut labels: Vec<Label> = with_flag.map(|&value| label_of(value)).collect();
+            labels.sort_unstable();
+            labels.dedup();
+            let mut svg = draw_pixels(window, &image, labels.into_iter());
+            // Below the picture, where no label of an axis is.
+            svg.fill_rect(8.0, 540.0, 12.0, 12.0, WITHOUT_FLAG.css);
+            svg.rect(8.0, 540.0, 12.0, 12.0, Pen::solid("#000", 0.6));
+            svg.text(25.0, 550.5, Anchor::Start, 11.5, layer.legend);
+            Ok(svg)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use basin_of_attraction::Interval;
+
+    /// An entry without one of its parts would be a layer that a front cannot show.
+    #[test]
+    fn every_layer_has_all_its_parts() {
+        for (at, layer) in LAYERS.iter().enumerate() {
+            let words =
+                [layer.key, layer.other_key, layer.name, layer.about, layer.file, layer.pieces];
+            assert!(words.iter().all(|word| !word.is_empty()), "{layer:?}");
+            assert!(at == 0 || !layer.legend.is_empty(), "{layer:?}");
+            assert!(layer.cost.is_finite() && layer.cost >= 1.0, "{layer:?}");
+            let other = |word: &str| Layer::of(word).map(|found| found.name) == Some(layer.name);
+            assert!(
+                other(layer.key) && other(layer.other_key),
+                "a key of {layer:?} is another one's"
+            );
+            let interval = |low: f64, high: f64| Interval::new(low, high).unwrap();
+            let grid = Grid { x: interval(0.1, 0.3), y: interval(8.0, 9.0), columns: 4, rows: 3 };
+            let columns = LayerColumns { grid, logarithmic: false, columns: 1..3 };
+            match &layer.content {
+                Content::Shares(pixels) => assert_eq!(pixels(&columns).unwrap().len(), 3 * 2 * 3),
+                Content::Values(values) => {
+                    let found = (values.columns)(&columns).unwrap();
+                    assert_eq!(found.iter().map(Vec::len).collect::<Vec<_>>(), [3, 3]);
+                    assert!([2, 4, 8].contains(&values.bytes) && values.together > 0);
+                    let most = u64::MAX >> (64 - 8 * values.bytes);
+                    assert!(found.iter().flatten().all(|&value| value <= most), "{layer:?}");
+                    let window = BasinWindow {
+                        name: layer.file,
+                        mass_ratio: (0.1, 0.3),
+                        alpha: (8.0, 9.0),
+                        inset: None,
+                        tick_counts: (4, 4),
+                    };
+                    let part = Grid { columns: 2, ..grid };
+                    assert!(draw_layer((layer, values), &window, &part, &found.concat()).is_ok());
+                    assert!(!values.table_columns(layer.key).is_empty());
+                }
+            }
+        }
+    }
+}
