@@ -13,6 +13,7 @@ mod labelling;
 mod map;
 mod motion;
 mod pickling;
+mod rasters;
 mod restored;
 mod whole;
 
@@ -63,10 +64,10 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(fixed_points::grounding, module)?)?;
     module.add_function(wrap_pyfunction!(fates::label_name, module)?)?;
     module.add_function(wrap_pyfunction!(fates::label_colour, module)?)?;
-    module.add_function(wrap_pyfunction!(basins::basin_labels, module)?)?;
+    module.add_function(wrap_pyfunction!(rasters::basin_labels, module)?)?;
     module.add("RASTER_VERSION", hopper_basin::RASTER_VERSION)?;
-    module.add_function(wrap_pyfunction!(basins::basin_region, module)?)?;
-    module.add_function(wrap_pyfunction!(basins::layers, module)?)?;
+    module.add_function(wrap_pyfunction!(rasters::basin_region, module)?)?;
+    module.add_function(wrap_pyfunction!(rasters::layers, module)?)?;
     module.add_function(wrap_pyfunction!(basins::first_window, module)?)?;
     module.add_function(wrap_pyfunction!(basins::pixel_middles, module)?)?;
     module.add_function(wrap_pyfunction!(basins::interval_basins, module)?)?;
