@@ -22,11 +22,14 @@ use std::time::Instant;
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct Options {
-    /// The theorems [default: those that take seconds: one-sudden, one-sided, crisis, traps, everything-hops, rising]
+    /// The theorems [default: those that take seconds]
     names: Vec<String>,
     /// Prove every theorem, the areas of figures as well
     #[arg(long, conflicts_with = "names")]
     all: bool,
+    /// Prove every theorem as the gate does: those that take long on few pixels, or coarsely
+    #[arg(long, conflicts_with_all = ["names", "all"])]
+    gate: bool,
     /// Pixels of a figure's side
     #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..=16384))]
     size: u32,
@@ -47,10 +50,56 @@ pub(crate) struct Options {
     out: Option<PathBuf>,
 }
 
-/// The theorems in the order of their proofs; those of the first group take seconds.
-const QUICK: [&str; 6] =
-    ["one-sudden", "one-sided", "crisis", "traps", "everything-hops", "rising"];
-const LONG: [&str; 5] = ["measures", "fig6-points", "fig9-points", "fig6-cells", "fig9-cells"];
+/// A theorem that the command proves.
+struct Provable {
+    name: &'static str,
+    /// What the gate sets, of a theorem that does not take seconds.
+    gate: Option<fn(&mut Options)>,
+    proof: Proof,
+}
+
+/// How a theorem is proved.
+#[derive(Clone, Copy)]
+enum Proof {
+    /// At once.
+    Whole(fn(&Options) -> Result<Theorem, Error>),
+    /// For every point of a figure.
+    Points(fn() -> FigureWindow),
+    /// For every cell of a figure, of whose area this share may stay open.
+    Cells(fn() -> FigureWindow, f64),
+}
+
+/// All theorems, in the order of their proofs.
+static THEOREMS: &[Provable] = &[
+    whole("one-sudden", |_| Ok(one_sudden())),
+    whole("one-sided", |_| Ok(one_sided(HUMPS)?)),
+    whole("crisis", |_| Ok(crises(CRISES)?)),
+    whole("traps", |_| Ok(trap_edges(HUMPS, TRAPS)?)),
+    whole("everything-hops", |_| Ok(everything_hops()?)),
+    whole("rising", |_| Ok(rising(&RISING)?)),
+    Provable {
+        name: "measures",
+        gate: Some(|options| (options.mass_ratio, options.width) = (Some(0.1), Some(1e-3))),
+        proof: Proof::Whole(fractions),
+    },
+    of_figure("fig6-points", |options| options.size = 16, Proof::Points(fig_6)),
+    of_figure("fig9-points", |options| options.size = 16, Proof::Points(|| FIG_9)),
+    // So few cells leave most of their area open.
+    of_figure("fig6-cells", |options| few_cells(options, 0.96), Proof::Cells(fig_6, 0.12)),
+    of_figure("fig9-cells", |options| few_cells(options, 0.81), Proof::Cells(|| FIG_9, 0.08)),
+];
+
+const fn whole(name: &'static str, prove: fn(&Options) -> Result<Theorem, Error>) -> Provable {
+    Provable { name, gate: None, proof: Proof::Whole(prove) }
+}
+
+const fn of_figure(name: &'static str, gate: fn(&mut Options), proof: Proof) -> Provable {
+    Provable { name, gate: Some(gate), proof }
+}
+
+fn few_cells(options: &mut Options, open: f64) {
+    (options.size, options.open) = (4, Some(open));
+}
 
 /// Humps of the theorems about single humps.
 const HUMPS: u64 = 8;
@@ -90,38 +139,22 @@ const MEASURES: [(f64, f64); 11] = [
     (10.0, 1e-3),
 ];
 
-/// The area that may stay open, of Figs. 6 and 9.
-const OPEN_OF_FIG_6: f64 = 0.12;
-const OPEN_OF_FIG_9: f64 = 0.08;
-
 /// Runs the command.
 pub(crate) fn run(options: &Options) -> Result<(), Error> {
-    let known = QUICK.iter().chain(&LONG);
-    let wanted: Vec<&str> = match (options.all, options.names.is_empty()) {
-        (true, _) => known.copied().collect(),
-        (false, true) => QUICK.to_vec(),
-        (false, false) => {
-            for name in &options.names {
-                if !known.clone().any(|known| known == name) {
-                    return Err(unknown(name));
-                }
-            }
-            options.names.iter().map(String::as_str).collect()
-        }
+    let wanted: Vec<&Provable> = match options.names.as_slice() {
+        _ if options.all || options.gate => THEOREMS.iter().collect(),
+        [] => THEOREMS.iter().filter(|theorem| theorem.gate.is_none()).collect(),
+        names => names.iter().map(|name| named(name)).collect::<Result<_, Error>>()?,
     };
     let folder = results_folder(options.out.as_deref(), "proofs")?;
     let mut open = Vec::new();
-    for name in wanted {
-        let is_proved = match window_of_cells(name) {
-            Some((name, window, most_open)) => cells(name, window, most_open, options, &folder)?,
-            None => {
-                let begin = Instant::now();
-                let theorem = prove(name, options, &folder)?;
-                report(&theorem, begin, std::iter::empty(), &folder)?
-            }
-        };
-        if !is_proved {
-            open.push(name);
+    for theorem in wanted {
+        let mut own = options.clone();
+        if let Some(gate) = theorem.gate.filter(|_| options.gate) {
+            gate(&mut own);
+        }
+        if !theorem.prove(&own, &folder)? {
+            open.push(theorem.name);
         }
     }
     if open.is_empty() {
@@ -130,10 +163,27 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
     Err(Error::CheckFailed(format!("not proved: {}", open.join(", "))))
 }
 
-/// The error for a name that is no theorem's.
-fn unknown(name: &str) -> Error {
-    let known: Vec<&str> = QUICK.iter().chain(&LONG).copied().collect();
-    Error::UnknownName { kind: "theorem", name: name.to_owned(), known: known.join(", ") }
+/// The theorem of a name.
+fn named(name: &str) -> Result<&'static Provable, Error> {
+    THEOREMS.iter().find(|theorem| theorem.name == name).ok_or_else(|| {
+        let known: Vec<&str> = THEOREMS.iter().map(|theorem| theorem.name).collect();
+        Error::UnknownName { kind: "theorem", name: name.to_owned(), known: known.join(", ") }
+    })
+}
+
+impl Provable {
+    /// Proves the theorem, and writes its certificate: whether it is proved.
+    fn prove(&self, options: &Options, folder: &Folder) -> Result<bool, Error> {
+        let begin = Instant::now();
+        let theorem = match self.proof {
+            Proof::Whole(prove) => prove(options)?,
+            Proof::Points(window) => points(self.name, window(), options, folder)?,
+            Proof::Cells(window, most_open) => {
+                return cells(self.name, window(), most_open, options, folder);
+            }
+        };
+        report(&theorem, begin, std::iter::empty(), folder)
+    }
 }
 
 /// Prints a theorem and writes its certificate, if it is proved: whether it is.
@@ -159,22 +209,6 @@ fn report(
     let (path, bytes) = write_certificate(theorem, strips, folder)?;
     say(format_args!("{:8} certificate {}, {bytes} bytes", "", path.display()))?;
     Ok(true)
-}
-
-fn prove(name: &str, options: &Options, folder: &Folder) -> Result<Theorem, Error> {
-    let by_name = match name {
-        "one-sudden" => one_sudden(),
-        "one-sided" => one_sided(HUMPS)?,
-        "crisis" => crises(CRISES)?,
-        "traps" => trap_edges(HUMPS, TRAPS)?,
-        "everything-hops" => everything_hops()?,
-        "rising" => rising(&RISING)?,
-        "measures" => fractions(options)?,
-        "fig6-points" => points("fig6-points", fig_6(), options, folder)?,
-        "fig9-points" => points("fig9-points", FIG_9, options, folder)?,
-        other => return Err(unknown(other)),
-    };
-    Ok(by_name)
 }
 
 /// The fractions at one mass ratio, or at those of the table.
@@ -216,15 +250,6 @@ fn points(
     let drawn = draw_window(name, window, &label_png(name, &proved)?, labels);
     write(name, drawn, folder)?;
     Ok(points_theorem(name, &proved, &computed)?)
-}
-
-/// The window of a theorem about cells, and the share of its area that may stay open; `None` for other theorems.
-fn window_of_cells(name: &str) -> Option<(&'static str, FigureWindow, f64)> {
-    match name {
-        "fig6-cells" => Some(("fig6-cells", fig_6(), OPEN_OF_FIG_6)),
-        "fig9-cells" => Some(("fig9-cells", FIG_9, OPEN_OF_FIG_9)),
-        _ => None,
-    }
 }
 
 /// Every cell of a figure. Finished strips are kept until the certificate is written from them.
@@ -275,6 +300,6 @@ mod tests {
         let statements: serde_json::Map<String, serde_json::Value> =
             serde_json::from_str(&text).unwrap();
         let stated: BTreeSet<&str> = statements.keys().map(String::as_str).collect();
-        assert_eq!(stated, QUICK.into_iter().chain(LONG).collect());
+        assert_eq!(stated, THEOREMS.iter().map(|theorem| theorem.name).collect());
     }
 }
