@@ -1,6 +1,7 @@
 //! β, λ and Δ of the leading-order map, as printed in the paper and as corrected.
 
 use crate::error::Error;
+use crate::local_map::LEFT_FACTOR;
 use passive_hopper::{MassRatio, alpha_star};
 
 /// The λ of the paper, or the corrected λ.
@@ -57,6 +58,11 @@ impl Coefficients {
             Form::Corrected => 0.75 * printed,
         };
         Ok(Coefficients { n, alpha_star, beta, lambda })
+    }
+
+    /// A on the left of α*_n: a hop moves |δ|^{−1/3} by about A = 10λ/3. On the right it moves by λ/3.
+    pub fn left_drift(&self) -> f64 {
+        LEFT_FACTOR * self.lambda / 3.0
     }
 
     /// Δ = λ⁻³, the leading estimate of the length of the trap (Eq. 20).

@@ -9,6 +9,7 @@
 //!
 //! | item | role |
 //! |---|---|
+//! | [`ONE_SUDDEN`] | M₁, up to which a hop has at most one sudden lift-off |
 //! | [`Trap`] | the trap of α*_n: its length Δ_n, and the kind of its end |
 //! | [`crisis`], [`grounding`] | mass ratios from which orbits of a hump fall below its fixed point, or to the ground |
 //! | [`immediate_basin`], [`ImmediateBasin`] | the trap continued into the sudden window, by a scan of stated spacing |
@@ -106,4 +107,4 @@ pub use traps::crisis::{Crisis, crisis, grounding};
 pub use traps::immediate_basin::{
     ImmediateBasin, ImmediateBasinEdge, immediate_basin, upper_crisis_bracket,
 };
-pub use traps::trap::{Trap, TrapEdge, TrapSide};
+pub use traps::trap::{ONE_SUDDEN, Trap, TrapEdge, TrapSide};

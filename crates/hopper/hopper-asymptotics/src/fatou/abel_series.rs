@@ -75,7 +75,7 @@ fn leading(local: &Coefficients, side: Side) -> (f64, f64, f64) {
     let share = beta / (lambda * a);
     let [left, right] = LARGEST_WIDTHS;
     let (drift, logarithm, largest) = match side {
-        Side::Left => (10.0 * lambda / 3.0, -2.0 - 0.3 * share, left),
+        Side::Left => (local.left_drift(), -2.0 - 0.3 * share, left),
         Side::Right => (lambda / 3.0, 2.0 + 3.0 * share, right),
     };
     (drift, logarithm, (beta * NEAREST_TURN / drift).min(largest))

@@ -15,6 +15,7 @@ use crate::coefficients::Coefficients;
 use crate::fatou::polynomial::ORDER;
 use crate::fatou::second_flight::SecondFlight;
 use crate::fatou::taylor_model::Model;
+use crate::local_map::LEFT_FACTOR;
 use passive_hopper::MassRatio;
 use std::sync::OnceLock;
 
@@ -126,7 +127,7 @@ impl LocalHopModel {
         let rate = ratio.scaled(-first.side.sign() * width, f64::EPSILON);
         // x is |t|/β, and g is −λx on the right and 10λx on the left, to leading order.
         let leading = match first.side {
-            Side::Left => 10.0 * local.lambda,
+            Side::Left => LEFT_FACTOR * local.lambda,
             Side::Right => -local.lambda,
         } * width
             / local.beta;

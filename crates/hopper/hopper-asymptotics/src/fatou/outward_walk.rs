@@ -41,7 +41,7 @@ impl OutwardWalk {
     /// [`Error::Index`] for n = 0.
     pub fn new(n: u64, mass_ratio: MassRatio) -> Result<Self, Error> {
         let local = Coefficients::new(n, mass_ratio, Form::Corrected)?;
-        let drift = 10.0 * local.lambda / 3.0;
+        let drift = local.left_drift();
         let width = (local.beta * LARGEST_TURN / drift).min(LARGEST_LEFT_WIDTH);
         let hop = LocalHopModel::new(&local, mass_ratio, Side::Left, width);
         let radii = |model: &Model| model.radii.iter().sum::<f64>();

@@ -7,11 +7,9 @@ use crate::circle::fundamental_domain::DomainSpeeds;
 
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
+use crate::traps::trap::ONE_SUDDEN;
 use basin_of_attraction::{Interval, Label, Refinement, interval_basins_from_known};
 use std::f64::consts::PI;
-
-/// (α*_1² − 1)/(α*_1² + 1): for M up to this a hop has at most one sudden lift-off (docs/theory.md, Theorem 20).
-const ONE_SUDDEN: f64 = 0.905_619_101_548_377_4;
 
 /// Up to this n the windows are known to have one branch each for most M (docs/theory.md, Theorem 48). For larger n
 /// the intervals between the many traps below would also be too many: at n = 10 and M = 0.3, 2·10⁴ intervals leave

@@ -18,7 +18,7 @@ const FARTHEST: f64 = 3e-3;
 /// The farthest |δ| left of α*_n at which A |δ|^{1/3} is at most `turn`, or more.
 fn farthest(n: u64, mass_ratio: MassRatio, turn: f64) -> f64 {
     let Ok(local) = Coefficients::new(n, mass_ratio, Form::Corrected) else { return 0.0 };
-    let root = turn / (10.0 / 3.0 * local.lambda);
+    let root = turn / local.left_drift();
     (1.1 * root * root * root).min(FARTHEST)
 }
 

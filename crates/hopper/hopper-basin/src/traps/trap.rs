@@ -20,8 +20,8 @@ pub enum TrapEdge {
     NextFixedPoint,
 }
 
-/// (α*_1² − 1)/(α*_1² + 1): for M up to this a hop has at most one sudden lift-off (docs/theory.md, Theorem 20).
-const ONE_SUDDEN: f64 = 0.905_619_101_548_377_4;
+/// M₁ = (α*_1² − 1)/(α*_1² + 1): for M up to this a hop has at most one sudden lift-off (docs/theory.md, Theorem 20).
+pub const ONE_SUDDEN: f64 = 0.905_619_101_548_377_4;
 
 /// Whether no hop from the sudden window ((n+1)π, α*_{n+1}) can lose enough to fall to α*_n.
 ///

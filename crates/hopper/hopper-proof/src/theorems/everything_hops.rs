@@ -9,7 +9,7 @@ use crate::hop::strip::Strip;
 use crate::theorems::digits::{at_least, at_most};
 use crate::theorems::theorem::Theorem;
 use crate::traps::Touch;
-use hopper_basin::rising_window;
+use hopper_basin::{ONE_SUDDEN, rising_window};
 use interval_arithmetic::{Enclosure, PI};
 
 /// Equal parts of a contact part on which F is enclosed. More parts would give narrower enclosures than the proof
@@ -97,8 +97,8 @@ pub fn everything_hops() -> Result<Theorem, Error> {
     });
     theorem.step(
         "M_c(1) ≤ M₁: at most two flights a hop",
-        format!("{} ≤ 0.9056", crisis.high),
-        crisis.high <= 0.9056,
+        format!("{} ≤ {ONE_SUDDEN}", crisis.high),
+        crisis.high <= ONE_SUDDEN,
     );
     Ok(theorem)
 }

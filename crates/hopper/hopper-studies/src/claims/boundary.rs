@@ -7,7 +7,7 @@ use crate::independent::map::{Map, printed, printed_rounding};
 use crate::independent::trap_edge::trap_edge;
 use basin_of_attraction::{Branch, Interval, PreimageTree, Refinement, ResidualSet};
 use hopper_asymptotics::{Coefficients, Form, LEFT_FACTOR};
-use hopper_basin::{Fates, hopper_basins};
+use hopper_basin::{Fates, ONE_SUDDEN, hopper_basins};
 use passive_hopper::{FixedPointSpeed, MassRatio, alpha_star};
 
 pub(super) const CHECKS: &[Check] = &[
@@ -231,10 +231,6 @@ pub(super) fn leaving(map: &impl Map, left_factor: f64) -> Result<Evidence, Erro
         .corrected((ratio - 1.0).abs() < LAW_ERROR))
 }
 
-/// The largest mass ratio at which a hop has one sudden lift-off at most, and for which countability is proved
-/// (docs/theory.md, Theorem 20).
-const LARGEST_PROVED: f64 = 0.905_619_101_548_377_4;
-
 /// The hypotheses of the theorem, at one mass ratio: f(α) ≤ α with equality at fixed points only, and M ≤ M₁.
 pub(super) fn countable(map: &impl Map, m: f64) -> Result<Evidence, Error> {
     let mass_ratio = MassRatio::new(m)?;
@@ -257,5 +253,5 @@ pub(super) fn countable(map: &impl Map, m: f64) -> Result<Evidence, Error> {
         .ours("a theorem for $M$ ≤ 0.9056: $f$($α$) < $α$ except at the fixed points, so that no other orbit returns; each level has finitely many ends in a bounded window, and the boundary is their countable closed union. A countable set contains no Cantor set")
         .error(format!("{rising} of {probes} probes of $f$($α$) < $α$ fail; rounding is at most {:.0e} of the loss", largest(margins)))
         .how(format!("the theorem's conditions at $M$ = {m}: the printed map at 10^{{−1}} … 10^{{−8}} on either side of the first four fixed points. A computation cannot show more"))
-        .holds(rising == 0 && m <= LARGEST_PROVED))
+        .holds(rising == 0 && m <= ONE_SUDDEN))
 }
