@@ -15,7 +15,7 @@ pub struct RecurrenceLimits {
     pub budget: usize,
     /// Consecutive steps outside the region, after which an orbit is given up.
     pub lost: usize,
-    /// Orbits that test a candidate.
+    /// Orbits that test a candidate; 50 at least are taken.
     pub tests: usize,
     /// A distance from the origin, in the largest coordinate, from where the caller knows that no orbit returns.
     /// Such an orbit has the label [`Label::ESCAPED`](crate::Label::ESCAPED). `None` if there is none.

@@ -20,6 +20,10 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 /// With fewer cells a side each of them is at the border of the region, and no orbit can be seen to stay away from it.
 const FEWEST_CELLS: usize = 3;
 
+/// Fewest orbits that test a candidate. With 10 a slow spiral of a factor 1 − 10⁻⁶ passed as an attractor, with 50 it does not.
+/// More take longer: a test is three stretches.
+const FEWEST_TESTS: usize = 50;
+
 /// An attractor, located to the cells of a grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attractor {
@@ -304,7 +308,7 @@ impl Attractors {
             }
             false
         };
-        (0..self.limits.tests.max(1)).into_par_iter().all(stays)
+        (0..self.limits.tests.max(FEWEST_TESTS)).into_par_iter().all(stays)
     }
 
     /// Makes one of attractors whose orbits enter each other, and gives the labels again. `ends` are points of

@@ -8,10 +8,10 @@ use nalgebra::Vector2;
 use std::hint::black_box;
 
 /// A harmonic oscillator whose zeros are events.
-struct Swing(Bounds);
+struct Swing(GuardBounds);
 
 #[derive(Clone, Copy, PartialEq)]
-enum Bounds {
+enum GuardBounds {
     QuasiPolynomial,
     Enclosure,
     Samples,
@@ -34,7 +34,7 @@ impl HybridSystem for Swing {
         x[0]
     }
     fn guard_quasi_polynomial(&self, _: (), _: (), x: &State<2>) -> Option<QuasiPolynomial> {
-        (self.0 == Bounds::QuasiPolynomial)
+        (self.0 == GuardBounds::QuasiPolynomial)
             .then(|| QuasiPolynomial::cosine(x[0], 1.0) + QuasiPolynomial::sine(x[1], 1.0))
     }
     fn guard_enclosure(
@@ -45,7 +45,7 @@ impl HybridSystem for Swing {
         order: u32,
         (from, to): (f64, f64),
     ) -> Option<Enclosure> {
-        if self.0 != Bounds::Enclosure {
+        if self.0 != GuardBounds::Enclosure {
             return None;
         }
         // |x⁽ᵏ⁺¹⁾| is at most the amplitude: x⁽ᵏ⁾ changes by no more than amplitude · time. 1e-15 is for rounding.
@@ -92,9 +92,9 @@ impl HybridSystem for Integrated {
 
 fn zeros(criterion: &mut Criterion) {
     for (name, search) in [
-        ("quasi-polynomial", Bounds::QuasiPolynomial),
-        ("enclosure", Bounds::Enclosure),
-        ("samples", Bounds::Samples),
+        ("quasi-polynomial", GuardBounds::QuasiPolynomial),
+        ("enclosure", GuardBounds::Enclosure),
+        ("samples", GuardBounds::Samples),
     ] {
         criterion.bench_function(&format!("ten zeros of a swing: {name}"), |bencher| {
             let swing = Swing(search);

@@ -163,8 +163,8 @@ pub mod model_parts {
     #[cfg(feature = "ode")]
     pub use crate::model::Integrated;
     pub use crate::model::{
-        Bounds, Clock, ClosedForm, Field, Jump, JumpEverywhere, Motion, Outcome, Part, Rest,
-        Signal, Slide, Terminal, Watch,
+        Clock, ClosedForm, Field, GuardEnclosure, Jump, JumpEverywhere, ModelPart, Motion, Outcome,
+        Rest, Signal, Slide, Terminal, Watch,
     };
 }
 

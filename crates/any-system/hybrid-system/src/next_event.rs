@@ -7,7 +7,7 @@ use crate::execution::Execution;
 use crate::guard::Role;
 use crate::lands_beyond::LandsBeyond;
 use crate::point::Point;
-use crate::start_rule::{Start, Undeclared, start_of_arc};
+use crate::start_rule::{ArcStart, Undeclared, start_of_arc};
 use crate::system::{FlowFrom, HybridSystem};
 
 /// The next event of an arc, and the guards on whose surfaces it starts.
@@ -25,7 +25,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         let mut leaving = LeavingGuards::new();
         let times = (horizon, self.limits.sampling_interval);
         let start = start_of_arc(&flow, arrival.as_ref(), residues, initial, times, &mut leaving)?;
-        if let Start::Event {
+        if let ArcStart::Event {
             surface,
             certainty,
             errors: (time_rounding, time_error),

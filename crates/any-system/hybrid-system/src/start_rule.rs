@@ -37,7 +37,7 @@ use crate::system::{FlowFrom, HybridSystem};
 
 /// How an arc starts.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Start<S> {
+pub(crate) enum ArcStart<S> {
     /// With an event at once.
     Event {
         surface: S,
@@ -77,7 +77,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
     initial: bool,
     (horizon, interval): (f64, Option<f64>),
     leaving: &mut LeavingGuards<T::Surface>,
-) -> Result<Start<T::Surface>, Error> {
+) -> Result<ArcStart<T::Surface>, Error> {
     leaving.clear();
     let size = flow.start.largest().max(arrival.map_or(0.0, Arrival::size));
     for guard in flow.guards().iter().filter(|guard| guard.role != Role::Clock) {
@@ -176,11 +176,11 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
                 on_surface,
             });
             let errors = arrival.filter(|_| passes).map_or((0.0, 0.0), Arrival::errors);
-            return Ok(Start::Event { surface, certainty, errors, undeclared });
+            return Ok(ArcStart::Event { surface, certainty, errors, undeclared });
         }
         if on_surface {
             leaving.push(Leaving { surface, side, ahead: false });
         }
     }
-    Ok(Start::Flows)
+    Ok(ArcStart::Flows)
 }

@@ -84,9 +84,9 @@ pub(crate) struct IntervalBasins {
 }
 
 /// An interval for pickle: its ends, its label and its level.
-type Part = (f64, f64, u16, Option<usize>);
+type PickledInterval = (f64, f64, u16, Option<usize>);
 /// All intervals for pickle: the window, the intervals, the numbers of the reason and of the ground, and the probes.
-type Stored = ((f64, f64), Vec<Part>, usize, usize, (usize, usize, Option<f64>));
+type Stored = ((f64, f64), Vec<PickledInterval>, usize, usize, (usize, usize, Option<f64>));
 
 const REASONS: [StopReason; 7] = [
     StopReason::Resolved,
@@ -110,7 +110,7 @@ pub(crate) fn restored_basins(py: Python<'_>, values: &Bound<'_, PyTuple>) -> Py
     let ((left, right), parts, reason, ground, probes): Stored = values.extract()?;
     let wrong = || PyValueError::new_err("the pickle of these intervals has a wrong number");
     let window = Interval::new(left, right).map_err(value_error)?;
-    let part = |(left, right, label, level): Part| {
+    let part = |(left, right, label, level): PickledInterval| {
         let interval = Interval::new(left, right).map_err(value_error)?;
         Ok(LabelledInterval { interval, label: Label::from_code(label), level })
     };
@@ -132,7 +132,7 @@ impl IntervalBasins {
             (part.interval.left, part.interval.right, part.label.code(), part.level)
         };
         let window = (basins.window().left, basins.window().right);
-        let parts: Vec<Part> = basins.intervals().iter().map(part).collect();
+        let parts: Vec<PickledInterval> = basins.intervals().iter().map(part).collect();
         let numbers = (number_of(&REASONS, &basins.stop_reason()), number_of(&GROUNDS, ground));
         let probes = (probes.compared, probes.wrong, probes.first_wrong);
         let stored: Stored = (window, parts, numbers.0, numbers.1, probes);

@@ -1,5 +1,7 @@
 """The motion of both masses."""
 
+import os
+
 import numpy as np
 import passive_hopper as hopper
 import pytest
@@ -86,3 +88,19 @@ def test_what_cannot_move_is_a_value_error():
         hopper.animate(hopper.motion(20000.0, hops=1), "hopper.gif")
     with pytest.raises(ValueError, match="attribute"):
         hopper.animate(xarray.Dataset(), "hopper.gif")
+
+
+def test_an_animation_is_written_through_a_link_and_into_no_pipe(tmp_path):
+    found = hopper.motion(7.0, hops=1)
+    target, link = tmp_path / "target.gif", tmp_path / "link.gif"
+    target.write_bytes(b"old")
+    link.symlink_to(target)
+    hopper.animate(found, link)
+    assert link.is_symlink() and target.read_bytes().startswith(b"GIF8")
+    pipe = tmp_path / "pipe.gif"
+    os.mkfifo(pipe)
+    with pytest.raises(OSError, match="named pipe"):
+        hopper.animate(found, pipe)
+    with pytest.raises(IsADirectoryError, match="folder"):
+        hopper.animate(found, tmp_path)
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["link.gif", "pipe.gif", "target.gif"]

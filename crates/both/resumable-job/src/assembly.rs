@@ -2,7 +2,7 @@
 
 use crate::atomic_file::AtomicFile;
 use crate::error::Error;
-use crate::pieces::{Found, Pieces};
+use crate::pieces::{Pieces, StoredPiece};
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -14,12 +14,12 @@ impl Pieces {
     /// [`Error::MissingPiece`], and [`Error::Piece`] for a damaged or foreign one.
     pub fn finished(&self, piece: usize) -> Result<Vec<u8>, Error> {
         match self.find(piece)? {
-            Found::Finished(payload) => Ok(payload),
-            Found::Missing => {
+            StoredPiece::Finished(payload) => Ok(payload),
+            StoredPiece::Missing => {
                 let job = self.description().to_owned();
                 Err(Error::MissingPiece { path: self.path(piece), job })
             }
-            Found::Unusable(unusable) => Err(unusable.into()),
+            StoredPiece::Unusable(unusable) => Err(unusable.into()),
         }
     }
 

@@ -14,7 +14,7 @@
 //! | [`Lock`] | gives a job in a folder to one process, or each of its parts to one process; ends with the process |
 //! | [`Part`] | part K of N of a job: each N-th piece |
 //! | [`claim`], [`is_claimed`], [`remove_results`] | `job.txt`: the one job whose results a folder has |
-//! | [`Pieces`], [`Found`] | the finished pieces of one job; [`Pieces::assemble`] joins them to one checked file |
+//! | [`Pieces`], [`StoredPiece`] | the finished pieces of one job; [`Pieces::assemble`] joins them to one checked file |
 //! | [`AtomicFile`], [`write_atomically`] | a file that appears under its name complete or not at all |
 //! | [`Progress`], [`Pace`], [`Place`] | how far a job is and how long it still takes: a line on a terminal, or in a log every 30 seconds |
 //! | [`make_folder`] | makes a folder with its parents, and tells a file that has its name |
@@ -24,7 +24,7 @@
 //! | [`Error`], [`UnusablePiece`] | the reason of a failure, with path, process number and remedy |
 //!
 //! ```
-//! use resumable_job::{Element, Found, Lock, Order, Pieces, claim, npy_header};
+//! use resumable_job::{Element, StoredPiece, Lock, Order, Pieces, claim, npy_header};
 //! # let folder = std::env::temp_dir().join(format!("resumable_job_doc_{}", std::process::id()));
 //! # std::fs::create_dir_all(&folder)?;
 //! let lock = Lock::take(&folder, "squares")?;
@@ -33,7 +33,7 @@
 //! claim(&folder, job, |name| name == "squares.npy" || name == "pieces")?;
 //! let pieces = Pieces::open(&folder.join("pieces"), job)?;
 //! for k in 0..4u16 {
-//!     if !matches!(pieces.find(k.into())?, Found::Finished(_)) {
+//!     if !matches!(pieces.find(k.into())?, StoredPiece::Finished(_)) {
 //!         pieces.write(k.into(), &(k * k).to_le_bytes())?;
 //!     }
 //! }
@@ -103,6 +103,6 @@ pub use error::{Error, UnusablePiece};
 pub use lock::Lock;
 pub use npy::{Element, Order, npy_header};
 pub use part::Part;
-pub use pieces::{Found, Pieces};
+pub use pieces::{Pieces, StoredPiece};
 pub use progress::{Pace, Place, Progress};
 pub use regular_file::{Contents, read_regular};

@@ -60,7 +60,7 @@ impl std::fmt::Debug for Pieces {
 
 /// What a folder has of a piece.
 #[derive(Debug, PartialEq, Eq)]
-pub enum Found {
+pub enum StoredPiece {
     /// The payload of a finished piece.
     Finished(Vec<u8>),
     /// No file.
@@ -86,7 +86,7 @@ impl Pieces {
     }
 
     /// The same pieces, of which only those count whose payload `is_payload` accepts: mostly those of the right
-    /// length. A file with another payload is [`Found::Unusable`].
+    /// length. A file with another payload is [`StoredPiece::Unusable`].
     #[must_use]
     pub fn holding(
         mut self,
@@ -109,26 +109,26 @@ impl Pieces {
     /// # Errors
     /// [`Error::Piece`] if the name of the piece belongs to a folder or a device, which no file can replace;
     /// [`Error::File`] if the file cannot be read.
-    pub fn find(&self, piece: usize) -> Result<Found, Error> {
+    pub fn find(&self, piece: usize) -> Result<StoredPiece, Error> {
         let path = self.path(piece);
         let mut bytes = match read_regular(&path)? {
             Contents::Bytes(bytes) => bytes,
-            Contents::Missing => return Ok(Found::Missing),
+            Contents::Missing => return Ok(StoredPiece::Missing),
             Contents::NoFile => {
                 let reason = "it is no regular file";
                 return Err(Error::Piece(UnusablePiece { path, reason }));
             }
         };
         if let Some(reason) = self.defect(piece, &bytes) {
-            return Ok(Found::Unusable(UnusablePiece { path, reason }));
+            return Ok(StoredPiece::Unusable(UnusablePiece { path, reason }));
         }
         bytes.truncate(bytes.len() - DIGEST);
         bytes.drain(..HEAD);
         if self.is_payload.as_ref().is_some_and(|is_payload| !is_payload(piece, &bytes)) {
             let reason = "its contents have not the length of this piece";
-            return Ok(Found::Unusable(UnusablePiece { path, reason }));
+            return Ok(StoredPiece::Unusable(UnusablePiece { path, reason }));
         }
-        Ok(Found::Finished(bytes))
+        Ok(StoredPiece::Finished(bytes))
     }
 
     /// The reason why the contents of a file are not this piece of this job; `None` if they are.
@@ -236,14 +236,14 @@ mod tests {
         folder
     }
 
-    fn found(kept: &Pieces, piece: usize) -> Found {
+    fn found(kept: &Pieces, piece: usize) -> StoredPiece {
         kept.find(piece).unwrap()
     }
 
     /// The reason why a piece cannot be used.
     fn reason(kept: &Pieces, piece: usize) -> &'static str {
         match kept.find(piece).unwrap() {
-            Found::Unusable(unusable) => unusable.reason,
+            StoredPiece::Unusable(unusable) => unusable.reason,
             other => panic!("{other:?}"),
         }
     }
@@ -252,14 +252,14 @@ mod tests {
     fn pieces_come_back_whole() {
         let folder = folder("whole");
         let kept = Pieces::open(&folder, "a job").unwrap();
-        assert_eq!(found(&kept, 3), Found::Missing);
+        assert_eq!(found(&kept, 3), StoredPiece::Missing);
         kept.write(3, b"some bytes").unwrap();
         kept.write(4, b"").unwrap();
         [12, 3, 12].into_iter().for_each(|of| kept.note_parts(of).unwrap());
         assert_eq!(kept.numbers_of_parts().unwrap(), [3, 12]);
         let again = Pieces::open(&folder, "a job").unwrap();
-        assert_eq!(found(&again, 3), Found::Finished(b"some bytes".to_vec()));
-        assert_eq!(found(&again, 4), Found::Finished(Vec::new()));
+        assert_eq!(found(&again, 3), StoredPiece::Finished(b"some bytes".to_vec()));
+        assert_eq!(found(&again, 4), StoredPiece::Finished(Vec::new()));
         // A killed run leaves a temporary file without a lock.
         std::fs::write(folder.join("piece_000002.bin.1-7.partial.tmp"), b"half").unwrap();
         again.remove(5).unwrap();
@@ -303,7 +303,7 @@ mod tests {
             let kept = Pieces::open(&folder, "a job").unwrap();
             kept.holding(move |piece, bytes| piece == 0 && bytes.len() == length)
         };
-        assert_eq!(found(&of(10), 0), Found::Finished(b"some bytes".to_vec()));
+        assert_eq!(found(&of(10), 0), StoredPiece::Finished(b"some bytes".to_vec()));
         assert!(reason(&of(9), 0).contains("length"));
         of(9).remove(1).unwrap();
     }

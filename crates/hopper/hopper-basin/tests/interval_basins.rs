@@ -60,14 +60,18 @@ fn where_the_branches_are_proved_every_probe_has_the_fate_of_its_interval() {
 /// 0.2, which decays after 24 133 hops. The ground is reached by one more hop than the gap in which it is.
 #[test]
 fn the_ends_of_every_interval_have_its_fate() {
-    for m in [0.12, 0.2, 0.5, 0.8] {
+    // The last two have ends of traps at multiples of π, which no double is.
+    for (m, first, last) in
+        [(0.12, 1, 6), (0.2, 1, 6), (0.5, 1, 6), (0.8, 1, 6), (0.7, 0, 3), (0.07, 0, 3)]
+    {
         let fates = fates(m);
         let refinement = Refinement { undecided: 0.1, ..Refinement::default() };
-        let found = hopper_basins(&fates, 1, 6, 400, refinement).unwrap();
+        let found = hopper_basins(&fates, first, last, 400, refinement).unwrap();
         let parts = found.basins.intervals();
-        assert!(parts.len() > 100, "{m}");
+        let all = parts.len();
+        assert!(all > 100 || first == 0, "{m}");
         let (mut ends, mut grounded) = (Vec::new(), 0);
-        for part in parts.iter().step_by(5) {
+        for part in parts.iter().step_by(if all > 1000 { 5 } else { 1 }) {
             let Interval { left, right } = part.interval;
             // The doubles beside an end have images beside the end of a trap, within its error.
             let inside = |speed: &f64| (left..=right).contains(speed);
@@ -79,6 +83,7 @@ fn the_ends_of_every_interval_have_its_fate() {
                 (upwards, downwards) = (upwards.next_up(), downwards.next_down());
             }
         }
+        ends.retain(|end| end.1 > 0.0);
         let speeds: Vec<f64> = ends.iter().map(|end| end.1).collect();
         for ((part, speed), (fate, hops)) in
             ends.iter().zip(fates.fates_within(&speeds, 1_000_000).unwrap())

@@ -26,7 +26,7 @@ pub struct BasinGap {
 
 /// One line of a certificate.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Evidence {
+pub enum CertificateLine {
     /// The inequality of Theorem 20 of docs/theory.md: `available` < `needed`, for all mass ratios up to the largest.
     OneSudden {
         /// α*_1.
@@ -109,7 +109,7 @@ pub enum Evidence {
     },
     /// The gaps between the intervals of the line of basins before, and parts of gaps: disjoint, from the lowest up.
     Gaps(Vec<BasinGap>),
-    /// So many lines of [`Evidence::Basins`], which are too long to be held: those of
+    /// So many lines of [`CertificateLine::Basins`], which are too long to be held: those of
     /// [`proved_strips`](crate::proved_strips), from the left.
     Strips(usize),
     /// The fraction of a basin on humps 1 to `humps`, at the mass ratio of the line of basins before.
@@ -152,19 +152,19 @@ pub enum Evidence {
     },
 }
 
-impl Evidence {
+impl CertificateLine {
     /// A trap, whose left end is α*_n.
     pub(crate) fn trap(n: u64, mass_ratio: f64, right: f64, beyond: Option<f64>) -> Self {
-        Evidence::Trap { n, fixed_point: fixed_point(n), mass_ratio, right, beyond }
+        CertificateLine::Trap { n, fixed_point: fixed_point(n), mass_ratio, right, beyond }
     }
 
     /// The intervals of a strip.
     pub fn of_strip((mass_ratios, line): ProvedStrip) -> Self {
-        Evidence::Basins { mass_ratios, intervals: line.into_intervals() }
+        CertificateLine::Basins { mass_ratios, intervals: line.into_intervals() }
     }
 
     /// The number of lines that it has in a certificate.
     pub fn lines(&self) -> usize {
-        if let Evidence::Strips(count) = self { *count } else { 1 }
+        if let CertificateLine::Strips(count) = self { *count } else { 1 }
     }
 }

@@ -4,12 +4,12 @@
 //! |---|---|
 //! | [`Strip`] | all mass ratios of an interval |
 //! | [`ProvedImages`] | hops from all speeds of an interval, enclosed with rounding outwards |
-//! | [`proved_trap`], [`Touch`] | traps and crises, enclosed |
+//! | [`proved_trap`], [`ProvedCrisis`] | traps and crises, enclosed |
 //! | [`ProvedLine`] | the basins of a line of speeds, for all mass ratios of a strip |
 //! | [`ProvedPoints`], [`proved_points`] | the fates of single speeds at one M; of the points of a raster |
 //! | [`proved_basins`], [`basins_at_every_mass_ratio`] | all basins at one M as intervals |
 //! | [`fixed_point`] | α*_n, enclosed |
-//! | [`Theorem`], [`Evidence`] | a statement with the steps of its proof, and the numbers with which another program checks it |
+//! | [`Theorem`], [`CertificateLine`] | a statement with the steps of its proof, and the numbers with which another program checks it |
 
 mod basins;
 mod cell;
@@ -25,7 +25,7 @@ mod traps;
 
 pub use basins::{basins_at_every_mass_ratio, proved_basins};
 pub use cell::Cell;
-pub use certificate::{BasinGap, BasinInterval, CERTIFICATE_VERSION, Evidence};
+pub use certificate::{BasinGap, BasinInterval, CERTIFICATE_VERSION, CertificateLine};
 pub use error::Error;
 pub use fixed_points::fixed_point;
 pub use hop::proved_images::ProvedImages;
@@ -43,4 +43,4 @@ pub use theorems::raster_theorems::{cells_theorem, points_theorem};
 pub use theorems::rising::rising;
 pub use theorems::theorem::{Step, Theorem};
 pub use theorems::trap_edges::trap_edges;
-pub use traps::{Touch, proved_trap};
+pub use traps::{ProvedCrisis, proved_trap};

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::fixed_points::{fixed_point, offset_from_fixed_point};
 use crate::hop::first_landing::FirstLanding;
 use crate::hop::hop_enclosure::w_over;
-use crate::hop::part::Part;
+use crate::hop::part::SpeedPart;
 use crate::hop::strip::Strip;
 use basin_of_attraction::Interval;
 use hopper_basin::{Trap, TrapEdge, rising_window};
@@ -35,7 +35,7 @@ struct AtSpeed {
 impl AtSpeed {
     fn new(n: u64, alpha: f64) -> Option<Self> {
         let speed = Enclosure::from(alpha);
-        let first = FirstLanding::over(speed, Part::Contact(n))?;
+        let first = FirstLanding::over(speed, SpeedPart::Contact(n))?;
         let square = first.closing_speed().squared();
         let star = fixed_point(n);
         let rise = offset_from_fixed_point(alpha, n) * (speed + star);
@@ -48,7 +48,7 @@ impl AtSpeed {
 /// The place where the minimum of the map on hump n touches α*_n, and the mass parameter at which it does: a
 /// crisis; for n = 0 it touches 0, and the hopper is grounded beyond.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Touch {
+pub struct ProvedCrisis {
     /// The hump.
     pub n: u64,
     /// The speed.
@@ -57,7 +57,7 @@ pub struct Touch {
     pub mu: Enclosure,
 }
 
-impl Touch {
+impl ProvedCrisis {
     /// The touch of hump n.
     ///
     /// # Errors
@@ -101,10 +101,12 @@ impl Touch {
         }
         // The minimum of q lies between. There 4μW = 1 as well, and q is at most its value at both ends.
         let speed = Enclosure::new(low, high);
-        let Some(first) = FirstLanding::over(speed, Part::Contact(n)) else { return Err(open) };
+        let Some(first) = FirstLanding::over(speed, SpeedPart::Contact(n)) else {
+            return Err(open);
+        };
         let by_w = Enclosure::ONE / (4.0 * w_over(&first, n));
         let mu = Enclosure::new(by_w.low, by_w.high.min(left.q.high).min(right.q.high));
-        Ok(Touch { n, speed, mu })
+        Ok(ProvedCrisis { n, speed, mu })
     }
 
     /// The mass ratio M_c ≤ 1 of the touch. 1/M_c is the other one.
@@ -123,7 +125,7 @@ impl Touch {
 pub fn proved_trap(n: u64, strip: &Strip) -> Result<Interval, Error> {
     let left = fixed_point(n).high;
     let open = Error::Open { what: "the trap", n, mass_ratio: strip.mass_ratios.low };
-    let touch = Touch::new(n)?;
+    let touch = ProvedCrisis::new(n)?;
     let end = (PI * (n + 1) as f64).low;
     let heaviest = strip.mass_ratios.high;
     if strip.mu.high < touch.mu.low {

@@ -4,8 +4,9 @@
 use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{HopperFate, SpeedImage, SpeedImages, basin_raster, first_humps};
 use hopper_proof::{
-    Error, Evidence, ProvedCells, ProvedFractions, ProvedImages, Strip, cells_theorem, crises,
-    everything_hops, one_sided, points_theorem, proved_points, proved_strips, rising, trap_edges,
+    CertificateLine, Error, ProvedCells, ProvedFractions, ProvedImages, Strip, cells_theorem,
+    crises, everything_hops, one_sided, points_theorem, proved_points, proved_strips, rising,
+    trap_edges,
 };
 use std::ops::ControlFlow::Continue;
 
@@ -22,11 +23,11 @@ fn every_step_of_a_theorem_has_its_evidence() {
     // The crisis, 256 parts of seven humps, and the bound beyond.
     assert_eq!(everything_hops().unwrap().evidence.len(), 1 + 7 * 256 + 1);
     let boxes = rising(&[(1, 0.5)]).unwrap().evidence;
-    let area = |evidence: &Evidence| match evidence {
-        Evidence::RisingBox { speeds, kappas, .. } => speeds.width() * kappas.width(),
+    let area = |evidence: &CertificateLine| match evidence {
+        CertificateLine::RisingBox { speeds, kappas, .. } => speeds.width() * kappas.width(),
         _ => 0.0,
     };
-    let Evidence::RisingWindow { speeds, .. } = &boxes[0] else { panic!("{:?}", boxes[0]) };
+    let CertificateLine::RisingWindow { speeds, .. } = &boxes[0] else { panic!("{:?}", boxes[0]) };
     let whole = speeds.width() / 3.0; // κ = ⅓ at M = ½
     assert!((boxes.iter().map(area).sum::<f64>() / whole - 1.0).abs() < 1e-12);
 }
@@ -35,7 +36,8 @@ fn every_step_of_a_theorem_has_its_evidence() {
 #[test]
 fn a_trap_a_hundredth_too_long_is_none() {
     for evidence in trap_edges(4, 7).unwrap().evidence {
-        let Evidence::Trap { n, fixed_point: star, mass_ratio, right, beyond } = evidence else {
+        let CertificateLine::Trap { n, fixed_point: star, mass_ratio, right, beyond } = evidence
+        else {
             panic!("{evidence:?}")
         };
         let images = ProvedImages::new(Strip::at(mass_ratio).unwrap(), right + 1.0).unwrap();
@@ -89,8 +91,10 @@ fn strips_hold_the_cells() {
     found.add_column(&strips[3..]).unwrap();
     assert!(matches!(found.add_column(&strips[3..]), Err(Error::Columns { wanted: 3, all: 2 })));
     let evidence = cells_theorem("cells", &found, 0.5).unwrap().evidence;
-    assert!(matches!(evidence[2], Evidence::Strips(6)), "{:?}", evidence[2]);
-    let Evidence::Cells { edges, of_one_basin } = &evidence[1] else { panic!("{:?}", evidence[1]) };
+    assert!(matches!(evidence[2], CertificateLine::Strips(6)), "{:?}", evidence[2]);
+    let CertificateLine::Cells { edges, of_one_basin } = &evidence[1] else {
+        panic!("{:?}", evidence[1])
+    };
     let strips: Vec<_> =
         strips.into_iter().map(|(own, line)| (own, line.intervals().to_vec())).collect();
     assert!(strips.windows(2).all(|pair| pair[0].0.right == pair[1].0.left));

@@ -3,8 +3,8 @@
 
 use hopper_basin::{Trap, crisis, rising_window};
 use hopper_proof::{
-    Strip, Touch, crises, everything_hops, fixed_point, one_sided, one_sudden, proved_trap, rising,
-    trap_edges,
+    ProvedCrisis, Strip, crises, everything_hops, fixed_point, one_sided, one_sudden, proved_trap,
+    rising, trap_edges,
 };
 use passive_hopper::{MassRatio, alpha_star};
 
@@ -45,7 +45,7 @@ fn the_map_rises_in_the_windows_of_the_library() {
 fn computed_crises_and_traps_lie_in_their_enclosures() {
     for n in 1..=8 {
         assert!(fixed_point(n).contains(alpha_star(n)));
-        let found = Touch::new(n).unwrap().mass_ratio();
+        let found = ProvedCrisis::new(n).unwrap().mass_ratio();
         let computed = crisis(n).unwrap();
         assert!(found.widened(1e-16).contains(computed.mass_ratio), "{n} {found:?} {computed:?}");
         for ratio in [0.11, 0.3, 0.7, 1.0, 3.0] {

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::repository::Progress;
-use resumable_job::{Found, Lock, Pieces, program_digest};
+use resumable_job::{Lock, Pieces, StoredPiece, program_digest};
 use std::path::{Path, PathBuf};
 
 /// A run, and the folder that stores the finished rows of its scans until all its results are written.
@@ -65,8 +65,8 @@ impl Job {
         row: impl FnOnce() -> Result<Vec<f64>, Error>,
     ) -> Result<Vec<f64>, Error> {
         let bytes = match kept.find(k)? {
-            Found::Finished(bytes) => bytes,
-            Found::Missing | Found::Unusable(_) => {
+            StoredPiece::Finished(bytes) => bytes,
+            StoredPiece::Missing | StoredPiece::Unusable(_) => {
                 let bytes: Vec<u8> = row()?.iter().flat_map(|x| x.to_le_bytes()).collect();
                 // Without its lock this run would write among the rows of another run.
                 self.lock.confirm()?;

@@ -6,7 +6,7 @@ use crate::repository::Progress;
 use basin_of_attraction::{Grid, Interval, Label};
 use hopper_basin::{FigureWindow, HopperFate, first_humps};
 use hopper_figures::{BasinWindow, draw_pixels, fate_colors};
-use hopper_proof::{Evidence, ProvedCells, ProvedLine, ProvedStrip, proved_strips};
+use hopper_proof::{CertificateLine, ProvedCells, ProvedLine, ProvedStrip, proved_strips};
 use journal_figures::{Svg, rgb_png};
 use std::ops::ControlFlow;
 
@@ -86,9 +86,13 @@ impl<'a> StoredStrips<'a> {
     }
 
     /// The lines of the strips in a certificate.
-    pub(crate) fn evidence(&self) -> Result<impl Iterator<Item = Result<Evidence, Error>>, Error> {
+    pub(crate) fn evidence(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<CertificateLine, Error>>, Error> {
         let lines = |block: Result<Vec<ProvedStrip>, Error>| match block {
-            Ok(strips) => strips.into_iter().map(|strip| Ok(Evidence::of_strip(strip))).collect(),
+            Ok(strips) => {
+                strips.into_iter().map(|strip| Ok(CertificateLine::of_strip(strip))).collect()
+            }
             Err(error) => vec![Err(error)],
         };
         Ok(self.blocks()?.flat_map(lines))

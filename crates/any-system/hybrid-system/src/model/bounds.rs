@@ -1,6 +1,6 @@
 //! Parts with bounds on a guard along the flow, so that its crossings are found with certainty.
 
-use super::part::Part;
+use super::part::ModelPart;
 use crate::crossing::QuasiPolynomial;
 use interval_arithmetic::Enclosure;
 
@@ -11,7 +11,7 @@ pub struct Signal<S, F> {
     pub(super) signal: F,
 }
 
-impl<M, S, X, F> Part<M, S, X> for Signal<S, F>
+impl<M, S, X, F> ModelPart<M, S, X> for Signal<S, F>
 where
     S: Copy + Eq,
     F: Fn(M, &X) -> Option<QuasiPolynomial>,
@@ -27,12 +27,12 @@ where
 
 /// Enclosures of a guard and its derivatives along the flow.
 #[derive(Debug, Clone, Copy)]
-pub struct Bounds<S, F> {
+pub struct GuardEnclosure<S, F> {
     pub(super) surface: S,
     pub(super) enclosure: F,
 }
 
-impl<M, S, X, F> Part<M, S, X> for Bounds<S, F>
+impl<M, S, X, F> ModelPart<M, S, X> for GuardEnclosure<S, F>
 where
     S: Copy + Eq,
     F: Fn(M, &X, u32, (f64, f64)) -> Option<Enclosure>,

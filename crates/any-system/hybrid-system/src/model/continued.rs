@@ -1,14 +1,14 @@
 //! Parts that say how an execution continues where no event leads on: after a Zeno limit, and at a sliding point.
 //! The field of a flow in closed form, which a sliding point needs.
 
-use super::part::Part;
+use super::part::ModelPart;
 use crate::sliding::Sliding;
 
 /// The field of a flow in closed form.
 #[derive(Debug, Clone, Copy)]
 pub struct Field<F>(pub(super) F);
 
-impl<M, S, X, Y, F> Part<M, S, X> for Field<F>
+impl<M, S, X, Y, F> ModelPart<M, S, X> for Field<F>
 where
     Y: Into<X>,
     F: Fn(M, &X) -> Y,
@@ -23,7 +23,7 @@ where
 #[derive(Debug, Clone, Copy)]
 pub struct Rest<F>(pub(super) F);
 
-impl<M, S, X, Y, F> Part<M, S, X> for Rest<F>
+impl<M, S, X, Y, F> ModelPart<M, S, X> for Rest<F>
 where
     Y: Into<X>,
     F: Fn(M, &X) -> Option<(M, Y)>,
@@ -37,7 +37,7 @@ where
 #[derive(Debug, Clone, Copy)]
 pub struct Slide<F>(pub(super) F);
 
-impl<M, S, X, Y, F> Part<M, S, X> for Slide<F>
+impl<M, S, X, Y, F> ModelPart<M, S, X> for Slide<F>
 where
     Y: Into<X>,
     F: Fn(&Sliding<M, S, X>) -> Option<(M, Y)>,

@@ -2,7 +2,7 @@
 
 use super::model::Model;
 use super::motion::{ClosedForm, Motion};
-use super::part::Part;
+use super::part::ModelPart;
 use crate::sensitivity::Differentiable;
 use crate::state::State;
 use crate::system::{HybridSystem, Reset};
@@ -84,7 +84,7 @@ where
     S: Copy + Eq + Debug,
     Y: Into<State<N>>,
     F: Fn(M, &State<N>, f64) -> Y,
-    P: Part<M, S, State<N>>,
+    P: ModelPart<M, S, State<N>>,
 {
     fn flow_jacobian(&self, mode: M, start: &State<N>, time: f64) -> SMatrix<f64, N, N> {
         jacobian_by_differences(start, |start| self.motion.flow(self, mode, start, time))

@@ -3,7 +3,7 @@
 use super::derivatives::state_after;
 use super::model::Model;
 use super::motion::{ClosedForm, Motion};
-use super::part::Part;
+use super::part::ModelPart;
 use crate::parameter_sensitivity::Parametric;
 use crate::state::State;
 use crate::system::HybridSystem;
@@ -95,7 +95,7 @@ where
     S: Copy + Eq + Debug,
     Y: Into<State<N>>,
     F: Fn(M, &State<N>, f64) -> Y,
-    Q: Part<M, S, State<N>>,
+    Q: ModelPart<M, S, State<N>>,
 {
     type System = Model<M, S, State<N>, ClosedForm<F>, Q>;
 

@@ -8,7 +8,7 @@ use super::derivatives::state_after;
 use super::family::Family;
 use super::integrated::Integrated;
 use super::model::Model;
-use super::part::Part;
+use super::part::ModelPart;
 use crate::parameter_sensitivity::Parametric;
 use crate::sliding::{Filippov, FilippovMode, FilippovSurface};
 use crate::state::State;
@@ -26,7 +26,7 @@ where
     S: Copy + Eq + Debug,
     Y: Into<State<N>>,
     F: Fn(M, &State<N>) -> Y,
-    Q: Part<M, S, State<N>>,
+    Q: ModelPart<M, S, State<N>>,
 {
     type System = Filippov<Model<M, S, State<N>, Integrated<F>, Q>>;
 

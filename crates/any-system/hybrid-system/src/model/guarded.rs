@@ -1,7 +1,7 @@
 //! Parts with a guard: its function, and the reset after its events.
 
 use super::outcome::Outcome;
-use super::part::Part;
+use super::part::ModelPart;
 use crate::system::Reset;
 
 /// A guard of one mode, with the reset after its events.
@@ -13,7 +13,7 @@ pub struct Jump<M, S, G, R> {
     pub(super) reset: R,
 }
 
-impl<M, S, X, G, R, J> Part<M, S, X> for Jump<M, S, G, R>
+impl<M, S, X, G, R, J> ModelPart<M, S, X> for Jump<M, S, G, R>
 where
     M: Copy + Eq,
     S: Copy + Eq,
@@ -42,7 +42,7 @@ pub struct JumpEverywhere<S, G, R> {
     pub(super) reset: R,
 }
 
-impl<M, S, X, G, R, J> Part<M, S, X> for JumpEverywhere<S, G, R>
+impl<M, S, X, G, R, J> ModelPart<M, S, X> for JumpEverywhere<S, G, R>
 where
     S: Copy + Eq,
     G: Fn(&X) -> f64,
@@ -54,7 +54,7 @@ where
         (surface == self.surface).then(|| (self.guard)(state))
     }
     fn other_value(&self, surface: S, state: &X, value: f64) -> Option<f64> {
-        other(Part::<M, S, X>::value(self, surface, state), value)
+        other(ModelPart::<M, S, X>::value(self, surface, state), value)
     }
     #[inline]
     fn reset(&self, mode: M, surface: S, before: &X) -> Option<Reset<M, X>> {
@@ -70,7 +70,7 @@ pub struct Terminal<M, S, G> {
     pub(super) guard: G,
 }
 
-impl<M, S, X, G> Part<M, S, X> for Terminal<M, S, G>
+impl<M, S, X, G> ModelPart<M, S, X> for Terminal<M, S, G>
 where
     M: Copy + Eq,
     S: Copy + Eq,
@@ -96,7 +96,7 @@ pub struct Watch<S, G> {
     pub(super) guard: G,
 }
 
-impl<M, S, X, G> Part<M, S, X> for Watch<S, G>
+impl<M, S, X, G> ModelPart<M, S, X> for Watch<S, G>
 where
     S: Copy + Eq,
     X: Clone,
@@ -107,7 +107,7 @@ where
         (surface == self.surface).then(|| (self.guard)(state))
     }
     fn other_value(&self, surface: S, state: &X, value: f64) -> Option<f64> {
-        other(Part::<M, S, X>::value(self, surface, state), value)
+        other(ModelPart::<M, S, X>::value(self, surface, state), value)
     }
     #[inline]
     fn reset(&self, mode: M, surface: S, before: &X) -> Option<Reset<M, X>> {
@@ -130,7 +130,7 @@ impl<M: Copy + Eq, S: Copy + Eq, T, R> Clock<M, S, T, R> {
     }
 }
 
-impl<M, S, X, T, R, J> Part<M, S, X> for Clock<M, S, T, R>
+impl<M, S, X, T, R, J> ModelPart<M, S, X> for Clock<M, S, T, R>
 where
     M: Copy + Eq,
     S: Copy + Eq,

@@ -3,7 +3,7 @@
 use super::derivatives::{gradient_by_differences, jacobian_by_differences, reset_by_differences};
 use super::integrated::Integrated;
 use super::model::Model;
-use super::part::Part;
+use super::part::ModelPart;
 use crate::ode::{Linearized, integrated_jacobian};
 use crate::sensitivity::Differentiable;
 use crate::state::State;
@@ -18,7 +18,7 @@ where
     S: Copy + Eq + Debug,
     Y: Into<State<N>>,
     F: Fn(M, &State<N>) -> Y,
-    P: Part<M, S, State<N>>,
+    P: ModelPart<M, S, State<N>>,
 {
     fn field_jacobian(&self, mode: M, state: &State<N>) -> SMatrix<f64, N, N> {
         let none = || State::repeat(f64::NAN);
@@ -34,7 +34,7 @@ where
     S: Copy + Eq + Debug,
     Y: Into<State<N>>,
     F: Fn(M, &State<N>) -> Y,
-    P: Part<M, S, State<N>>,
+    P: ModelPart<M, S, State<N>>,
 {
     /// All entries are NaN if the integration fails.
     fn flow_jacobian(&self, mode: M, start: &State<N>, time: f64) -> SMatrix<f64, N, N> {

@@ -3,7 +3,7 @@
 use super::family::Family;
 use super::integrated::Integrated;
 use super::model::Model;
-use super::part::Part;
+use super::part::ModelPart;
 use crate::ode::{Linearized, Tolerances, integrated_parameter_jacobian};
 use crate::parameter_sensitivity::Parametric;
 use crate::state::State;
@@ -39,7 +39,7 @@ where
     S: Copy + Eq + Debug,
     Y: Into<State<N>>,
     F: Fn(M, &State<N>) -> Y,
-    Q: Part<M, S, State<N>>,
+    Q: ModelPart<M, S, State<N>>,
 {
     type System = Model<M, S, State<N>, Integrated<F>, Q>;
 

@@ -30,7 +30,7 @@ mod outcome;
 mod part;
 mod system;
 
-pub use bounds::{Bounds, Signal};
+pub use bounds::{GuardEnclosure, Signal};
 pub use continued::{Field, Rest, Slide};
 pub use derivatives::{gradient_by_differences, jacobian_by_differences, reset_by_differences};
 pub use family::Family;
@@ -40,4 +40,4 @@ pub use integrated::Integrated;
 pub use model::Model;
 pub use motion::{ClosedForm, Motion};
 pub use outcome::Outcome;
-pub use part::Part;
+pub use part::ModelPart;

@@ -1,6 +1,6 @@
 //! The model, and the methods that give it its parts.
 
-use super::bounds::{Bounds, Signal};
+use super::bounds::{GuardEnclosure, Signal};
 use super::continued::{Field, Rest, Slide};
 use super::guard_lists::GuardLists;
 use super::guarded::{Clock, Jump, JumpEverywhere, Terminal, Watch};
@@ -8,7 +8,7 @@ use super::guarded::{Clock, Jump, JumpEverywhere, Terminal, Watch};
 use super::integrated::Integrated;
 use super::motion::{ClosedForm, Motion};
 use super::outcome::Outcome;
-use super::part::Part;
+use super::part::ModelPart;
 use crate::crossing::QuasiPolynomial;
 use crate::execution::Execution;
 use crate::guard::Guard;
@@ -329,11 +329,15 @@ where
 
     /// Gives enclosures of the guard of this surface: an interval that contains dᵏ/dtᵏ g(φ(t; x₀)) over an interval of
     /// time. The closure takes the mode, the start x₀, the order k and both ends of the interval of time.
-    pub fn enclosure<B>(self, surface: S, enclosure: B) -> Model<M, S, X, F, (Bounds<S, B>, P)>
+    pub fn enclosure<B>(
+        self,
+        surface: S,
+        enclosure: B,
+    ) -> Model<M, S, X, F, (GuardEnclosure<S, B>, P)>
     where
         B: Fn(M, &X, u32, (f64, f64)) -> Option<Enclosure>,
     {
-        self.with(Bounds { surface, enclosure })
+        self.with(GuardEnclosure { surface, enclosure })
     }
 
     /// Gives the mode and the state after a Zeno limit, from the mode before it and the state at the limit.
@@ -384,7 +388,7 @@ where
     S: Copy + Eq + Debug,
     X: StateVector,
     F: Motion<M, X>,
-    P: Part<M, S, X>,
+    P: ModelPart<M, S, X>,
 {
     /// The execution from `start` in `mode`, up to the time `time` and at most a million events: an iterator over its arcs.
     ///

@@ -8,7 +8,7 @@ use interval_arithmetic::Enclosure;
 
 /// A part of a [`Model`](crate::Model). Each method answers for the surfaces of the part, and with `None` for all
 /// others.
-pub trait Part<M, S, X> {
+pub trait ModelPart<M, S, X> {
     /// g(x).
     #[inline]
     fn value(&self, surface: S, state: &X) -> Option<f64> {
@@ -75,9 +75,11 @@ pub trait Part<M, S, X> {
 }
 
 /// A model without parts.
-impl<M, S, X> Part<M, S, X> for () {}
+impl<M, S, X> ModelPart<M, S, X> for () {}
 
-impl<M: Copy, S: Copy, X, A: Part<M, S, X>, B: Part<M, S, X>> Part<M, S, X> for (A, B) {
+impl<M: Copy, S: Copy, X, A: ModelPart<M, S, X>, B: ModelPart<M, S, X>> ModelPart<M, S, X>
+    for (A, B)
+{
     #[inline]
     fn value(&self, surface: S, state: &X) -> Option<f64> {
         self.0.value(surface, state).or_else(|| self.1.value(surface, state))

@@ -2,7 +2,7 @@
 
 use super::model::Model;
 use super::motion::Motion;
-use super::part::Part;
+use super::part::ModelPart;
 use crate::crossing::{NextEvent, QuasiPolynomial, Search, spread};
 use crate::error::Error;
 use crate::guard::Guard;
@@ -18,7 +18,7 @@ where
     S: Copy + Eq + Debug,
     X: StateVector,
     F: Motion<M, X>,
-    P: Part<M, S, X>,
+    P: ModelPart<M, S, X>,
 {
     type State = X;
     type Mode = M;

@@ -17,7 +17,7 @@ use hybrid_system::{
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyBool, PyTuple};
 use std::cell::RefCell;
 
 /// A model during one call.
@@ -166,6 +166,14 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
         let what = || format!("the value of {:?}", guard.get().name());
         let call = || {
             let found = guard.get().value.bind(self.py).call1((self.array(state),))?;
+            // True and False would be numbers, and one of them the surface itself.
+            if found.is_instance_of::<PyBool>() || found.get_type().name()? == "bool" {
+                let text = format!(
+                    "{} returned {found}; return a number that is zero on the surface and changes its sign there",
+                    what()
+                );
+                return Err(PyTypeError::new_err(text));
+            }
             found.extract().map_err(|error| of_result(self.py, &what(), error))
         };
         let found = self.kept(&what(), call).unwrap_or(f64::NAN);
@@ -269,20 +277,30 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
     ) -> Option<hybrid_system::QuasiPolynomial> {
         let Some(Watched::Guard(guard)) = self.model.watched.get(surface.0) else { return None };
         let signal = guard.get().signal.as_ref()?.bind(self.py);
+        let what = format!("the signal of {:?}", guard.get().name());
         let call = || {
             let found = signal.call1((self.mode(mode), self.array(start)))?;
             if found.is_none() {
                 return Ok(None);
             }
             match found.cast::<QuasiPolynomial>() {
-                Ok(found) => Ok(Some(found.get().own.clone())),
+                Ok(found) => {
+                    let own = &found.get().own;
+                    let at_start = own.value(0.0);
+                    if !at_start.is_finite() {
+                        let text = format!(
+                            "{what} returned a function that is {at_start} at the state {:?}; its coefficients must be finite",
+                            start.as_slice()
+                        );
+                        return Err(PyValueError::new_err(text.replace("NaN", "nan")));
+                    }
+                    Ok(Some(own.clone()))
+                }
                 Err(_) => Err(PyTypeError::new_err(format!(
-                    "the signal of {:?} must return a QuasiPolynomial, or None, not {found}",
-                    guard.get().name()
+                    "{what} must return a QuasiPolynomial, or None, not {found}"
                 ))),
             }
         };
-        let what = format!("the signal of {:?}", guard.get().name());
         self.kept(&what, call).flatten()
     }
 
@@ -304,7 +322,10 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
                 return Ok(None);
             }
             match numbers(&found).map_err(|error| of_result(self.py, &what, error))?[..] {
-                [low, high] => Ok(Some(Enclosure::new(low, high))),
+                [low, high] if low <= high => Ok(Some(Enclosure::new(low, high))),
+                [_, _] => Err(PyValueError::new_err(format!(
+                    "{what} returned {found} for the derivative {order}: the lower bound must not exceed the upper one"
+                ))),
                 _ => Err(PyTypeError::new_err(format!(
                     "{what} must return a pair of bounds (low, high), or None, not {found}"
                 ))),

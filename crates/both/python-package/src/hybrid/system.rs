@@ -118,14 +118,21 @@ impl HybridSystem {
         #[pyo3(from_py_with = whole)] events: usize,
         start_time: f64,
     ) -> PyResult<Execution> {
-        let state = DVector::from_vec(numbers(start)?);
+        let of_start = |error: PyErr| {
+            let text = format!("start is no vector of numbers: {}", error.value(py));
+            PyErr::from_type(error.get_type(py), text)
+        };
+        let state = DVector::from_vec(numbers(start).map_err(of_start)?);
         if state.is_empty() {
             return Err(PyValueError::new_err("a state has at least one number"));
         }
         if !start_time.is_finite() {
             return Err(value_error(Error::BadLimit { what: "the start time", value: start_time }));
         }
-        if time.is_nan() || time < start_time {
+        if time.is_nan() {
+            return Err(value_error(Error::BadLimit { what: "the time", value: time }));
+        }
+        if time < start_time {
             let text = format!(
                 "time={time:?} is before start_time={start_time:?}: the execution would end before it starts"
             );

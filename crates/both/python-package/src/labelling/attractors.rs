@@ -7,6 +7,7 @@ use crate::pickling::refused;
 use crate::whole::whole;
 use basin_of_attraction::{Error, Hyperrectangle, Interval, Label, RecurrenceLimits};
 use numpy::PyArray1;
+use pyo3::exceptions::PyArithmeticError;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -41,6 +42,13 @@ impl PythonMap {
                 return Ok(None);
             }
             let next = crate::hybrid::vector(&found, state.len(), "the map")?;
+            // An infinite state has escaped; NaN is a mistake, or no value.
+            if next.iter().any(|number| number.is_nan()) {
+                let text = format!(
+                    "the map returned {found} from {state:?}; return None where it has no value"
+                );
+                return Err(PyArithmeticError::new_err(text));
+            }
             Ok(Some(next.as_slice().to_vec()))
         };
         let found: PyResult<Option<Vec<f64>>> = Python::attach(call);

@@ -23,7 +23,7 @@ pub(crate) struct SecondFlight {
 const TRIAL: f64 = 1.1;
 
 /// The start of the second flight, in units of |t| ≤ `width`.
-struct Start<T> {
+struct FlightStart<T> {
     /// X̂.
     excess: T,
     /// V.
@@ -76,7 +76,7 @@ impl<T: Truncated> Flight<T> {
     }
 }
 
-impl<T: Truncated> Start<T> {
+impl<T: Truncated> FlightStart<T> {
     /// E(w).
     fn equation(&self, f: &Flight<T>) -> T {
         let first = self.excess.times(&f.entire(2));
@@ -98,7 +98,7 @@ impl<T: Truncated> Start<T> {
 }
 
 /// w by Newton's method, and ∂E/∂w there. `a` is α*_n.
-fn approximate(start: &Start<Polynomial>, a: f64) -> (Polynomial, Polynomial) {
+fn approximate(start: &FlightStart<Polynomial>, a: f64) -> (Polynomial, Polynomial) {
     // w to two orders (docs/theory.md, Theorem 36); a step doubles the number of right terms.
     let mut w = Polynomial::number(3.0);
     w.0[1] = -0.75 / a * start.width;
@@ -118,8 +118,8 @@ impl SecondFlight {
     /// The flight with X̂ = `excess` and V = `velocity` < 0 after a landing of α*_n = `a`, for |t| = `width` · u.
     pub(crate) fn new(a: f64, excess: Model, velocity: Model, width: f64) -> Self {
         let (x, v) = (Polynomial(excess.terms), Polynomial(velocity.terms));
-        let (w, slope) = approximate(&Start { excess: x, velocity: v, width }, a);
-        let start = Start { excess, velocity, width };
+        let (w, slope) = approximate(&FlightStart { excess: x, velocity: v, width }, a);
+        let start = FlightStart { excess, velocity, width };
         let middle = Model::exact(w);
         // w = 3 at t = 0, where X̂ = a and V = −a.
         let middle = middle.with_constant(3.0, 0.0);

@@ -9,11 +9,14 @@
 //!               k − 1 and the same fate
 //! ```
 //!
+//! An end beside an interval of level 0 is also followed by itself: whether a speed beside the end of a trap needs no hop or
+//! some is not seen in its image.
+//!
 //! The map is monotone between the ends (docs/theory.md, Lemma 50), so that all speeds between them then lead into
 //! that interval. In 53 bits the bounds of thousands of levels would add up beside the slow side of a fixed point.
 
 use crate::error::Error;
-use crate::fates::fates_at_mass_ratio::Fates;
+use crate::fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
 use crate::fates::hopper_fate::HopperFate;
 use basin_of_attraction::{Interval, IntervalBasins, LabelledInterval};
 use passive_hopper::{Arithmetic, ExtendedOrbit, ExtendedStep};
@@ -36,7 +39,7 @@ pub(crate) fn with_inward_ends(
         let own = &parts[at];
         confirmed[at] = match own.level {
             Some(0) => by_fates(fates, own)?,
-            _ => by_images(fates, own, parts, &confirmed)?,
+            _ => by_images(fates, at, parts, &confirmed)?,
         };
     }
     let narrower = parts.iter().zip(confirmed).filter_map(|(own, interval)| {
@@ -69,28 +72,50 @@ fn inwards<T>(
     Ok(None)
 }
 
+/// Whether a speed has the fate of an interval, after its number of hops.
+fn has_fate(fates: &Fates, end: f64, own: &LabelledInterval) -> Result<bool, Error> {
+    // The speed 0, at which the trap of α*_0 begins, has no hop.
+    if end == 0.0 {
+        return Ok(true);
+    }
+    let (fate, hops) = fates.fate_within(end, HOP_BUDGET)?;
+    let grounded = usize::from(own.label == HopperFate::GROUNDED);
+    Ok(fate.label() == own.label && own.level.is_none_or(|level| level + grounded == hops))
+}
+
 /// An interval of level 0: a trap, or a gap in which the hopper is grounded.
 fn by_fates(fates: &Fates, own: &LabelledInterval) -> Result<Option<Interval>, Error> {
     let Interval { left, right } = own.interval;
-    let has_fate = |end: f64| {
-        // The speed 0, at which the trap of α*_0 begins, has no hop.
-        Ok((end == 0.0 || fates.fate(end)?.label() == own.label).then_some(()))
-    };
+    let has_fate = |end: f64| Ok(has_fate(fates, end, own)?.then_some(()));
     let Some((left, ())) = inwards(left, right, has_fate)? else { return Ok(None) };
     let Some((right, ())) = inwards(right, left, has_fate)? else { return Ok(None) };
     Ok(Some(Interval { left, right }))
 }
 
-/// An interval of a higher level.
+/// Whether a speed is so near to a neighbour of level 0 that the ends of both may overlap.
+fn is_beside_level_0(end: f64, at: usize, parts: &[LabelledInterval]) -> bool {
+    let reach = f64::from(1u32 << DOUBLINGS) * (end.next_up() - end);
+    let neighbours = [at.checked_sub(1), Some(at + 1)].into_iter().flatten();
+    neighbours.filter_map(|at| parts.get(at)).any(|part| {
+        let Interval { left, right } = part.interval;
+        part.level == Some(0) && left - reach <= end && end <= right + reach
+    })
+}
+
+/// The interval `at` of a higher level.
 fn by_images(
     fates: &Fates,
-    own: &LabelledInterval,
+    at: usize,
     parts: &[LabelledInterval],
     confirmed: &[Option<Interval>],
 ) -> Result<Option<Interval>, Error> {
+    let own = &parts[at];
     let Interval { left, right } = own.interval;
     let below = own.level.and_then(|level| level.checked_sub(1));
     let into = |end: f64| {
+        if is_beside_level_0(end, at, parts) && !has_fate(fates, end, own)? {
+            return Ok(None);
+        }
         let mut orbit = ExtendedOrbit::new(fates.map(), end, Arithmetic::Bits106)?;
         if orbit.hop()? != ExtendedStep::LiftsOff {
             return Ok(None);

@@ -61,7 +61,7 @@ pub(crate) fn laps_are_known(mass_ratio: MassRatio, top: f64) -> bool {
 
 /// A part of a pixel.
 #[derive(Debug, Clone, Copy)]
-enum Part {
+enum PixelPart {
     Labelled(Interval, Label),
     Open(ImagedSpeed, ImagedSpeed),
 }
@@ -151,14 +151,14 @@ impl<I: SpeedImages> LapsSweep<I> {
             let mut next = Vec::with_capacity(2 * parts.len());
             for part in parts {
                 match part {
-                    Part::Labelled(interval, label) => self.add(&mut next, interval, label),
-                    Part::Open(a, b) => self.resolve((a, b), finest, &mut next),
+                    PixelPart::Labelled(interval, label) => self.add(&mut next, interval, label),
+                    PixelPart::Open(a, b) => self.resolve((a, b), finest, &mut next),
                 }
             }
             parts = next;
-            let open = |part: &Part| match part {
-                Part::Labelled(..) => 0.0,
-                Part::Open(a, b) => b.speed - a.speed,
+            let open = |part: &PixelPart| match part {
+                PixelPart::Labelled(..) => 0.0,
+                PixelPart::Open(a, b) => b.speed - a.speed,
             };
             let open = parts.iter().map(open).sum::<f64>();
             let stalled = finest <= resolution.finest * allowed && open > STALLED * open_before;
@@ -171,7 +171,7 @@ impl<I: SpeedImages> LapsSweep<I> {
     }
 
     /// The traps of a pixel, and the gaps between them.
-    fn cut(&self, left: f64, right: f64) -> Vec<Part> {
+    fn cut(&self, left: f64, right: f64) -> Vec<PixelPart> {
         let mut parts = Vec::new();
         // No hop starts with the speed 0, which belongs to the trap of α*_0.
         let mut from = self.end(left.max(f64::MIN_POSITIVE));
@@ -179,13 +179,13 @@ impl<I: SpeedImages> LapsSweep<I> {
         for &(trap, label) in self.traps[first..].iter().take_while(|(trap, _)| trap.left < right) {
             let (low, high) = (trap.left.max(left), trap.right.min(right));
             if from.speed < low {
-                parts.push(Part::Open(from, self.end(low)));
+                parts.push(PixelPart::Open(from, self.end(low)));
             }
-            parts.push(Part::Labelled(Interval { left: low, right: high }, label));
+            parts.push(PixelPart::Labelled(Interval { left: low, right: high }, label));
             from = self.end(high);
         }
         if from.speed < right {
-            parts.push(Part::Open(from, self.end(right)));
+            parts.push(PixelPart::Open(from, self.end(right)));
         }
         parts
     }
@@ -195,7 +195,12 @@ impl<I: SpeedImages> LapsSweep<I> {
     }
 
     /// Labels parts of a gap, from below, as far as their width is at least `finest`.
-    fn resolve(&mut self, (a, b): (ImagedSpeed, ImagedSpeed), finest: f64, parts: &mut Vec<Part>) {
+    fn resolve(
+        &mut self,
+        (a, b): (ImagedSpeed, ImagedSpeed),
+        finest: f64,
+        parts: &mut Vec<PixelPart>,
+    ) {
         let mut from = a;
         while from.speed < b.speed {
             if let Some((end, label)) = self.one_label_up_to_fixed_point(&from) {
@@ -217,7 +222,7 @@ impl<I: SpeedImages> LapsSweep<I> {
             {
                 let step = TURN * (from.speed - low);
                 if step < finest {
-                    return parts.push(Part::Open(from, b));
+                    return parts.push(PixelPart::Open(from, b));
                 }
                 if from.speed + step < b.speed {
                     next = self.end(from.speed + step);
@@ -245,12 +250,17 @@ impl<I: SpeedImages> LapsSweep<I> {
     }
 
     /// Divides a gap where the labels of its image change, and labels the parts.
-    fn split(&mut self, (a, b): (ImagedSpeed, ImagedSpeed), finest: f64, parts: &mut Vec<Part>) {
+    fn split(
+        &mut self,
+        (a, b): (ImagedSpeed, ImagedSpeed),
+        finest: f64,
+        parts: &mut Vec<PixelPart>,
+    ) {
         if let Some(label) = self.label(&a, &b, 1) {
             return self.add(parts, Interval { left: a.speed, right: b.speed }, label);
         }
         if b.speed - a.speed <= finest || self.budget == 0 {
-            return parts.push(Part::Open(a, b));
+            return parts.push(PixelPart::Open(a, b));
         }
         let loose = self.images.are_sharper_on_halves();
         let unknown = || self.images.of_all_between(&a, &b) == SpeedImage::Unknown;
@@ -259,7 +269,7 @@ impl<I: SpeedImages> LapsSweep<I> {
             // undecided hop, and an interval on which the map is not known to be monotone.
             let middle = a.speed.midpoint(b.speed);
             if !(a.speed < middle && middle < b.speed) {
-                return parts.push(Part::Open(a, b));
+                return parts.push(PixelPart::Open(a, b));
             }
             let middle = self.end(middle);
             self.budget -= 1;
@@ -267,7 +277,7 @@ impl<I: SpeedImages> LapsSweep<I> {
             if [a, middle, b].iter().all(undecided) {
                 // Hops that are open at some mass ratio of a strip lie in a band. It has ends that are worth
                 // finding; inside, bisection finds nothing, and would take all speeds from the rest of the pixel.
-                return parts.extend([Part::Open(a, middle), Part::Open(middle, b)]);
+                return parts.extend([PixelPart::Open(a, middle), PixelPart::Open(middle, b)]);
             }
             self.split((a, middle), finest, parts);
             return self.split((middle, b), finest, parts);
@@ -288,11 +298,11 @@ impl<I: SpeedImages> LapsSweep<I> {
         &mut self,
         (a, b): (ImagedSpeed, ImagedSpeed),
         images: usize,
-        parts: &mut Vec<Part>,
+        parts: &mut Vec<PixelPart>,
     ) {
         match self.label(&a, &b, images) {
             Some(label) => self.add(parts, Interval { left: a.speed, right: b.speed }, label),
-            None => parts.push(Part::Open(a, b)),
+            None => parts.push(PixelPart::Open(a, b)),
         }
     }
 
@@ -352,8 +362,8 @@ impl<I: SpeedImages> LapsSweep<I> {
         (Vec::new(), 1)
     }
 
-    fn add(&mut self, parts: &mut Vec<Part>, interval: Interval, label: Label) {
-        parts.push(Part::Labelled(interval, label));
+    fn add(&mut self, parts: &mut Vec<PixelPart>, interval: Interval, label: Label) {
+        parts.push(PixelPart::Labelled(interval, label));
         match self.known.last_mut() {
             Some((last, own)) if *own == label && last.right == interval.left => {
                 last.right = interval.right;

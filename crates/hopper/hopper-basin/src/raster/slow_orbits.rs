@@ -8,7 +8,7 @@ use crate::raster::column::Column;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, NO_INTERVAL};
 use crate::raster::speed_within::{hop_within, is_inside, offset_from, speed_at};
-use crate::raster::strip::Strip;
+use crate::raster::strip::ColumnStrip;
 use crate::traps::trap::TrapSide;
 use passive_hopper::HopWithin;
 
@@ -47,7 +47,7 @@ const PLAIN_GROWTH: f64 = 16.0;
 /// Most hops of a followed phase: an orbit leaves the turn of jumps after some 15 hops. Beyond it the phase stays open.
 const MOST_HOPS: usize = 2048;
 
-impl<'a> Strip<'a> {
+impl<'a> ColumnStrip<'a> {
     /// Where the orbit is on the slow side of a fixed point, if it may be: n, its offset, and the error of the offset.
     #[inline]
     pub(crate) fn slow_side(&mut self, at: u32, hop: HopWithin) -> Option<(u64, f64, f64)> {

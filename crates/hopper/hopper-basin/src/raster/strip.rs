@@ -74,7 +74,7 @@ pub(crate) struct Orbits<'a> {
     ended: Vec<u32>,
 }
 
-pub(crate) struct Strip<'a> {
+pub(crate) struct ColumnStrip<'a> {
     pub(crate) columns: Vec<Column<'a>>,
     pub(crate) speeds: Vec<f64>,
     /// The number of additional speeds, whose labels are not needed.
@@ -116,7 +116,7 @@ pub(crate) fn labels(
     }
     let orbits = Orbits::default();
     let (edges, jumped, failed) = (Vec::new(), Vec::new(), Ok(()));
-    let mut strip = Strip {
+    let mut strip = ColumnStrip {
         columns,
         speeds,
         lower,
@@ -146,7 +146,7 @@ fn with_lower_speeds(speeds: &[f64]) -> (Vec<f64>, usize) {
     (all, count)
 }
 
-impl Strip<'_> {
+impl ColumnStrip<'_> {
     fn label(&mut self) -> Result<(), Error> {
         let last = self.speeds.last().map_or(Ok(0), |&speed| index_below(speed))?;
         let with_laps = self.columns.iter().any(|column| column.laps.is_some());

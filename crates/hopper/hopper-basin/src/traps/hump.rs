@@ -59,7 +59,7 @@ pub(crate) enum Target {
 
 /// The mass parameter and the place at which the minimum of the map touches a target.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Touch {
+pub(crate) struct HumpTouch {
     pub(crate) mu: f64,
     t: f64,
 }
@@ -215,8 +215,9 @@ impl Hump {
     }
 
     /// The touch of α*_n. For the first humps it is computed once and stored, because every trap needs it.
-    pub(crate) fn touch_of_fixed_point(&self) -> Result<Touch, Error> {
-        static FIRST: [OnceLock<Touch>; KEPT_TOUCHES] = [const { OnceLock::new() }; KEPT_TOUCHES];
+    pub(crate) fn touch_of_fixed_point(&self) -> Result<HumpTouch, Error> {
+        static FIRST: [OnceLock<HumpTouch>; KEPT_TOUCHES] =
+            [const { OnceLock::new() }; KEPT_TOUCHES];
         let slot = usize::try_from(self.n).ok().and_then(|n| FIRST.get(n));
         if let Some(&touch) = slot.and_then(OnceLock::get) {
             return Ok(touch);
@@ -277,17 +278,17 @@ impl Hump {
     ///
     /// At the minimum 4μW = 1. The target gives μΓ² = α² − target². Eliminating μ leaves
     /// Γ² = 4W (α² − target²), which has one root between the maximum of W and the end of the hump.
-    pub(crate) fn touch(&self, target: Target) -> Result<Touch, Error> {
+    pub(crate) fn touch(&self, target: Target) -> Result<HumpTouch, Error> {
         let condition = |t: f64| {
             let closing = self.closing_speed(t);
             closing * closing - 4.0 * self.w(t) * self.squares(t, target)
         };
         let t = self.root(condition, self.steepest, self.end)?;
-        Ok(Touch { mu: 0.25 / self.w(t), t })
+        Ok(HumpTouch { mu: 0.25 / self.w(t), t })
     }
 
     /// The time of the first flight at a touch.
-    pub(crate) fn time_of(&self, touch: Touch) -> f64 {
+    pub(crate) fn time_of(&self, touch: HumpTouch) -> f64 {
         2.0 * self.star.value() + touch.t
     }
 

@@ -3,7 +3,7 @@
 use crate::fixed_points::fixed_point;
 use crate::hop::half_time::AtHalfTime;
 use crate::hop::landing_time::first_landing_time;
-use crate::hop::part::Part;
+use crate::hop::part::SpeedPart;
 use interval_arithmetic::{Enclosure, PI};
 
 /// The first landing over an interval of speeds: half the time, and the closed forms at its ends.
@@ -17,16 +17,16 @@ pub(crate) struct FirstLanding {
 impl FirstLanding {
     /// Over the speeds of `alpha` that are in `part`; `None` if an end of h is beyond a fixed point. There Γ has a
     /// minimum between the ends, so that its values at them are no bounds.
-    pub(crate) fn over(alpha: Enclosure, part: Part) -> Option<Self> {
+    pub(crate) fn over(alpha: Enclosure, part: SpeedPart) -> Option<Self> {
         let first = first_landing_time(alpha.low)?;
         let last = if alpha.low == alpha.high { first } else { first_landing_time(alpha.high)? };
         let mut ends = [first.before(), last.after()];
         // h is on the same side of a multiple of π as α (docs/theory.md, Theorem 7), where |u| is largest.
         match part {
-            Part::Window(n) if ends[0].h < (PI * n as f64).high => {
+            SpeedPart::Window(n) if ends[0].h < (PI * n as f64).high => {
                 ends[0] = AtHalfTime::at_multiple_of_pi(n, (PI * n as f64).low);
             }
-            Part::Contact(n) if ends[1].h > (PI * (n + 1) as f64).low => {
+            SpeedPart::Contact(n) if ends[1].h > (PI * (n + 1) as f64).low => {
                 ends[1] = AtHalfTime::at_multiple_of_pi(n + 1, (PI * (n + 1) as f64).high);
             }
             _ => {}
@@ -104,7 +104,8 @@ mod tests {
         let mut known = 0;
         for ulps in [0.0, 8.0] {
             let alpha = a + ulps * ulp;
-            let Some(landing) = FirstLanding::over(Enclosure::from(alpha), Part::Contact(1)) else {
+            let Some(landing) = FirstLanding::over(Enclosure::from(alpha), SpeedPart::Contact(1))
+            else {
                 continue;
             };
             known += 1;
@@ -120,9 +121,9 @@ mod tests {
     fn bounds_hold_the_values_at_multiples_of_pi() {
         for k in 1..=8 {
             let multiple = PI * k as f64;
-            let window = FirstLanding::over(multiple, Part::Window(k)).unwrap();
+            let window = FirstLanding::over(multiple, SpeedPart::Window(k)).unwrap();
             assert!(multiple.is_inside(&window.sin_and_u().1.abs()), "{k}");
-            for part in [Part::Window(k), Part::Contact(k - 1)] {
+            for part in [SpeedPart::Window(k), SpeedPart::Contact(k - 1)] {
                 let closing = FirstLanding::over(multiple, part).unwrap().closing_speed();
                 assert!((2.0 * multiple).is_inside(&closing), "{k}: {closing:?}");
             }

@@ -3,7 +3,7 @@
 use crate::fixed_points::fixed_point;
 use crate::hop::first_landing::FirstLanding;
 use crate::hop::following::Following;
-use crate::hop::part::Part;
+use crate::hop::part::SpeedPart;
 use crate::hop::strip::Strip;
 use hopper_basin::SpeedImage;
 use interval_arithmetic::Enclosure;
@@ -87,10 +87,10 @@ struct Centre {
 
 impl Centre {
     /// `None` for a single speed, which is narrow as it is, and for a middle that is not in the window.
-    fn of(alpha: Enclosure, part: Part, kappa: Enclosure) -> Option<Self> {
+    fn of(alpha: Enclosure, part: SpeedPart, kappa: Enclosure) -> Option<Self> {
         let speed = alpha.middle();
         let middle = Enclosure::from(speed);
-        if alpha.low == alpha.high || Part::of(middle) != Some(part) {
+        if alpha.low == alpha.high || SpeedPart::of(middle) != Some(part) {
             return None;
         }
         let state = Following::from_window(middle, &FirstLanding::over(middle, part)?, kappa)?;
@@ -105,11 +105,11 @@ impl Centre {
 impl HopEnclosure {
     /// All hops from the speeds of `alpha` that are in `part`, by the mean value form from the middle one. `None`
     /// if the intervals do not tell the number of sudden lift-offs.
-    pub(crate) fn plain(alpha: Enclosure, part: Part, strip: &Strip) -> Option<Self> {
+    pub(crate) fn plain(alpha: Enclosure, part: SpeedPart, strip: &Strip) -> Option<Self> {
         let first = FirstLanding::over(alpha, part)?;
         let (kappa, mu) = (strip.kappa, strip.mu);
         let tilt = Enclosure::ONE - 2.0 * kappa;
-        if let Part::Contact(n) = part {
+        if let SpeedPart::Contact(n) = part {
             let square = first.closing_speed().squared();
             return Some(HopEnclosure {
                 reached: Reached::by_loss(alpha, mu * square),
@@ -190,7 +190,7 @@ mod tests {
             let strip = Strip::at(ratio).unwrap();
             let mut excess = Vec::new();
             for alpha in intervals() {
-                let Some(part) = Part::of(alpha) else { continue };
+                let Some(part) = SpeedPart::of(alpha) else { continue };
                 let Some(all) = HopEnclosure::plain(alpha, part, &strip) else { continue };
                 let mut slopes: Option<Enclosure> = None;
                 for k in 0..=SPEEDS {

@@ -5,14 +5,14 @@ use interval_arithmetic::{Enclosure, PI};
 
 /// A part of the speeds on which the first landing is of one kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Part {
+pub(crate) enum SpeedPart {
     /// (α*_n, (n+1)π): contact follows.
     Contact(u64),
     /// (nπ, α*_n), n ≥ 1: a sudden lift-off follows.
     Window(u64),
 }
 
-impl Part {
+impl SpeedPart {
     /// The part that contains all speeds of an interval; `None` if it reaches to a multiple of π or a fixed point.
     pub(crate) fn of(alpha: Enclosure) -> Option<Self> {
         if !(alpha.low > 0.0 && alpha.high < 1e9) {
@@ -25,9 +25,9 @@ impl Part {
         }
         let star = fixed_point(k as u64);
         if alpha.high <= star.low && k >= 1.0 {
-            Some(Part::Window(k as u64))
+            Some(SpeedPart::Window(k as u64))
         } else if alpha.low >= star.high {
-            Some(Part::Contact(k as u64))
+            Some(SpeedPart::Contact(k as u64))
         } else {
             None
         }

@@ -7,7 +7,7 @@
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
 use crate::hop::hop_enclosure::{HopEnclosure, Reached, image_of};
-use crate::hop::part::Part;
+use crate::hop::part::SpeedPart;
 use crate::hop::strip::Strip;
 use crate::hop::turns::{Turns, turns_up_to};
 use hopper_basin::{ImagedSpeed, SpeedImage, SpeedImages, rising_window};
@@ -78,12 +78,12 @@ impl ProvedImages {
         if let Some(joint) = self.joint(speed) {
             return Some(Reached { square: joint?, loss: Enclosure::WHOLE });
         }
-        let part = Part::of(speed)?;
+        let part = SpeedPart::of(speed)?;
         let all = HopEnclosure::plain(speed, part, &self.strip)?;
         if self.strip.kappa.width() <= 4.0 * f64::EPSILON {
             return Some(all.reached);
         }
-        if let Part::Contact(_) = part {
+        if let SpeedPart::Contact(_) = part {
             return Some(all.reached); // α is a point, and F is linear in μ: nothing is lost
         }
         let middle = HopEnclosure::plain(speed, part, &self.middle)?.reached.square;
@@ -104,7 +104,7 @@ impl ProvedImages {
             let side =
                 |part| HopEnclosure::plain(alpha, part, &self.strip).map(|hop| hop.reached.square);
             let n = k as u64;
-            let both = || Some(side(Part::Contact(n - 1))?.hull(&side(Part::Window(n))?));
+            let both = || Some(side(SpeedPart::Contact(n - 1))?.hull(&side(SpeedPart::Window(n))?));
             if light { both() } else { None }
         })
     }
@@ -157,7 +157,7 @@ impl ProvedImages {
 
     /// F over an interval of one part, by bounds on its slope.
     fn square_between(&self, alpha: Enclosure) -> Option<Enclosure> {
-        let part = Part::of(alpha)?;
+        let part = SpeedPart::of(alpha)?;
         let all = HopEnclosure::plain(alpha, part, &self.strip)?;
         let (low, high) = (self.square(alpha.low)?, self.square(alpha.high)?);
         if all.by_speed.sign().is_some() {

@@ -3,7 +3,7 @@
 use crate::fixed_points::fixed_point;
 use crate::hop::first_landing::FirstLanding;
 use crate::hop::hop_enclosure::{HopEnclosure, image_of, largest_w};
-use crate::hop::part::Part;
+use crate::hop::part::SpeedPart;
 use crate::hop::strip::Strip;
 use basin_of_attraction::Interval;
 use hopper_basin::{SpeedImage, falling_laps};
@@ -33,7 +33,7 @@ pub(crate) enum Turns {
 
 /// 4μW at a speed of the contact part of hump n.
 fn steepness(n: u64, alpha: f64, strip: &Strip) -> Option<Enclosure> {
-    let first = FirstLanding::over(Enclosure::from(alpha), Part::Contact(n))?;
+    let first = FirstLanding::over(Enclosure::from(alpha), SpeedPart::Contact(n))?;
     let [low, high] = first.w_at_ends();
     Some(4.0 * strip.mu * low.hull(&high))
 }
@@ -74,10 +74,10 @@ fn between(n: u64, [a, b]: [Interval; 2], strip: &Strip) -> Option<Turns> {
     let turn = |speeds: Interval| {
         let all = Enclosure::new(speeds.left, speeds.right);
         let at = |alpha: f64| {
-            HopEnclosure::plain(Enclosure::from(alpha), Part::Contact(n), strip)
+            HopEnclosure::plain(Enclosure::from(alpha), SpeedPart::Contact(n), strip)
                 .map(|hop| hop.reached.square)
         };
-        let slope = HopEnclosure::plain(all, Part::Contact(n), strip)?.by_speed;
+        let slope = HopEnclosure::plain(all, SpeedPart::Contact(n), strip)?.by_speed;
         let middle = all.middle();
         let form = Enclosure::mean_value(at(middle)?, slope, all, Enclosure::from(middle));
         Some(Turn { speeds, image: image_of(form) })

@@ -2,7 +2,7 @@
 
 use crate::fixed_points::fixed_point;
 use crate::hop::hop_enclosure::{HopEnclosure, Reached};
-use crate::hop::part::Part;
+use crate::hop::part::SpeedPart;
 use crate::lengths::basin_lengths::{BasinLengths, Known, Segment, distance, sum};
 use basin_of_attraction::Interval;
 use hopper_basin::HopperFate;
@@ -51,7 +51,7 @@ fn between_squares(Interval { left, right }: Interval) -> Enclosure {
 }
 
 /// What is known of a gap.
-struct Found {
+struct GapLengths {
     /// The least length that each basin has.
     at_least: Vec<f64>,
     /// The length that would stay unknown if all of the image were known.
@@ -114,9 +114,9 @@ impl BasinLengths<'_> {
     }
 
     /// Adds a part of a gap, of which `found` is known.
-    fn add(&mut self, gap: Gap, found: Found, goal: f64, halvings: usize) {
+    fn add(&mut self, gap: Gap, found: GapLengths, goal: f64, halvings: usize) {
         let Interval { left, right } = gap.speeds;
-        let unknown = |gap: &Gap, found: &Found| gap.speeds.length() - sum(&found.at_least);
+        let unknown = |gap: &Gap, found: &GapLengths| gap.speeds.length() - sum(&found.at_least);
         let before = unknown(&gap, &found);
         let middle = left.midpoint(right);
         let divisible = halvings > 0 && left < middle && middle < right;
@@ -138,9 +138,9 @@ impl BasinLengths<'_> {
         self.segments.push(Segment { interval: gap.speeds, known });
     }
 
-    fn of_whole_gap(&self, gap: Gap) -> Found {
+    fn of_whole_gap(&self, gap: Gap) -> GapLengths {
         let mut hops = MOST_HOPS;
-        self.of_gap(gap, &mut hops).unwrap_or_else(|| Found {
+        self.of_gap(gap, &mut hops).unwrap_or_else(|| GapLengths {
             at_least: self.nothing(),
             lost: gap.speeds.length(),
             at_middle: None,
@@ -148,10 +148,10 @@ impl BasinLengths<'_> {
     }
 
     /// What each basin has at least of a gap, from its image; `None` if a decision of the hops is open.
-    fn of_gap(&self, gap: Gap, hops: &mut usize) -> Option<Found> {
+    fn of_gap(&self, gap: Gap, hops: &mut usize) -> Option<GapLengths> {
         let all = Enclosure::new(gap.speeds.left, gap.speeds.right);
         // On one part, and with one number of sudden lift-offs, F is smooth.
-        let hop = HopEnclosure::plain(all, Part::of(all)?, self.images.strip())?;
+        let hop = HopEnclosure::plain(all, SpeedPart::of(all)?, self.images.strip())?;
         let steepest = hop.by_speed.magnitude();
         let values = gap.values().filter(|_| steepest.is_finite())?;
         let mut own = self.values_between(values.speeds, hops);
@@ -161,7 +161,7 @@ impl BasinLengths<'_> {
         let length = |value: f64| (Enclosure::from(value) / steepest).low.max(0.0);
         let lost = gap.speeds.length() - length(values.length());
         let at_least = own.into_iter().map(length).collect();
-        Some(Found { at_least, lost, at_middle: hop.at_middle })
+        Some(GapLengths { at_least, lost, at_middle: hop.at_middle })
     }
 
     /// What each basin has at least of the values of F between the squares of two speeds.

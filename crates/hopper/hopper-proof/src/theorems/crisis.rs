@@ -1,9 +1,9 @@
 //! The mass ratios at which the minimum of the map reaches a fixed point.
 
-use crate::certificate::Evidence;
+use crate::certificate::CertificateLine;
 use crate::error::Error;
 use crate::theorems::theorem::Theorem;
-use crate::traps::Touch;
+use crate::traps::ProvedCrisis;
 
 /// The widest enclosure of a crisis that counts.
 const WIDTH: f64 = 1e-13;
@@ -19,14 +19,14 @@ pub fn crises(humps: u64) -> Result<Theorem, Error> {
          contact part, and between the two it falls through α*_n (docs/theory.md, Theorem 29).",
     );
     for n in 1..=humps {
-        let touch = Touch::new(n)?;
+        let touch = ProvedCrisis::new(n)?;
         let crisis = touch.mass_ratio();
         theorem.step(
             format!("M_c({n}) is enclosed to 1e-13"),
             format!("M_c({n}) in [{}, {}]", crisis.low, crisis.high),
             crisis.width() <= WIDTH && crisis.high < 1.0,
         );
-        theorem.evidence.push(Evidence::Crisis {
+        theorem.evidence.push(CertificateLine::Crisis {
             n,
             mass_ratio: crisis,
             speed: touch.speed.middle(),

@@ -1,14 +1,14 @@
 //! Below the first crisis every speed from α*_1 up hops for ever.
 
-use crate::certificate::Evidence;
+use crate::certificate::CertificateLine;
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
 use crate::hop::hop_enclosure::HopEnclosure;
-use crate::hop::part::Part;
+use crate::hop::part::SpeedPart;
 use crate::hop::strip::Strip;
 use crate::theorems::digits::{at_least, at_most};
 use crate::theorems::theorem::Theorem;
-use crate::traps::Touch;
+use crate::traps::ProvedCrisis;
 use hopper_basin::{ONE_SUDDEN, rising_window};
 use interval_arithmetic::{Enclosure, PI};
 
@@ -24,7 +24,7 @@ const LAST: u64 = 8;
 /// # Errors
 /// [`Error::Open`] if the crisis is not enclosed.
 pub fn everything_hops() -> Result<Theorem, Error> {
-    let touch = Touch::new(1)?;
+    let touch = ProvedCrisis::new(1)?;
     let crisis = touch.mass_ratio();
     let mut theorem = Theorem::new(
         "everything-hops",
@@ -38,7 +38,7 @@ pub fn everything_hops() -> Result<Theorem, Error> {
     );
     let star = fixed_point(1).squared();
     let strip = Strip::at(crisis.high)?;
-    theorem.evidence.push(Evidence::Crisis {
+    theorem.evidence.push(CertificateLine::Crisis {
         n: 1,
         mass_ratio: crisis,
         speed: touch.speed.middle(),
@@ -50,10 +50,10 @@ pub fn everything_hops() -> Result<Theorem, Error> {
             let at = |k: usize| begin + (end - begin) * k as f64 / PARTS as f64;
             // The ends lie some ulps beyond the contact part, where F is the same formula.
             let part = Enclosure::new(at(k), at(k + 1));
-            let found = HopEnclosure::plain(part, Part::Contact(n), &strip);
+            let found = HopEnclosure::plain(part, SpeedPart::Contact(n), &strip);
             let bound = found.map_or(f64::NEG_INFINITY, |hop| hop.reached.square.low);
             least = least.min(bound);
-            theorem.evidence.push(Evidence::ContactPart {
+            theorem.evidence.push(CertificateLine::ContactPart {
                 n,
                 mass_ratio: crisis.high,
                 speeds: part,
@@ -89,7 +89,7 @@ pub fn everything_hops() -> Result<Theorem, Error> {
         format!("{} ≤ {}", at_most(left.high, 2), at_least(alpha.squared().low, 2)),
         left.high <= alpha.squared().low,
     );
-    theorem.evidence.push(Evidence::Losses {
+    theorem.evidence.push(CertificateLine::Losses {
         multiple_of_pi: LAST + 1,
         mass_ratio: crisis.high,
         losses: left.high,

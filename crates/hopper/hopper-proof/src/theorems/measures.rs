@@ -1,6 +1,6 @@
 //! The fractions of the basins at one mass ratio.
 
-use crate::certificate::{BasinGap, BasinInterval, Evidence};
+use crate::certificate::{BasinGap, BasinInterval, CertificateLine};
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
 use crate::hop::proved_images::ProvedImages;
@@ -172,10 +172,10 @@ pub fn measures(cases: &[(f64, f64)], progress: impl Fn(usize) + Sync) -> Result
         let found = found?;
         let mass_ratio = found.mass_ratio;
         let mass_ratios = Interval { left: mass_ratio, right: mass_ratio };
-        theorem.evidence.push(Evidence::Basins { mass_ratios, intervals: found.intervals });
-        theorem.evidence.push(Evidence::Gaps(found.gaps));
+        theorem.evidence.push(CertificateLine::Basins { mass_ratios, intervals: found.intervals });
+        theorem.evidence.push(CertificateLine::Gaps(found.gaps));
         for ProvedFraction { label, uniform, by_humps } in &found.fractions {
-            theorem.evidence.push(Evidence::Fraction {
+            theorem.evidence.push(CertificateLine::Fraction {
                 label: *label,
                 humps: HUMPS,
                 uniform: *uniform,

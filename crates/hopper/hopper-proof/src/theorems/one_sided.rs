@@ -1,6 +1,6 @@
 //! Fixed points that attract from the right and repel to the left.
 
-use crate::certificate::Evidence;
+use crate::certificate::CertificateLine;
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
 use crate::hop::strip::Strip;
@@ -31,7 +31,7 @@ pub fn one_sided(humps: u64) -> Result<Theorem, Error> {
             format!("α*_{n} in [{}, {}]", fixed_point(n).low, fixed_point(n).high),
             length > 0.0,
         );
-        theorem.evidence.push(Evidence::trap(n, 1.0, trap.right, None));
+        theorem.evidence.push(CertificateLine::trap(n, 1.0, trap.right, None));
     }
     Ok(theorem)
 }

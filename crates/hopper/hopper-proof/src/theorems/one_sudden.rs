@@ -1,6 +1,6 @@
 //! At most one sudden lift-off.
 
-use crate::certificate::Evidence;
+use crate::certificate::CertificateLine;
 use crate::fixed_points::fixed_point;
 use crate::theorems::digits::at_least;
 use crate::theorems::theorem::Theorem;
@@ -35,7 +35,7 @@ pub fn one_sudden() -> Theorem {
         format!("{} < {}", largest_sum.high, needed.low),
         largest_sum.high < needed.low,
     );
-    theorem.evidence.push(Evidence::OneSudden {
+    theorem.evidence.push(CertificateLine::OneSudden {
         fixed_point: a,
         largest_mass_ratio: largest.low,
         available: largest_sum.high,

@@ -1,7 +1,7 @@
 //! The statements that proved rasters make.
 
 use crate::cell::Cell;
-use crate::certificate::Evidence;
+use crate::certificate::CertificateLine;
 use crate::error::Error;
 use crate::hop::strip::Strip;
 use crate::line::traps_up_to;
@@ -51,13 +51,15 @@ pub fn points_theorem(
         other == 0 && computed.grid == proved.grid && computed.labels.len() == proved.labels.len(),
     );
     let grid = proved.grid;
-    theorem.evidence.push(Evidence::Grid(grid));
-    theorem.evidence.push(Evidence::Speeds((0..grid.rows).map(|row| grid.y_at(row)).collect()));
+    theorem.evidence.push(CertificateLine::Grid(grid));
+    theorem
+        .evidence
+        .push(CertificateLine::Speeds((0..grid.rows).map(|row| grid.y_at(row)).collect()));
     for column in 0..grid.columns {
         let mass_ratio = grid.x_at(column);
         let traps = traps_up_to(&Strip::at(mass_ratio)?, grid.y.right)?;
         let labels = (0..grid.rows).map(|row| proved.labels[row * grid.columns + column]).collect();
-        theorem.evidence.push(Evidence::Points { mass_ratio, traps, labels });
+        theorem.evidence.push(CertificateLine::Points { mass_ratio, traps, labels });
     }
     Ok(theorem)
 }
@@ -98,12 +100,12 @@ pub fn cells_theorem(name: &'static str, found: &ProvedCells, open: f64) -> Resu
         ),
         area <= open,
     );
-    theorem.evidence.push(Evidence::Grid(grid));
+    theorem.evidence.push(CertificateLine::Grid(grid));
     let of_one_basin = found.cells().iter().filter(|cell| matches!(cell, Cell::Basin(_))).count();
-    theorem.evidence.push(Evidence::Cells { edges: found.edges().to_vec(), of_one_basin });
-    theorem.evidence.push(Evidence::Strips(grid.columns * found.strips()));
+    theorem.evidence.push(CertificateLine::Cells { edges: found.edges().to_vec(), of_one_basin });
+    theorem.evidence.push(CertificateLine::Strips(grid.columns * found.strips()));
     theorem
         .evidence
-        .extend(areas.into_iter().map(|(label, share)| Evidence::Area { label, share }));
+        .extend(areas.into_iter().map(|(label, share)| CertificateLine::Area { label, share }));
     Ok(theorem)
 }

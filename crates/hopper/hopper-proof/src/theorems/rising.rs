@@ -1,10 +1,10 @@
 //! The map rises in its windows.
 
-use crate::certificate::Evidence;
+use crate::certificate::CertificateLine;
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
 use crate::hop::hop_enclosure::HopEnclosure;
-use crate::hop::part::Part;
+use crate::hop::part::SpeedPart;
 use crate::hop::strip::Strip;
 use crate::theorems::theorem::Theorem;
 use interval_arithmetic::{Enclosure, PI};
@@ -32,7 +32,7 @@ pub fn rising(windows: &[(u64, f64)]) -> Result<Theorem, Error> {
         }
         let all = Strip::up_to(heaviest)?;
         let range = Enclosure::new((PI * n as f64).low, fixed_point(n).low - 0.9 * BY_THEOREM);
-        theorem.evidence.push(Evidence::RisingWindow {
+        theorem.evidence.push(CertificateLine::RisingWindow {
             n,
             speeds: range,
             largest_mass_ratio: heaviest,
@@ -55,7 +55,7 @@ fn rises(
     n: u64,
     strip: &Strip,
     boxes: &mut usize,
-    evidence: &mut Vec<Evidence>,
+    evidence: &mut Vec<CertificateLine>,
 ) -> bool {
     let mut open = vec![(alpha, *strip)];
     while let Some((alpha, strip)) = open.pop() {
@@ -63,10 +63,10 @@ fn rises(
         if *boxes > MOST_BOXES {
             return false;
         }
-        let shown = HopEnclosure::plain(alpha, Part::Window(n), &strip)
+        let shown = HopEnclosure::plain(alpha, SpeedPart::Window(n), &strip)
             .is_some_and(|hop| hop.by_speed.is_positive());
         if shown {
-            evidence.push(Evidence::RisingBox { n, speeds: alpha, kappas: strip.kappa });
+            evidence.push(CertificateLine::RisingBox { n, speeds: alpha, kappas: strip.kappa });
             continue;
         }
         // The longer side in the scale on which the slope changes.

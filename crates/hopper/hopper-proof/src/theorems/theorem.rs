@@ -1,6 +1,6 @@
 //! A statement with the steps of its proof.
 
-use crate::certificate::Evidence;
+use crate::certificate::CertificateLine;
 
 /// One step of a proof: a claim that an enclosure decides.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +23,7 @@ pub struct Theorem {
     /// The steps.
     pub steps: Vec<Step>,
     /// The numbers with which another program can check the statement.
-    pub evidence: Vec<Evidence>,
+    pub evidence: Vec<CertificateLine>,
 }
 
 impl Theorem {

@@ -1,11 +1,11 @@
 //! The ends of traps.
 
-use crate::certificate::Evidence;
+use crate::certificate::CertificateLine;
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
 use crate::hop::strip::Strip;
 use crate::theorems::theorem::Theorem;
-use crate::traps::{Touch, falls_below, proved_trap};
+use crate::traps::{ProvedCrisis, falls_below, proved_trap};
 
 /// The widest enclosure of Δ_n that counts.
 const WIDTH: f64 = 1e-12;
@@ -22,7 +22,7 @@ pub fn trap_edges(humps: u64, count: usize) -> Result<Theorem, Error> {
          (docs/theory.md, Theorem 29).",
     );
     for n in 1..=humps {
-        let crisis = Touch::new(n)?.mass_ratio().high;
+        let crisis = ProvedCrisis::new(n)?.mass_ratio().high;
         let mut widest: f64 = 0.0;
         let mut missing = 0usize;
         for k in 1..=count {
@@ -37,7 +37,7 @@ pub fn trap_edges(humps: u64, count: usize) -> Result<Theorem, Error> {
                 Some(outside) => widest = widest.max(outside - inside),
                 None => missing += 1,
             }
-            theorem.evidence.push(Evidence::trap(n, ratio, inside, outside));
+            theorem.evidence.push(CertificateLine::trap(n, ratio, inside, outside));
         }
         theorem.step(
             format!("Δ_{n} is enclosed to {WIDTH:e} at {count} mass ratios from M_c({n}) to 1"),

@@ -28,7 +28,7 @@ const REFERENCE_ULPS: f64 = 16.0;
 
 /// A start near a fixed point.
 #[derive(Debug, Clone, Copy)]
-struct Start {
+struct LocalStart {
     n: u64,
     mass_ratio: f64,
     delta: f64,
@@ -37,7 +37,7 @@ struct Start {
 /// A class of starts: from four numbers in [0, 1).
 struct Class {
     name: &'static str,
-    start: fn([f64; 4]) -> Start,
+    start: fn([f64; 4]) -> LocalStart,
 }
 
 /// 10^x.
@@ -56,22 +56,22 @@ fn index(exponent: f64, part: f64) -> u64 {
 }
 
 /// A start at `part` of the way from α*_n to the end of its interval on one side.
-fn inside(n: u64, mass_ratio: f64, right: bool, part: f64) -> Start {
+fn inside(n: u64, mass_ratio: f64, right: bool, part: f64) -> LocalStart {
     let star = alpha_star(n);
     let end = if right { (n + 1) as f64 * PI - star } else { n as f64 * PI - star };
-    Start { n, mass_ratio, delta: part * end }
+    LocalStart { n, mass_ratio, delta: part * end }
 }
 
 /// A start on the left, at `part` of the range of the series.
-fn below_range(n: u64, mass_ratio: f64, part: f64) -> Start {
+fn below_range(n: u64, mass_ratio: f64, part: f64) -> LocalStart {
     let series = MassRatio::new(mass_ratio).ok().and_then(|m| LeftExpansion::new(n, m).ok());
-    Start { n, mass_ratio, delta: -part * series.map_or(LEFT_RANGE, |series| series.range()) }
+    LocalStart { n, mass_ratio, delta: -part * series.map_or(LEFT_RANGE, |series| series.range()) }
 }
 
 const CLASSES: [Class; 8] = [
     Class {
         name: "right, in the range of the series",
-        start: |[a, b, c, _]| Start {
+        start: |[a, b, c, _]| LocalStart {
             n: index(2.0, a),
             mass_ratio: between(-3.0, 3.0, b),
             delta: RIGHT_RANGE * between(-6.0, 0.0, c),
@@ -79,7 +79,7 @@ const CLASSES: [Class; 8] = [
     },
     Class {
         name: "right, n up to 10¹², M from 10⁻⁶ to 10⁶",
-        start: |[a, b, c, _]| Start {
+        start: |[a, b, c, _]| LocalStart {
             n: index(12.0, a),
             mass_ratio: between(-6.0, 6.0, b),
             delta: RIGHT_RANGE * between(-30.0, 0.0, c),
@@ -87,7 +87,7 @@ const CLASSES: [Class; 8] = [
     },
     Class {
         name: "right, δ from 10⁻²⁹⁹, M from 10⁻³⁰⁰ to 10³⁰⁰",
-        start: |[a, b, c, _]| Start {
+        start: |[a, b, c, _]| LocalStart {
             n: index(3.0, a),
             mass_ratio: between(-300.0, 300.0, b),
             delta: between(-299.0, -1.0, c),
@@ -111,7 +111,7 @@ const CLASSES: [Class; 8] = [
     },
     Class {
         name: "left, δ from −10⁻²⁹⁹, M from 10⁻³⁰⁰ to 10³⁰⁰",
-        start: |[a, b, c, _]| Start {
+        start: |[a, b, c, _]| LocalStart {
             n: index(3.0, a),
             mass_ratio: between(-300.0, 300.0, b),
             delta: -between(-299.0, -3.0, c),
@@ -222,7 +222,7 @@ fn of_class(count: u64, place: u64, class: &Class) -> Result<Vec<Measured>, Erro
     Ok(named
         .map(|(tally, (bound, statement))| {
             tally.measured(bound, statement, class.name, |k| {
-                let Start { n, mass_ratio, delta } = start(k);
+                let LocalStart { n, mass_ratio, delta } = start(k);
                 format!("n = {n}, M = {mass_ratio:?}, δ = {delta:?}")
             })
         })
@@ -230,10 +230,10 @@ fn of_class(count: u64, place: u64, class: &Class) -> Result<Vec<Measured>, Erro
 }
 
 /// The ratios of all bounds at a start, in the order of [`QUANTITIES`].
-fn ratios(start: Start) -> Result<[Option<f64>; QUANTITIES.len()], Error> {
+fn ratios(start: LocalStart) -> Result<[Option<f64>; QUANTITIES.len()], Error> {
     /// More sudden lift-offs take too long in 512 bits.
     const MOST_SUDDEN: usize = 8;
-    let Start { n, mass_ratio, delta } = start;
+    let LocalStart { n, mass_ratio, delta } = start;
     let mut ratios = [None; QUANTITIES.len()];
     let ratio = MassRatio::new(mass_ratio)?;
     let map = LiftOffMap::new(ratio);

@@ -32,9 +32,9 @@ const WAYS: [(&str, Within); 2] = [
 ];
 
 /// A start of an orbit, (M, α), from three random numbers.
-type Start = fn([f64; 3]) -> (f64, f64);
+type DrawStart = fn([f64; 3]) -> (f64, f64);
 
-const STARTS: [(&str, Start); 3] = [
+const STARTS: [(&str, DrawStart); 3] = [
     ("M in [0.1, 1], α in [4.5, 20]", |[a, b, _]| (0.1 + 0.9 * a, 4.5 + 15.5 * b)),
     ("M in [1, 20], α in [3, 60]", |[a, b, _]| (pxfm::f_pow(20.0, a), 3.0 + 57.0 * b)),
     ("left of a fixed point", |[a, b, c]| {

@@ -193,7 +193,7 @@ impl Total {
 }
 
 /// The errors of one hop.
-struct Found {
+struct HopRatios {
     /// Γ and α − h of the table, as ratios.
     first_flight: Option<[f64; 2]>,
     /// By the place of each way in [`SOLVERS`].
@@ -202,13 +202,13 @@ struct Found {
 
 /// The errors of all ways that decide the hop, against `arithmetic` or a longer one. `None` if no arithmetic decides
 /// the hop.
-fn compare(map: &LiftOffMap, alpha: f64, arithmetic: Solver) -> Option<Found> {
+fn compare(map: &LiftOffMap, alpha: f64, arithmetic: Solver) -> Option<HopRatios> {
     // An error of the hop, such as its budget of sudden lift-offs, is an undecided hop as well.
     let reference = map.reference_hop(alpha, arithmetic).ok().flatten();
     let Some(reference) = reference else { return compare(map, alpha, arithmetic.longer()?) };
     let first_flight = reference.first_flight_errors();
     let first_flight = first_flight.map(|e| [e.closing_speed.ratio(), e.beyond.ratio()]);
-    let mut found = Found { first_flight, of_ways: Vec::new() };
+    let mut found = HopRatios { first_flight, of_ways: Vec::new() };
     let mut largest = first_flight.map_or(0.0, |[a, b]| a.max(b));
     for (way, &solver) in SOLVERS.iter().enumerate().filter(|(_, solver)| **solver < arithmetic) {
         if let Ok(Some(errors)) = reference.errors_of(solver) {

@@ -49,7 +49,7 @@ pub(super) struct Pairs {
 
 /// The part of a hump from which speeds are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Part {
+enum HumpPart {
     /// (α*_n, (n+1)π).
     Contact,
     /// ((n+1)π, α*_{n+1}).
@@ -116,20 +116,20 @@ impl Comparison {
 }
 
 /// M log-uniform, α uniform on one of the humps.
-fn pair(k: u64, part: Part, range: &Range) -> Result<(MassRatio, f64), Error> {
+fn pair(k: u64, part: HumpPart, range: &Range) -> Result<(MassRatio, f64), Error> {
     let decade = range.decades * (2.0 * RANDOM.uniform(3 * k) - 1.0);
     let n = (range.humps as f64 * RANDOM.uniform(3 * k + 1)) as u64;
     let contact_end = (n + 1) as f64 * PI;
     let (left, right) = match part {
-        Part::Contact => (alpha_star(n), contact_end),
-        Part::Window => (contact_end, alpha_star(n + 1)),
+        HumpPart::Contact => (alpha_star(n), contact_end),
+        HumpPart::Window => (contact_end, alpha_star(n + 1)),
     };
     let place = range.from_ends + (1.0 - 2.0 * range.from_ends) * RANDOM.uniform(3 * k + 2);
     Ok((MassRatio::new(pxfm::f_exp10(decade))?, left + (right - left) * place))
 }
 
 /// Compares the map at random M with the map at 1/M.
-fn compare(map: &impl Map, part: Part, range: &Range, pairs: u64) -> Result<Comparison, Error> {
+fn compare(map: &impl Map, part: HumpPart, range: &Range, pairs: u64) -> Result<Comparison, Error> {
     // The difference of α′² relative to 1 + α², and that relative to the bound.
     let difference = |k: u64| -> Result<(f64, f64), Error> {
         let (mass_ratio, alpha) = pair(k, part, range)?;
@@ -159,8 +159,8 @@ pub(super) fn invariance(
     integrated: &impl Map,
     pairs: Pairs,
 ) -> Result<Evidence, Error> {
-    let printed = compare(printed, Part::Contact, &PRINTED, pairs.printed)?;
-    let integrated = compare(integrated, Part::Contact, &INTEGRATED, pairs.integrated)?;
+    let printed = compare(printed, HumpPart::Contact, &PRINTED, pairs.printed)?;
+    let integrated = compare(integrated, HumpPart::Contact, &INTEGRATED, pairs.integrated)?;
     Ok(Evidence::about("$f$($α$; $M$) = $f$($α$; 1/$M$) when no landing between is sudden")
         .ours(format!(
             "on the contact parts {} of {} random ($M$, $α$) differ by the printed equations, and {} of {} by \
@@ -189,8 +189,8 @@ pub(super) fn no_invariance(
     integrated: &impl Map,
     pairs: Pairs,
 ) -> Result<Evidence, Error> {
-    let printed = compare(printed, Part::Window, &PRINTED, pairs.printed)?;
-    let integrated = compare(integrated, Part::Window, &INTEGRATED, pairs.integrated)?;
+    let printed = compare(printed, HumpPart::Window, &PRINTED, pairs.printed)?;
+    let integrated = compare(integrated, HumpPart::Window, &INTEGRATED, pairs.integrated)?;
     let differ = |found: &Comparison| !found.invariant() && found.fraction() > MOST;
     Ok(Evidence::about("the entire map between two fixed points is not invariant")
         .ours(format!(
@@ -211,7 +211,7 @@ pub(super) fn no_invariance(
 
 /// The stable map at M and at 1/M: equal by its formula.
 pub(super) fn stable_form(map: &impl Map, pairs: u64) -> Result<Evidence, Error> {
-    let found = compare(map, Part::Contact, &STABLE, pairs)?;
+    let found = compare(map, HumpPart::Contact, &STABLE, pairs)?;
     Ok(Evidence::about("$f$($α$; $M$) = $f$($α$; 1/$M$) when no landing between is sudden")
         .ours(
             "on the contact parts $α$′^{2} = $α$^{2} − $μΓ$^{2}: the formula contains $M$ only in $μ$, and \

@@ -6,16 +6,16 @@ use crate::error::Error;
 use crate::repository::Folder;
 use basin_of_attraction::Label;
 use hopper_basin::HopperFate;
-use hopper_proof::{BasinGap, BasinInterval, CERTIFICATE_VERSION, Evidence, Theorem};
+use hopper_proof::{BasinGap, BasinInterval, CERTIFICATE_VERSION, CertificateLine, Theorem};
 use resumable_job::AtomicFile;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Writes NAME.jsonl into the folder: its path, and its size. `strips` are the lines for which [`Evidence::Strips`]
+/// Writes NAME.jsonl into the folder: its path, and its size. `strips` are the lines for which [`CertificateLine::Strips`]
 /// stands, and are written as they come.
 pub(super) fn write_certificate(
     theorem: &Theorem,
-    mut strips: impl Iterator<Item = Result<Evidence, Error>>,
+    mut strips: impl Iterator<Item = Result<CertificateLine, Error>>,
     folder: &Folder,
 ) -> Result<(PathBuf, usize), Error> {
     let path = folder.path().join(format!("{}.jsonl", theorem.name));
@@ -47,7 +47,7 @@ fn header(theorem: &Theorem) -> Value {
         "version": CERTIFICATE_VERSION,
         "theorem": theorem.name,
         "statement": theorem.statement,
-        "lines": theorem.evidence.iter().map(Evidence::lines).sum::<usize>(),
+        "lines": theorem.evidence.iter().map(CertificateLine::lines).sum::<usize>(),
     })
 }
 
@@ -79,58 +79,60 @@ fn runs(labels: &[Label]) -> Vec<Value> {
 }
 
 /// The line of a piece of evidence; `None` for one that stands for other lines.
-fn line(evidence: &Evidence) -> Option<Value> {
+fn line(evidence: &CertificateLine) -> Option<Value> {
     let value = match evidence {
-        Evidence::Strips(_) => return None,
-        Evidence::OneSudden { fixed_point, largest_mass_ratio, available, needed } => json!({
-            "kind": "one-sudden", "fixed_point": [fixed_point.low, fixed_point.high],
-            "largest_mass_ratio": largest_mass_ratio, "available": available, "needed": needed,
-        }),
-        Evidence::Trap { n, fixed_point, mass_ratio, right, beyond } => json!({
+        CertificateLine::Strips(_) => return None,
+        CertificateLine::OneSudden { fixed_point, largest_mass_ratio, available, needed } => {
+            json!({
+                "kind": "one-sudden", "fixed_point": [fixed_point.low, fixed_point.high],
+                "largest_mass_ratio": largest_mass_ratio, "available": available, "needed": needed,
+            })
+        }
+        CertificateLine::Trap { n, fixed_point, mass_ratio, right, beyond } => json!({
             "kind": "trap", "n": n, "fixed_point": [fixed_point.low, fixed_point.high],
             "mass_ratio": mass_ratio, "right": right, "beyond": beyond,
         }),
-        Evidence::Crisis { n, mass_ratio, speed } => json!({
+        CertificateLine::Crisis { n, mass_ratio, speed } => json!({
             "kind": "crisis", "n": n, "mass_ratio": [mass_ratio.low, mass_ratio.high], "speed": speed,
         }),
-        Evidence::ContactPart { n, mass_ratio, speeds, least_square } => json!({
+        CertificateLine::ContactPart { n, mass_ratio, speeds, least_square } => json!({
             "kind": "contact-part", "n": n, "mass_ratio": mass_ratio,
             "speeds": [speeds.low, speeds.high], "least_square": least_square,
         }),
-        Evidence::Losses { multiple_of_pi, mass_ratio, losses, square } => json!({
+        CertificateLine::Losses { multiple_of_pi, mass_ratio, losses, square } => json!({
             "kind": "losses", "multiple_of_pi": multiple_of_pi, "mass_ratio": mass_ratio,
             "losses": losses, "square": square,
         }),
-        Evidence::RisingWindow { n, speeds, largest_mass_ratio } => json!({
+        CertificateLine::RisingWindow { n, speeds, largest_mass_ratio } => json!({
             "kind": "rising-window", "n": n, "speeds": [speeds.low, speeds.high],
             "largest_mass_ratio": largest_mass_ratio,
         }),
-        Evidence::RisingBox { n, speeds, kappas } => json!({
+        CertificateLine::RisingBox { n, speeds, kappas } => json!({
             "kind": "rising-box", "n": n, "speeds": [speeds.low, speeds.high],
             "kappas": [kappas.low, kappas.high],
         }),
-        Evidence::Basins { mass_ratios, intervals: list } => json!({
+        CertificateLine::Basins { mass_ratios, intervals: list } => json!({
             "kind": "basins", "mass_ratios": [mass_ratios.left, mass_ratios.right],
             "intervals": intervals(list),
         }),
-        Evidence::Gaps(list) => json!({ "kind": "gaps", "gaps": gaps(list) }),
-        Evidence::Fraction { label, humps, uniform, by_humps } => json!({
+        CertificateLine::Gaps(list) => json!({ "kind": "gaps", "gaps": gaps(list) }),
+        CertificateLine::Fraction { label, humps, uniform, by_humps } => json!({
             "kind": "fraction", "fate": fate(*label), "humps": humps,
             "uniform": [uniform.low, uniform.high], "by_humps": [by_humps.low, by_humps.high],
         }),
-        Evidence::Grid(grid) => json!({
+        CertificateLine::Grid(grid) => json!({
             "kind": "grid", "mass_ratios": [grid.x.left, grid.x.right],
             "speeds": [grid.y.left, grid.y.right], "columns": grid.columns, "rows": grid.rows,
         }),
-        Evidence::Speeds(speeds) => json!({ "kind": "speeds", "speeds": speeds }),
-        Evidence::Points { mass_ratio, traps, labels } => json!({
+        CertificateLine::Speeds(speeds) => json!({ "kind": "speeds", "speeds": speeds }),
+        CertificateLine::Points { mass_ratio, traps, labels } => json!({
             "kind": "points", "mass_ratio": mass_ratio, "traps": intervals(traps),
             "fates": runs(labels),
         }),
-        Evidence::Area { label, share } => json!({
+        CertificateLine::Area { label, share } => json!({
             "kind": "area", "fate": fate(*label), "share": [share.low, share.high],
         }),
-        Evidence::Cells { edges, of_one_basin } => json!({
+        CertificateLine::Cells { edges, of_one_basin } => json!({
             "kind": "cells", "edges": edges, "of_one_basin": of_one_basin,
         }),
     };

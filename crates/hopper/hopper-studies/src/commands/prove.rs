@@ -11,8 +11,8 @@ use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{FIG_9, FigureWindow, basin_raster};
 use hopper_figures::label_png;
 use hopper_proof::{
-    Evidence, Theorem, cells_theorem, crises, everything_hops, measures, one_sided, one_sudden,
-    points_theorem, proved_points, rising, trap_edges,
+    CertificateLine, Theorem, cells_theorem, crises, everything_hops, measures, one_sided,
+    one_sudden, points_theorem, proved_points, rising, trap_edges,
 };
 use journal_figures::Svg;
 use std::ops::ControlFlow;
@@ -190,7 +190,7 @@ impl Provable {
 fn report(
     theorem: &Theorem,
     begin: Instant,
-    strips: impl Iterator<Item = Result<Evidence, Error>>,
+    strips: impl Iterator<Item = Result<CertificateLine, Error>>,
     folder: &Folder,
 ) -> Result<bool, Error> {
     let word = if theorem.is_proved() { "proved" } else { "OPEN" };

@@ -24,7 +24,7 @@ impl std::fmt::Display for Piece {
 
 /// A part of the drawing in the order of the file: a tag that opens or closes an element, or a text between tags.
 #[derive(Debug, Clone, PartialEq)]
-struct Part {
+struct Element {
     /// The name of the tag, with `/` before the name of a closing one; empty for a text.
     name: String,
     /// The attributes by name, whatever their order in the file. A text is the attribute "text".
@@ -33,7 +33,7 @@ struct Part {
 
 /// A drawing.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Drawing(Vec<Part>);
+pub(crate) struct Drawing(Vec<Element>);
 
 impl Drawing {
     /// Reads an SVG file.
@@ -56,11 +56,11 @@ impl Drawing {
 }
 
 /// Where two different parts differ.
-fn part_difference(old: &Part, new: &Part) -> String {
+fn part_difference(old: &Element, new: &Element) -> String {
     if old.name != new.name {
         return format!("is <{}>", new.name);
     }
-    let names = |part: &Part| part.attributes.keys().cloned().collect::<Vec<_>>();
+    let names = |part: &Element| part.attributes.keys().cloned().collect::<Vec<_>>();
     if names(old) != names(new) {
         return format!("had the attributes {:?}, has {:?}", names(old), names(new));
     }
@@ -73,7 +73,7 @@ fn part_difference(old: &Part, new: &Part) -> String {
 }
 
 /// All parts of a file.
-fn parts(text: &str) -> Result<Vec<Part>, String> {
+fn parts(text: &str) -> Result<Vec<Element>, String> {
     let mut found = Vec::new();
     let mut rest = text;
     while let Some(at) = rest.find('<') {
@@ -88,15 +88,15 @@ fn parts(text: &str) -> Result<Vec<Part>, String> {
     Ok(found)
 }
 
-fn push_text(text: &str, found: &mut Vec<Part>) {
+fn push_text(text: &str, found: &mut Vec<Element>) {
     if !text.trim().is_empty() {
         let attributes = BTreeMap::from([("text".to_owned(), pieces(text))]);
-        found.push(Part { name: String::new(), attributes });
+        found.push(Element { name: String::new(), attributes });
     }
 }
 
 /// Reads what stands between `<` and `>`. A tag that opens and closes an element gives two parts, like two tags.
-fn read_tag(tag: &str, found: &mut Vec<Part>) -> Result<(), String> {
+fn read_tag(tag: &str, found: &mut Vec<Element>) -> Result<(), String> {
     if tag.starts_with(['!', '?']) {
         return Err(format!("<{tag}> is a comment or a declaration"));
     }
@@ -119,9 +119,9 @@ fn read_tag(tag: &str, found: &mut Vec<Part>) -> Result<(), String> {
     if !rest.trim().is_empty() {
         return Err(format!("<{name}> has an attribute without a value"));
     }
-    found.push(Part { name: name.to_owned(), attributes });
+    found.push(Element { name: name.to_owned(), attributes });
     if closes {
-        found.push(Part { name: format!("/{name}"), attributes: BTreeMap::new() });
+        found.push(Element { name: format!("/{name}"), attributes: BTreeMap::new() });
     }
     Ok(())
 }

@@ -21,7 +21,7 @@ const SHARE: Duration = Duration::from_secs(1);
 
 /// The events that one program finds in one scene.
 #[derive(Debug, Clone, PartialEq, serde::Deserialize)]
-pub(crate) struct Found {
+pub(crate) struct FoundEvents {
     pub(super) scene: String,
     pub(super) name: String,
     /// Seconds for a run.
@@ -34,7 +34,7 @@ pub(crate) struct Found {
     pub(super) lines: usize,
 }
 
-impl Found {
+impl FoundEvents {
     /// True if these are events of this scene.
     pub(crate) fn is_of(&self, scene: &str) -> bool {
         self.scene == scene
@@ -42,7 +42,7 @@ impl Found {
 }
 
 /// By SciPy and heyoka.
-pub(crate) fn by_python(python: &Python, folder: &Path) -> Result<Vec<Found>, Error> {
+pub(crate) fn by_python(python: &Python, folder: &Path) -> Result<Vec<FoundEvents>, Error> {
     let output = folder.join("events-python.json");
     python.run(PYTHON, &[&output])?;
     let mut found = read(&output)?;
@@ -54,7 +54,7 @@ pub(crate) fn by_python(python: &Python, folder: &Path) -> Result<Vec<Found>, Er
 }
 
 /// By diffsol.
-pub(crate) fn by_diffsol(folder: &Path) -> Result<Vec<Found>, Error> {
+pub(crate) fn by_diffsol(folder: &Path) -> Result<Vec<FoundEvents>, Error> {
     let output = folder.join("events-diffsol.json");
     run_diffsol(folder, &output)?;
     let mut found = read(&output)?;
@@ -65,7 +65,7 @@ pub(crate) fn by_diffsol(folder: &Path) -> Result<Vec<Found>, Error> {
 }
 
 /// By this repository.
-pub(crate) fn by_us() -> Result<Vec<Found>, Error> {
+pub(crate) fn by_us() -> Result<Vec<FoundEvents>, Error> {
     let name = "ours".to_owned();
     let found = |(scene, run): (&str, ours::Run)| {
         let (times, end) = run()?;
@@ -76,12 +76,19 @@ pub(crate) fn by_us() -> Result<Vec<Found>, Error> {
             smallest = smallest.min(start.elapsed().as_secs_f64());
         }
         let lines = model_lines(ours::SOURCE, scene);
-        Ok(Found { scene: scene.into(), name: name.clone(), seconds: smallest, times, end, lines })
+        Ok(FoundEvents {
+            scene: scene.into(),
+            name: name.clone(),
+            seconds: smallest,
+            times,
+            end,
+            lines,
+        })
     };
     ours::scenes().into_iter().map(found).collect()
 }
 
-fn read(path: &Path) -> Result<Vec<Found>, Error> {
+fn read(path: &Path) -> Result<Vec<FoundEvents>, Error> {
     serde_json::from_str(&crate::repository::read(path)?)
         .map_err(|error| Error::Peers { reason: error.to_string() })
 }
@@ -98,7 +105,7 @@ mod tests {
         for (answer, (scene, run)) in answers.iter().zip(ours::scenes()) {
             let (times, end) = run().unwrap();
             let (scene, name) = (scene.to_owned(), "ours".to_owned());
-            let found = Found { scene, name, seconds: 1.0, times, end, lines: 1 };
+            let found = FoundEvents { scene, name, seconds: 1.0, times, end, lines: 1 };
             let verdict = verdict(&found, answer);
             assert_eq!(answer.scene, found.scene);
             assert_eq!((verdict.right, verdict.wrong), (verdict.exact, 0), "{verdict:?}");

@@ -1,7 +1,7 @@
 //! How right are the events that a program found?
 
 use super::answers::Answer;
-use super::found::{Found, MOST};
+use super::found::{FoundEvents, MOST};
 
 /// A time belongs to an exact one if it is no farther from it. It is far above the errors of all programs, and far
 /// below the time between two events that are counted.
@@ -40,7 +40,7 @@ pub(crate) struct Verdict {
 }
 
 /// Compares the events of a program with the exact ones.
-pub(crate) fn verdict(found: &Found, answer: &Answer) -> Verdict {
+pub(crate) fn verdict(found: &FoundEvents, answer: &Answer) -> Verdict {
     let (mut right, mut wrong, mut error) = (0, 0, 0.0f64);
     let mut exact = answer.times.iter().peekable();
     // The ball's impacts are infinitely many. After the last one that is counted, up to the limit of all impacts,
@@ -83,9 +83,9 @@ pub(crate) fn verdict(found: &Found, answer: &Answer) -> Verdict {
 mod tests {
     use super::*;
 
-    fn found(times: &[f64], end: f64) -> Found {
+    fn found(times: &[f64], end: f64) -> FoundEvents {
         let (scene, name) = ("a scene".to_owned(), "a program".to_owned());
-        Found { scene, name, seconds: 3.0, times: times.to_vec(), end, lines: 7 }
+        FoundEvents { scene, name, seconds: 3.0, times: times.to_vec(), end, lines: 7 }
     }
 
     fn answer(scene: &str) -> Answer {

@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// The results of one program for all hops, in their order.
 #[derive(Debug, Clone, serde::Deserialize)]
-struct Found {
+struct ProgramResults {
     name: String,
     seconds: f64,
     next: Vec<Option<f64>>,
@@ -41,7 +41,11 @@ pub(crate) fn measure(
 }
 
 /// The other programs' results, measured by a script in a process of its own.
-fn theirs(python: &Python, folder: &Path, hops: &[ReferenceHop]) -> Result<Vec<Found>, Error> {
+fn theirs(
+    python: &Python,
+    folder: &Path,
+    hops: &[ReferenceHop],
+) -> Result<Vec<ProgramResults>, Error> {
     let (input, output) = (folder.join("hops.json"), folder.join("results.json"));
     let pairs: Vec<_> = hops.iter().map(|hop| (hop.mass_ratio.value(), hop.alpha)).collect();
     let understood = |e: serde_json::Error| Error::Peers { reason: e.to_string() };
@@ -52,17 +56,17 @@ fn theirs(python: &Python, folder: &Path, hops: &[ReferenceHop]) -> Result<Vec<F
 }
 
 /// The results of one of our methods.
-fn ours(method: Method, hops: &[ReferenceHop]) -> Found {
+fn ours(method: Method, hops: &[ReferenceHop]) -> ProgramResults {
     let cases: Vec<Case> = hops.iter().map(Case::of).collect();
     let next = |case: &Case| method.hop(case).and_then(|answer| answer.next);
-    Found {
+    ProgramResults {
         name: format!("ours: {}", method.name()),
         seconds: method.time(&cases.iter().collect::<Vec<_>>()).as_secs_f64(),
         next: cases.iter().map(next).collect(),
     }
 }
 
-fn peer(found: Found, ours: bool, hops: &[ReferenceHop]) -> Peer {
+fn peer(found: ProgramResults, ours: bool, hops: &[ReferenceHop]) -> Peer {
     let (mut errors, mut wrong) = (Vec::new(), 0);
     for (&next, hop) in found.next.iter().zip(hops) {
         match (next, hop.next) {
@@ -87,7 +91,7 @@ mod tests {
         let mut next: Vec<_> = hops.iter().map(|hop| hop.next).collect();
         let grounded = hops.iter().position(|hop| hop.next.is_none()).unwrap();
         next[grounded] = Some(1.0);
-        let found = Found { name: "a peer".into(), seconds: 1.0, next };
+        let found = ProgramResults { name: "a peer".into(), seconds: 1.0, next };
         let peer = peer(found, false, &hops);
         assert_eq!((peer.compared, peer.wrong, peer.errors), (1000, 1, Some((0.0, 0.0))));
     }

@@ -4,7 +4,7 @@ use crate::basins::call::{Call, Work};
 use crate::basins::job_folder::{JobFolder, Share};
 use crate::error::Error;
 use rayon::prelude::*;
-use resumable_job::{Found, Pace, Part, Pieces, Place, Progress};
+use resumable_job::{Pace, Part, Pieces, Place, Progress, StoredPiece};
 use std::io::IsTerminal;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
@@ -113,9 +113,9 @@ pub(crate) fn compute(
 fn missing(kept: &Pieces, wanted: &[usize]) -> Result<Vec<(usize, Option<String>)>, Error> {
     let state = |&at: &usize| {
         Ok(match kept.find(at)? {
-            Found::Finished(_) => None,
-            Found::Missing => Some((at, None)),
-            Found::Unusable(unusable) => Some((at, Some(unusable.to_string()))),
+            StoredPiece::Finished(_) => None,
+            StoredPiece::Missing => Some((at, None)),
+            StoredPiece::Unusable(unusable) => Some((at, Some(unusable.to_string()))),
         })
     };
     let states = wanted.par_iter().map(state).collect::<Result<Vec<_>, Error>>()?;

@@ -67,7 +67,8 @@ pub(crate) fn filter(
             start = BYTE_ORDER_MARK.len();
         }
         let lines = &block[std::mem::take(&mut start)..end];
-        let parts: Vec<Part> = parts(lines).map(|bytes| Part::read(bytes, &value)).collect();
+        let parts: Vec<ReadLines> =
+            parts(lines).map(|bytes| ReadLines::read(bytes, &value)).collect();
         let first = parts.iter().position(|part| !part.values.is_empty());
         let texts: Vec<_> = parts
             .par_iter()
@@ -105,16 +106,17 @@ fn parts(mut bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
 }
 
 /// The numbers of some lines, up to the first wrong one.
-struct Part {
+struct ReadLines {
     values: Vec<f64>,
     lines: u64,
     /// The number of the wrong line in this part, its text, and what is wrong.
     wrong: Option<(u64, String, String)>,
 }
 
-impl Part {
+impl ReadLines {
     fn read(bytes: &[u8], value: &impl Fn(&str) -> Result<f64, String>) -> Self {
-        let mut part = Part { values: Vec::with_capacity(bytes.len() / 8), lines: 0, wrong: None };
+        let mut part =
+            ReadLines { values: Vec::with_capacity(bytes.len() / 8), lines: 0, wrong: None };
         let whole = bytes.strip_suffix(b"\n").unwrap_or(bytes);
         for line in whole.split(|&byte| byte == b'\n') {
             part.lines += 1;

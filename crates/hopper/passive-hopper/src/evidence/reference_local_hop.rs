@@ -1,7 +1,7 @@
 //! A hop near a fixed point in 512 or 1024 bits, for comparison.
 
 use crate::error::Error;
-use crate::map::extended_hop::{ExtendedMasses, Start, watched_hop_with};
+use crate::map::extended_hop::{ExtendedMasses, HopStart, watched_hop_with};
 use crate::map::lift_off_map::LiftOffMap;
 use crate::model::fixed_points::fixed_point_in;
 use crate::precision::long::Long;
@@ -81,10 +81,11 @@ fn local_hop<R: Extended>(
 ) -> Result<Option<ReferenceLocalHop>, Error> {
     let mut squares = R::from(0.0);
     let mut time = None;
-    let hop = watched_hop_with::<R>(Start::Offset { n, delta }, map.mass_ratio(), |landing, _| {
-        squares = squares + landing.closing_speed.squared();
-        time.get_or_insert(landing.time);
-    })?;
+    let hop =
+        watched_hop_with::<R>(HopStart::Offset { n, delta }, map.mass_ratio(), |landing, _| {
+            squares = squares + landing.closing_speed.squared();
+            time.get_or_insert(landing.time);
+        })?;
     let (Some(hop), Some(time)) = (hop.filter(|hop| hop.certain && hop.precise), time) else {
         return Ok(None);
     };

@@ -6,7 +6,7 @@ use crate::kernel::scalar::landing_bracket::maximum_test_of;
 use crate::landing::error_bound::ErrorBound;
 use crate::landing::flight_derivative::Variation;
 use crate::landing::next_landing::MaximumTest;
-use crate::map::extended_hop::{ExtendedHop, ExtendedMasses, Start, watched_hop_with};
+use crate::map::extended_hop::{ExtendedHop, ExtendedMasses, HopStart, watched_hop_with};
 use crate::map::lift_off_map::{Hop, LiftOffMap, check_speed};
 use crate::precision::real::{Extended, Real};
 
@@ -153,7 +153,7 @@ pub(crate) fn extended_trace<R: Extended>(
     let (speed, short_mu) = (R::from(alpha), mu.nearest());
     let mut landings: Vec<TracedLanding<R>> = Vec::new();
     let (mut propagated, mut ratio, mut ratio_error) = (0.0, R::from(1.0), f64::INFINITY);
-    let hop = watched_hop_with::<R>(Start::Speed(alpha), map.mass_ratio(), |landing, bound| {
+    let hop = watched_hop_with::<R>(HopStart::Speed(alpha), map.mass_ratio(), |landing, bound| {
         let loss = mu * (landing.closing_speed / speed).squared();
         let before = std::mem::replace(&mut propagated, bound.propagated(short_mu, alpha));
         landings.push(TracedLanding {

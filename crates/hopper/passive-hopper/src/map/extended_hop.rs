@@ -47,7 +47,7 @@ impl<R: Extended> ExtendedMasses<R> {
 
 /// Where a hop starts.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Start {
+pub(crate) enum HopStart {
     /// At α.
     Speed(f64),
     /// At α*_n + δ.
@@ -82,7 +82,7 @@ pub(crate) struct Next {
 ///
 /// Each arithmetic has a budget of sudden lift-offs. If a hop exceeds the budget, the result of the next shorter
 /// arithmetic is returned, with its `certain` and `precise`.
-pub(crate) fn extended_hop(start: Start, mass_ratio: MassRatio) -> Result<ExtendedHop, Error> {
+pub(crate) fn extended_hop(start: HopStart, mass_ratio: MassRatio) -> Result<ExtendedHop, Error> {
     let longer = [hop_with::<Long<4>> as HopWith, hop_with::<Long<8>>, hop_with::<Long<16>>];
     let mut hop = hop_with::<DoubleDouble>(start, mass_ratio)?;
     for longer in longer {
@@ -93,14 +93,14 @@ pub(crate) fn extended_hop(start: Start, mass_ratio: MassRatio) -> Result<Extend
     }
     hop.ok_or_else(|| {
         let alpha = match start {
-            Start::Speed(alpha) => alpha,
-            Start::Offset { n, delta } => alpha_star(n) + delta,
+            HopStart::Speed(alpha) => alpha,
+            HopStart::Offset { n, delta } => alpha_star(n) + delta,
         };
         Error::Undecided { alpha, sudden: DoubleDouble::SUDDEN_BUDGET }
     })
 }
 
-type HopWith = fn(Start, MassRatio) -> Result<Option<ExtendedHop>, Error>;
+type HopWith = fn(HopStart, MassRatio) -> Result<Option<ExtendedHop>, Error>;
 
 /// Largest propagated error of a result, relative to the result: an eighth of an ulp, so that the rounding of the
 /// result to `f64` dominates. Chosen, not derived. A smaller value sends more chains to the longer arithmetic.
@@ -191,7 +191,7 @@ impl<R: Extended> StartIn<R> {
 
 /// The hop in the arithmetic `R`; `None` if the hop exceeds the budget of `R`.
 fn hop_with<R: Extended>(
-    start: Start,
+    start: HopStart,
     mass_ratio: MassRatio,
 ) -> Result<Option<ExtendedHop>, Error> {
     watched_hop_with::<R>(start, mass_ratio, |_, _| ())
@@ -199,17 +199,17 @@ fn hop_with<R: Extended>(
 
 /// As [`hop_with`]; `see` receives each landing, with the bounds after it.
 pub(crate) fn watched_hop_with<R: Extended>(
-    start: Start,
+    start: HopStart,
     mass_ratio: MassRatio,
     see: impl FnMut(&ExtendedLanding<R>, &ErrorBound),
 ) -> Result<Option<ExtendedHop>, Error> {
     let masses = ExtendedMasses::<R>::new(mass_ratio);
     let (from, offset) = match start {
-        Start::Speed(speed) => {
+        HopStart::Speed(speed) => {
             let alpha = R::from(speed);
             (StartIn::at_speed(alpha, masses), alpha)
         }
-        Start::Offset { n, delta } => {
+        HopStart::Offset { n, delta } => {
             let offset = R::from(delta);
             (StartIn::at_offset(n, offset, masses), offset)
         }
@@ -228,7 +228,7 @@ pub(crate) fn watched_hop_with<R: Extended>(
     // have small relative errors instead, and a short second flight keeps them (docs/theory.md, Lemma 73 and
     // Theorem 74, to first order in the rounding; Section 12). There the propagated error is neglected; an offset
     // far below the spacing of the arithmetic would otherwise never be precise.
-    let relative = matches!(start, Start::Offset { .. })
+    let relative = matches!(start, HopStart::Offset { .. })
         && match hop.landings.as_slice() {
             [_] => true,
             [_, second] => second.time < SHORT_FLIGHT,

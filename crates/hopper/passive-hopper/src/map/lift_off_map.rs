@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::kernel::scalar::hop::{DecidedHop, MassFactors, kernel_hop};
 use crate::landing::error_bound::ErrorBound;
 use crate::landing::flight_ends::Landing;
-use crate::map::extended_hop::{ExtendedHop, Start, extended_hop};
+use crate::map::extended_hop::{ExtendedHop, HopStart, extended_hop};
 use crate::map::limits::LARGEST_PLAIN_SPEED;
 use crate::map::plain_landings::PlainLandings;
 use crate::model::mass_ratio::MassRatio;
@@ -166,7 +166,7 @@ impl LiftOffMap {
                 return Err(Error::Undecided { alpha, sudden: hop.sudden });
             }
         }
-        let hop = extended_hop(Start::Speed(alpha), self.mass_ratio)?;
+        let hop = extended_hop(HopStart::Speed(alpha), self.mass_ratio)?;
         if !hop.certain {
             return Err(Error::Undecided { alpha, sudden: hop.landings.len() - 1 });
         }

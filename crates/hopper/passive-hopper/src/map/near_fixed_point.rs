@@ -8,7 +8,7 @@ use crate::landing::error_bound::ErrorBound;
 use crate::landing::flight_ends::{Landing, TakeOff};
 use crate::landing::local_flight::NearFixedPoint;
 use crate::landing::next_landing::next_landing;
-use crate::map::extended_hop::{Start, extended_hop};
+use crate::map::extended_hop::{HopStart, extended_hop};
 use crate::map::lift_off_map::LiftOffMap;
 use crate::map::limits::{LARGEST_PLAIN_SPEED, SHORT_FLIGHT};
 use crate::model::fixed_points::{alpha_star, exact_alpha_star, n_pi};
@@ -141,7 +141,7 @@ impl LiftOffMap {
 
     /// The hop in extended arithmetic.
     fn extended_hop_near(&self, n: u64, delta: f64, time_shift: f64) -> Result<LocalHop, Error> {
-        let hop = extended_hop(Start::Offset { n, delta }, self.mass_ratio())?;
+        let hop = extended_hop(HopStart::Offset { n, delta }, self.mass_ratio())?;
         let sudden = hop.landings.len() - 1;
         if !(hop.certain && hop.precise) {
             return Err(Error::Undecided { alpha: alpha_star(n) + delta, sudden });
