@@ -4,7 +4,7 @@
 #![allow(clippy::type_complexity)] // the type of a model contains the types of its closures
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-use hybrid_system::model_parts::{Integrated, Part};
+use hybrid_system::model_parts::{Integrated, ModelPart};
 use hybrid_system::*;
 use nalgebra::{Matrix1x2, RowVector2, SMatrix, Vector2};
 
@@ -82,7 +82,7 @@ fn thermostat(
     usize,
     State<1>,
     Integrated<impl Fn(bool, &State<1>) -> [f64; 1]>,
-    impl Part<bool, usize, State<1>>,
+    impl ModelPart<bool, usize, State<1>>,
 > {
     Model::integrated(move |on, x: &State<1>| [a * (if on { 3.0 } else { 0.0 } - x[0])])
         .tolerance(1e-12)
@@ -113,7 +113,7 @@ fn pendulum(
     usize,
     State<2>,
     Integrated<impl Fn((), &State<2>) -> [f64; 2]>,
-    impl Part<(), usize, State<2>>,
+    impl ModelPart<(), usize, State<2>>,
 > {
     let bounce = move |x: &State<2>| ((), [x[0], -e * x[1]]);
     Model::integrated(move |(), x: &State<2>| [x[1], -x[0].sin() - k * x[1]])
