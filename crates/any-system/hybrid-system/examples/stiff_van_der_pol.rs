@@ -167,6 +167,7 @@ impl HybridSystem for VanDerPol {
             time_rounding: 2.0 * f64::EPSILON * time,
             time_error: self.tolerance * (1.0 + time),
             state: self.flow((), start, time),
+            from: None,
             kind: EventKind::Crossing,
             certainty,
         }))

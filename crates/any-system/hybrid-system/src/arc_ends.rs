@@ -1,7 +1,7 @@
 //! The arcs of an execution by their ends: an event, a limit, a sliding surface, a Zeno limit.
 
 use crate::arc::{Arc, ArcEnd, Event};
-use crate::arrival::{Arrival, DurationOfArc};
+use crate::arrival::{Arrival, DurationOfArc, PLACES};
 use crate::crossing::{Certainty, Crossing, EventKind, GuardedFlow, LeavingGuards};
 use crate::error::Error;
 use crate::execution::{AnArc, Execution};
@@ -22,8 +22,16 @@ impl<T: HybridSystem> Execution<'_, T> {
         horizon: f64,
         leaving: LeavingGuards<T::Surface>,
     ) -> Result<AnArc<T>, Error> {
-        let Crossing { surface, time: duration, time_rounding, time_error, state, kind, certainty } =
-            crossing;
+        let Crossing {
+            surface,
+            time: duration,
+            time_rounding,
+            time_error,
+            state,
+            kind,
+            from,
+            certainty,
+        } = crossing;
         let before = self.at.time.value();
         self.check_state(before + duration, &state)?;
         // The searches of this crate certify less, and miss no change of sign.
@@ -44,6 +52,10 @@ impl<T: HybridSystem> Execution<'_, T> {
             && clock.surface == surface
         {
             time = TimeSum::new(clock.time);
+        }
+        // The sum may miss the limit by a rounding, too.
+        if time.value() > self.limits.time {
+            time = TimeSum::new(self.limits.time);
         }
         let time_passes = time.value() > before;
         if time_passes {
@@ -74,11 +86,11 @@ impl<T: HybridSystem> Execution<'_, T> {
         });
         let arc = self.new_arc(duration, end);
         let solved = certainty == Certainty::Exact;
-        let length = DurationOfArc { duration, time_rounding, time_error, solved };
+        let length = DurationOfArc { duration, time_rounding, time_error, solved, from };
         self.remember((kind, surface), &state, (length, leaving), time_passes);
         if let Some((_, after)) = &after {
             // A reset that moves a guard off its surface leaves no residue.
-            self.forget_residues(None, after);
+            self.forget_residues(None, after, 0.0);
             let next = FlowFrom { system: self.system, mode: self.at.mode, start: after };
             let rounding = next.rounding_at(surface, after);
             let arrival = self.at.arrival.as_ref();
@@ -118,19 +130,19 @@ impl<T: HybridSystem> Execution<'_, T> {
         time_passes: bool,
     ) {
         let passed = (kind == EventKind::Crossing).then_some(surface);
-        self.forget_residues(passed, state);
+        self.forget_residues(passed, state, length.duration);
         let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
         let duration = length.duration;
         let arrival = |surface, length| Arrival::new(&flow, surface, state, (length, leaving));
         let guard = flow.guards().iter().find(|guard| guard.surface == surface);
         match kind {
             EventKind::Crossing => {
+                let arrival = arrival(Some(surface), length);
                 if let Some(guard) = guard {
-                    let (from, value) =
-                        (flow.guard_value(surface, flow.start), flow.guard_value(surface, state));
-                    self.at.residues.push(guard, value, from * value > 0.0);
+                    let value = flow.guard_value(surface, state);
+                    self.at.residues.push(guard, value, arrival.from());
                 }
-                self.at.arrival = Some(arrival(Some(surface), length));
+                self.at.arrival = Some(arrival);
             }
             EventKind::Touch => {
                 self.at.arrival = Some(arrival(Some(surface), length).by_touch());
@@ -143,10 +155,8 @@ impl<T: HybridSystem> Execution<'_, T> {
             EventKind::AtStart | EventKind::Clock => match &mut self.at.arrival {
                 Some(arrival) if !time_passes => {
                     // The flow has moved the state beyond this surface, too, by rounding.
-                    if arrival.came_from(surface).is_some()
-                        && let Some(guard) = guard
-                    {
-                        self.at.residues.push(guard, flow.guard_value(surface, state), false);
+                    if let (Some(from), Some(guard)) = (arrival.came_from(surface), guard) {
+                        self.at.residues.push(guard, flow.guard_value(surface, state), from);
                     }
                     arrival.passed(surface);
                 }
@@ -194,7 +204,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             // event.
             let (flow, length) = (self.flow(), DurationOfArc::given(duration));
             self.at.arrival = Some(Arrival::new(&flow, None, &state, (length, leaving)));
-            self.forget_residues(None, &state);
+            self.forget_residues(None, &state, duration);
             self.at.history.pass(duration);
             self.at.time = self.at.time.plus(duration);
             self.at.state = state;
@@ -203,11 +213,16 @@ impl<T: HybridSystem> Execution<'_, T> {
         }
     }
 
-    /// Forgets the residues of earlier events that the state has left, at the end of an arc.
-    fn forget_residues(&mut self, passed: Option<T::Surface>, state: &T::State) {
+    /// Forgets the residues of earlier events that the state has left, at the end of an arc of this duration.
+    fn forget_residues(&mut self, passed: Option<T::Surface>, state: &T::State, duration: f64) {
         let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
         let value = |surface| flow.guard_value(surface, state);
-        self.at.residues.keep(passed, value, |surface| flow.rounding_at(surface, state));
+        let inside = |surface| match duration > 0.0 {
+            true => PLACES.map(|part| flow.guard_value(surface, &flow.state(part * duration))),
+            false => [0.0; 3],
+        };
+        let rounding = |surface| flow.rounding_at(surface, state);
+        self.at.residues.keep(passed, value, rounding, inside);
     }
 
     /// The flow from the present state.

@@ -3,7 +3,7 @@
 mod beyond_jump;
 
 use crate::crossing::{GuardedFlow, LeavingGuards, guard_rate, is_far};
-use crate::guard::{Guard, Role};
+use crate::guard::{Direction, Guard, Role};
 use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem};
 use smallvec::SmallVec;
@@ -22,7 +22,7 @@ const LONGER: f64 = 8.0;
 
 /// Parts of an arc at which a guard is looked at that has left its surface. A periodic motion is back at one of
 /// them, and not at all of them.
-const PLACES: [f64; 3] = [0.5, 0.3, 0.8];
+pub(crate) const PLACES: [f64; 3] = [0.5, 0.3, 0.8];
 
 /// The part of an arc over which its field is straight enough to look back along it: the bend of 10⁻⁶ of an arc is
 /// 10⁻¹² of it.
@@ -38,12 +38,14 @@ pub(crate) struct DurationOfArc {
     pub(crate) time_error: f64,
     /// True if the model itself has solved for the crossing.
     pub(crate) solved: bool,
+    /// The side from which the crossed guard comes, if the search knows it.
+    pub(crate) from: Option<f64>,
 }
 
 impl DurationOfArc {
     /// A duration that a clock or a limit gives.
     pub(crate) fn given(duration: f64) -> Self {
-        DurationOfArc { duration, time_rounding: 0.0, time_error: 0.0, solved: false }
+        DurationOfArc { duration, time_rounding: 0.0, time_error: 0.0, solved: false, from: None }
     }
 }
 
@@ -55,6 +57,8 @@ pub(crate) struct Arrival<M, S, X> {
     surface: Option<S>,
     /// True if the guard has touched the surface, and not crossed it.
     touched: bool,
+    /// The side from which the guard of this surface came, ±1; 0 if there is none.
+    from: f64,
     /// The state before the reset.
     before: X,
     /// Mode, start and duration of the arc.
@@ -84,10 +88,11 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
-        let DurationOfArc { duration, time_rounding, time_error, solved } = length;
+        let DurationOfArc { duration, time_rounding, time_error, solved, from } = length;
         let mut arrival = Arrival {
             surface,
             touched: false,
+            from: 0.0,
             before: before.clone(),
             mode: arc.mode,
             start: arc.start.clone(),
@@ -97,6 +102,13 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
             solved,
             leaving,
             reached: SmallVec::new(),
+        };
+        let crossed = arc.guards().iter().find(|guard| Some(guard.surface) == surface);
+        arrival.from = match crossed.map(|guard| guard.direction) {
+            Some(Direction::Rising) => -1.0,
+            Some(Direction::Falling) => 1.0,
+            Some(Direction::Either) => from.unwrap_or(0.0),
+            None => 0.0,
         };
         let is_other =
             |guard: &&Guard<S>| guard.role != Role::Clock && Some(guard.surface) != surface;
@@ -111,6 +123,26 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
             }
         }
         arrival
+    }
+
+    /// True if the same flow goes on: the event has changed neither the mode nor the state.
+    pub(crate) fn continues<T>(&self, next: &FlowFrom<T>) -> bool
+    where
+        M: PartialEq,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
+    {
+        self.mode == next.mode && self.before == *next.start
+    }
+
+    /// The side to which the guard of this surface has passed, ±1, if it was crossed.
+    pub(crate) fn passed_to(&self, surface: S) -> Option<f64> {
+        let passed = Some(surface) == self.surface && !self.touched && self.from != 0.0;
+        passed.then_some(-self.from)
+    }
+
+    /// The side from which the crossed guard came, ±1; 0 if nothing was crossed.
+    pub(crate) fn from(&self) -> f64 {
+        self.from
     }
 
     /// The side from which a guard has come to its zero on the computed trajectory; `None` if it has not come

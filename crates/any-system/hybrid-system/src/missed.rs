@@ -39,7 +39,8 @@ pub(crate) fn check_missed<T: HybridSystem>(
         let time_rounding = time_rounding.max(TIME_ULPS * f64::EPSILON * duration);
         let arrival = {
             let time_error = time_rounding;
-            let length = DurationOfArc { duration, time_rounding, time_error, solved: true };
+            let length =
+                DurationOfArc { duration, time_rounding, time_error, solved: true, from: None };
             Arrival::new(arc, None, end, (length, LeavingGuards::new()))
         };
         let next = FlowFrom { system: arc.system, mode: arc.mode, start: end };

@@ -1,7 +1,7 @@
 //! Which event does an execution meet next?
 
 use crate::crossing::LeavingGuards;
-use crate::crossing::{Crossing, EventKind, NextEvent, Search};
+use crate::crossing::{Certainty, Crossing, EventKind, NextEvent, Search};
 use crate::error::Error;
 use crate::execution::Execution;
 use crate::guard::Role;
@@ -51,6 +51,7 @@ impl<T: HybridSystem> Execution<'_, T> {
                 time_error,
                 state: state.clone(),
                 kind: EventKind::AtStart,
+                from: None,
                 certainty,
             };
             return Ok((NextEvent::Crossing(at_once), leaving));
@@ -64,7 +65,11 @@ impl<T: HybridSystem> Execution<'_, T> {
             time: time.value(),
             leaving: &leaving,
         };
-        let found = self.system.first_crossing(mode, state, &search)?;
+        // No time is left: the rules of the start have decided.
+        let found = match search.horizon == 0.0 {
+            true => NextEvent::None { state: Some(state.clone()), certainty: Certainty::Certain },
+            false => self.system.first_crossing(mode, state, &search)?,
+        };
         let found = match (found, clock) {
             (
                 NextEvent::None { state: end, certainty },
@@ -76,6 +81,7 @@ impl<T: HybridSystem> Execution<'_, T> {
                 time_error: 0.0,
                 state: end.unwrap_or_else(|| flow_to(&flow, until)),
                 kind: EventKind::Clock,
+                from: None,
                 certainty,
             }),
             (found, _) => found,

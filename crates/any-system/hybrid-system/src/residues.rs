@@ -42,13 +42,14 @@ impl<S: Copy + PartialEq> Residues<S> {
         self.0.clear();
     }
 
-    /// The guard has this value at its event, which is still on the side from which it came if it `passes_later`.
-    pub(crate) fn push(&mut self, guard: &Guard<S>, value: f64, passes_later: bool) {
-        let is_left_behind = match (guard.role, guard.direction) {
-            (_, Direction::Either) => value != 0.0,
+    /// The guard has this value at its event, to which it came from this side.
+    pub(crate) fn push(&mut self, guard: &Guard<S>, value: f64, from: f64) {
+        let passes_later = from * value > 0.0;
+        let is_left_behind = match guard.direction {
             // The flow goes on at the side from which it came.
-            (role, direction) if role.bounds_flow() => direction.is_beyond(value),
-            (_, direction) => direction.is_beyond(-value),
+            Direction::Either if guard.role.bounds_flow() => value != 0.0,
+            direction if guard.role.bounds_flow() => direction.is_beyond(value),
+            _ => passes_later,
         };
         if is_left_behind {
             self.0.push(Residue { surface: guard.surface, value, passes_later });
@@ -56,15 +57,23 @@ impl<S: Copy + PartialEq> Residues<S> {
     }
 
     /// Forgets the surfaces whose guards have changed sign or have gone away, with the values and their rounding at
-    /// the end of an arc. The event there is one of the surface `now`, if any.
+    /// the end of an arc, and some values `inside` it. The event at the end is one of the surface `now`, if any.
     pub(crate) fn keep(
         &mut self,
         now: Option<S>,
         value: impl Fn(S) -> f64,
         rounding: impl Fn(S) -> f64,
+        inside: impl Fn(S) -> [f64; 3],
     ) {
         self.0.retain(|&mut Residue { surface, value: before, passes_later }| {
             let value = value(surface);
+            // It may have gone far away, and come back.
+            let is_away = |inside: &f64| {
+                before * inside < 0.0 || inside.abs() > 2.0 * before.abs() + rounding(surface)
+            };
+            if inside(surface).iter().any(is_away) {
+                return false;
+            }
             let is_behind = before * value > 0.0 || value == 0.0 && passes_later;
             Some(surface) != now
                 && is_behind

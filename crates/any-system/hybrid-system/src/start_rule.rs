@@ -79,6 +79,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
     leaving: &mut LeavingGuards<T::Surface>,
 ) -> Result<ArcStart<T::Surface>, Error> {
     leaving.clear();
+    let continued = arrival.filter(|arrival| arrival.continues(flow));
     let size = flow.start.largest().max(arrival.map_or(0.0, Arrival::size));
     for guard in flow.guards().iter().filter(|guard| guard.role != Role::Clock) {
         let Guard { surface, direction, role, .. } = *guard;
@@ -97,6 +98,18 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         let residue = residues.error(surface);
         if !beyond && reached.is_none() && !crossed && residue == 0.0 && far() {
             continue;
+        }
+        // The same flow goes on: the sign of the computed trajectory is the side, and nothing has to be looked for.
+        if let Some(arrival) = continued
+            && reached.is_none()
+            && !arrival.has_touched(flow, surface)
+        {
+            let passed = arrival.passed_to(surface).filter(|_| !switch);
+            let at_rest = now != 0.0 && residue == 0.0 && !beyond && !crossed;
+            if let Some(side) = passed.or(at_rest.then_some(now.signum())) {
+                leaving.push(Leaving { surface, side, ahead: now * side > 0.0 });
+                continue;
+            }
         }
         let rounding = flow.rounding_at(surface, flow.start);
         // An exact zero, to which a reset has moved the state, has no error by time. A guard that the flow has
@@ -129,19 +142,22 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             leaving.push(Leaving { surface, side: now.signum(), ahead: true });
             continue;
         }
-        let longest = horizon.min(LONGEST_LOOK);
-        let leads_beyond = |arrival: &Arrival<_, _, _>| {
-            now.abs() > rounding && arrival.leads_beyond(flow, surface, longest)
-        };
-        let (side, certainty) = if on_surface {
+        // A guard that jumps at its surface has a value beyond it that does not tell how far: the motion tells.
+        let leads_beyond = (on_surface && crossed && beyond && now.abs() > rounding)
+            .then(|| arrival?.leads_beyond(flow, surface, horizon.min(LONGEST_LOOK)))
+            .flatten();
+        if leads_beyond == Some(false) {
+            leaving.push(Leaving { surface, side: -now.signum(), ahead: false });
+            continue;
+        }
+        let (side, certainty) = if leads_beyond == Some(true) {
+            (now.signum(), Certainty::Sampled { interval: horizon.min(LONGEST_LOOK) })
+        } else if on_surface {
             // Both are short on the time scale of the model.
             let interval = interval.filter(|interval| *interval > 0.0).unwrap_or(f64::INFINITY);
             let short = arrival.map_or(f64::INFINITY, Arrival::duration).min(interval);
             match departure(flow, surface, (error, rounding), (horizon, short), switch)? {
                 Departure::To { side, certainty } => (side, certainty),
-                Departure::Stays if beyond && arrival.is_some_and(leads_beyond) => {
-                    (now.signum(), Certainty::Sampled { interval: longest })
-                }
                 Departure::Stays => {
                     // On the side of the flow its value is the distance to the next event. Elsewhere it counts as zero.
                     if now == 0.0 || beyond {

@@ -18,43 +18,58 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     {
         let Some(surface) = self.surface else { return false };
         let value = next.guard_value(surface, next.start);
-        let (earlier, change) = self.earlier(next.system, surface);
-        let jumps = earlier * value < 0.0 && value.abs() > rounding + change;
-        jumps && self.moved_on(next, next.start, surface) * earlier <= 0.0
+        let (_, change) = self.earlier(next.system, surface);
+        let jumps = self.from * value < 0.0 && value.abs() > rounding + change;
+        let moved = || self.moved_on(next, next.start, surface);
+        jumps && moved().is_some_and(|moved| moved * self.from <= 0.0)
     }
 
-    /// The guard a moment before the crossing, moved on as the state has moved since the crossing up to `now`: by the reset,
-    /// and along the flow of `next`. Where it has not its sign before the crossing any more, this motion leads beyond
-    /// the surface.
-    fn moved_on<T>(&self, next: &FlowFrom<T>, now: &X, surface: S) -> f64
+    /// The guard a moment before the crossing, still on the side from which it came, moved on as the state has moved since the
+    /// crossing up to `now`: by the reset, and along the flow of `next`. Where it is not on that side any more, this motion
+    /// leads beyond the surface. `None` if the arc before was too short to show that side.
+    fn moved_on<T>(&self, next: &FlowFrom<T>, now: &X, surface: S) -> Option<f64>
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
-        let mut moved = self.state_before(next.system, LOOKBACK * self.time_rounding);
-        moved.add_scaled(1.0, now);
-        moved.add_scaled(-1.0, &self.before);
-        next.guard_value(surface, &moved)
+        let mut lookback = LOOKBACK * self.time_rounding.max(f64::EPSILON * self.duration);
+        while lookback > 0.0 && lookback <= self.duration {
+            let mut moved = self.state_before(next.system, lookback);
+            if next.guard_value(surface, &moved) * self.from > 0.0 {
+                moved.add_scaled(1.0, now);
+                moved.add_scaled(-1.0, &self.before);
+                return Some(next.guard_value(surface, &moved));
+            }
+            lookback *= 2.0;
+        }
+        None
     }
 
-    /// True if the flow of `next` leads beyond the surface that was crossed, although the guard jumps there and its value
-    /// does not change: a path beside the flow, from the side before the crossing, comes there within `longest`.
-    pub(crate) fn leads_beyond<T>(&self, next: &FlowFrom<T>, surface: S, longest: f64) -> bool
+    /// True if the flow of `next` leads on beyond the surface that was crossed, and false if it turns back over it. The guard
+    /// jumps there, so that its value does not tell: a path beside the flow, from the side before the crossing, comes beyond the
+    /// surface within `longest`, or the flow comes back. `None` for a guard that does not jump, or if neither happens.
+    pub(crate) fn leads_beyond<T>(
+        &self,
+        next: &FlowFrom<T>,
+        surface: S,
+        longest: f64,
+    ) -> Option<bool>
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let now = next.guard_value(surface, next.start);
-        if Some(surface) != self.surface || self.moved_on(next, next.start, surface) * now >= 0.0 {
-            return false;
+        let is_beyond = |state: &X| Some(self.moved_on(next, state, surface)? * now > 0.0);
+        if Some(surface) != self.surface || is_beyond(next.start)? {
+            return None;
         }
         let mut time = SHORTEST_LOOK * longest;
         while time > 0.0 && time <= longest {
             let state = next.system.flow(next.mode, next.start, time);
             let has_returned = next.guard_value(surface, &state) * now < 0.0;
-            if has_returned || self.moved_on(next, &state, surface) * now > 0.0 {
-                return !has_returned;
+            if has_returned || is_beyond(&state)? {
+                return Some(!has_returned);
             }
             time *= 2.0;
         }
-        false
+        None
     }
 }

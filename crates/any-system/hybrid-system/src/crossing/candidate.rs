@@ -11,6 +11,8 @@ pub(crate) struct Candidate {
     pub(crate) index: usize,
     /// The value of the guard, if this is a touch.
     pub(crate) touch: Option<f64>,
+    /// The side from which the guard comes, if it is crossed.
+    pub(crate) from: Option<f64>,
 }
 
 impl Candidate {

@@ -36,9 +36,9 @@ pub(crate) fn earliest_crossing<F: GuardedFlow>(
         if guard.role == Role::Clock {
             continue;
         }
-        let (time, error, touch) = match event_under_bounds(flow, guard, search, until)? {
-            Some(OneGuard::Crossing { time, error }) => (time, error, None),
-            Some(OneGuard::Touch { time, error, value }) => (time, error, Some(value)),
+        let (time, error, touch, from) = match event_under_bounds(flow, guard, search, until)? {
+            Some(OneGuard::Crossing { time, error, from }) => (time, error, None, Some(from)),
+            Some(OneGuard::Touch { time, error, value }) => (time, error, Some(value), None),
             Some(OneGuard::BudgetEnded { time }) => {
                 (until, unfinished) = (time, true);
                 earliest = earliest.filter(|earliest| earliest.time <= time);
@@ -51,7 +51,7 @@ pub(crate) fn earliest_crossing<F: GuardedFlow>(
             }
         };
         let found =
-            Candidate { time, error: error + TIME_ULPS * f64::EPSILON * time, index, touch };
+            Candidate { time, error: error + TIME_ULPS * f64::EPSILON * time, index, touch, from };
         if earliest.is_none_or(|earliest| found.is_sooner_than(&earliest)) {
             // A guard that is searched later may come at the same instant: up to the sum of both errors later.
             until = until.min(time + 2.0 * found.error);
@@ -78,7 +78,7 @@ pub(crate) fn earliest_crossing<F: GuardedFlow>(
             earliest = Some(found);
         }
     }
-    let Some(Candidate { time, error, index, touch }) = earliest else {
+    let Some(Candidate { time, error, index, touch, from }) = earliest else {
         return Ok(if unfinished {
             NextEvent::Unfinished { time: until, state: flow.state(until), certainty }
         } else {
@@ -96,6 +96,7 @@ pub(crate) fn earliest_crossing<F: GuardedFlow>(
     let state = flow.state(time);
     // The computed trajectory is the model's own solution: its rounding is the only error.
     let (time_rounding, time_error) = (error, error);
-    let crossing = Crossing { surface, time, time_rounding, time_error, state, kind, certainty };
+    let crossing =
+        Crossing { surface, time, time_rounding, time_error, state, kind, from, certainty };
     Ok(NextEvent::Crossing(crossing))
 }

@@ -34,6 +34,8 @@ pub struct Crossing<S, X> {
     pub state: X,
     /// A crossing or a touch.
     pub kind: EventKind,
+    /// The side from which a crossed guard comes, ±1, if the search knows it.
+    pub from: Option<f64>,
     /// How certain it is that this is the first event.
     pub certainty: Certainty,
 }
@@ -48,6 +50,7 @@ impl<S, X> Crossing<S, X> {
             time_error: 2.0 * f64::EPSILON * time,
             state,
             kind: EventKind::Crossing,
+            from: None,
             certainty: Certainty::Exact,
         }
     }

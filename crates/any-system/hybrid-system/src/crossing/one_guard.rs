@@ -9,6 +9,8 @@ pub(crate) enum OneGuard {
         time: f64,
         /// Bound on the error of the time.
         error: f64,
+        /// The side from which it comes.
+        from: f64,
     },
     /// The guard touches its surface, and its policy does not ignore that.
     Touch {

@@ -89,15 +89,15 @@ pub(crate) fn sampled_event<F: GuardedFlow>(
             let found = match guard.advance(time, value, rounding, interval)? {
                 Sample::Quiet => continue,
                 Sample::Touch { time } => {
-                    Candidate { time, error: interval, index, touch: Some(0.0) }
+                    Candidate { time, error: interval, index, touch: Some(0.0), from: None }
                 }
                 Sample::Crossing { left, right, side } => {
                     let (time, error) = crossing(flow, surface, (left, right), side, interval)?;
-                    Candidate { time, error, index, touch: None }
+                    Candidate { time, error, index, touch: None, from: Some(side) }
                 }
-                Sample::ThroughZeros { since, zero, beyond } => {
+                Sample::ThroughZeros { since, zero, beyond, side } => {
                     let time = end_of_zeros(flow, surface, zero, beyond);
-                    Candidate { time, error: time - since, index, touch: None }
+                    Candidate { time, error: time - since, index, touch: None, from: Some(side) }
                 }
             };
             if first.is_none_or(|first| found.is_sooner_than(&first)) {
@@ -112,7 +112,8 @@ pub(crate) fn sampled_event<F: GuardedFlow>(
                     && guard.guard.direction.admits(side, -side)
                 {
                     let error = 2.0 * f64::EPSILON * zero;
-                    first = Some(Candidate { time: zero, error, index, touch: None });
+                    first =
+                        Some(Candidate { time: zero, error, index, touch: None, from: Some(side) });
                     break;
                 }
             }
@@ -216,7 +217,7 @@ enum Sample {
     Crossing { left: f64, right: f64, side: f64 },
     /// The guard was on its side at `since`, is exactly zero at several samples, the last of them `zero`, and is on the
     /// other side at `beyond`.
-    ThroughZeros { since: f64, zero: f64, beyond: f64 },
+    ThroughZeros { since: f64, zero: f64, beyond: f64, side: f64 },
 }
 
 /// One guard, sampled from the start of an arc.
@@ -269,7 +270,7 @@ impl<S: Copy + Debug> SampledGuard<S> {
                 if direction.admits(side, now) && zero.is_some_and(|zero| zero.0 < zero.1) =>
             {
                 let last = zero.map_or(since, |zero| zero.1);
-                Ok(Sample::ThroughZeros { since, zero: last, beyond: time })
+                Ok(Sample::ThroughZeros { since, zero: last, beyond: time, side })
             }
             // A sample that is exactly zero is the first root. With this sample as right end the bracket returns
             // it; the root finder could return a later one otherwise.

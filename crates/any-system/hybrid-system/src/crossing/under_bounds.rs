@@ -94,11 +94,18 @@ fn first_event<F: GuardedFlow>(
         true => 0.0,
         false => flow.rounding_at(surface, start),
     };
-    let value = bounded.value(0.0);
+    let (value, now) = (bounded.value(0.0), flow.guard_value(surface, start));
     let mut zeros = match search.side_before(surface) {
         Some(side) => {
             let error = error.max(at_start.magnitude());
             ZeroSearch::before_zero(direction, 0.0, side, error)
+        }
+        // Where the start rule has seen a side, it is the side, however wide the bounds: the zero is ahead.
+        None if leaving.is_none()
+            && at_start.widened(error).sign().is_none()
+            && now.abs() > error =>
+        {
+            ZeroSearch::before_zero(direction, 0.0, now.signum(), at_start.magnitude())
         }
         None => ZeroSearch::new(direction, (0.0, value), at_start, error, leaving),
     };
@@ -107,7 +114,9 @@ fn first_event<F: GuardedFlow>(
         let horizon = (until >= search.horizon).then(|| search.horizon_reach());
         let found = zeros.advance(bounded, until, horizon, &mut budget)?;
         return Ok(match found {
-            Found::Crossing { time, error, .. } => OneGuard::Crossing { time, error },
+            Found::Crossing { time, error, rising, .. } => {
+                OneGuard::Crossing { time, error, from: if rising { -1.0 } else { 1.0 } }
+            }
             // The search goes on behind the touch.
             Found::Touch { .. } if touch == Touch::Ignore => continue,
             // An event is where the guard is clear again: the arc after it must not meet the same touch.

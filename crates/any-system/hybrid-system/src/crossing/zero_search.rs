@@ -159,6 +159,7 @@ impl ZeroSearch {
                             self.time = right;
                             let side = self.side.unwrap_or(slope);
                             if slope * side < 0.0
+                                && !(self.passes || self.leaving)
                                 && self.direction.admits(side, -side)
                                 && self.is_there(function, from, (right, horizon.unwrap_or(0.0)))
                             {

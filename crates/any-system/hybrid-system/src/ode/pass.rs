@@ -2,7 +2,7 @@
 
 use super::followed_guard::GuardOnStep;
 use super::integration::Integration;
-use super::polish::{Accuracy, CorrectedStep};
+use super::polish::{Accuracy, CorrectedStep, rate};
 use super::step::Step;
 use super::tolerances::Tolerances;
 use crate::crossing::{
@@ -69,7 +69,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         }
         let stated = self.system.guard_error(surface, start);
         if let Some(side) = self.request.side_before(surface) {
-            let error = stated_or_measured(stated, start, along).max(value.abs());
+            let error = stated_or_measured(stated, start, along);
             let search = ZeroSearch::before_zero(direction, 0.0, side, error);
             return Ok(Followed { guard, stated: stated.unwrap_or(0.0), search });
         }
@@ -168,8 +168,8 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         on_step: &CorrectedStep<T::State>,
         (surface, time): (Option<T::Surface>, f64),
         sides: &[(Guard<T::Surface>, f64)],
-    ) -> Result<Option<(f64, T::Surface)>, Error> {
-        let mut first: Option<(f64, T::Surface)> = None;
+    ) -> Result<Option<(f64, T::Surface, f64)>, Error> {
+        let mut first: Option<(f64, T::Surface, f64)> = None;
         for &(guard, side) in sides.iter().filter(|(guard, _)| Some(guard.surface) != surface) {
             let along = |at: f64| self.system.guard_value(guard.surface, &on_step.state(at));
             let before = time.next_down().max(on_step.from());
@@ -180,9 +180,9 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 continue;
             }
             if let Some(at) = on_step.first_zero((before, at_before), side, along)?
-                && first.is_none_or(|(first, _)| at < first)
+                && first.is_none_or(|(first, ..)| at < first)
             {
-                first = Some((at, guard.surface));
+                first = Some((at, guard.surface, side));
             }
         }
         Ok(first)
@@ -216,7 +216,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         &self,
         on_step: &CorrectedStep<T::State>,
         (time, hidden): (f64, f64),
-        (surface, kind): (T::Surface, EventKind),
+        (surface, kind, from): (T::Surface, EventKind, Option<f64>),
         accuracy: Accuracy,
     ) -> Crossing<T::Surface, T::State> {
         let value = |state: &T::State| self.system.guard_value(surface, state);
@@ -233,6 +233,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             time_error,
             state: on_step.state(time),
             kind,
+            from,
             certainty: Certainty::Interpolated,
         }
     }
@@ -277,37 +278,44 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 |side: &f64| value * side < 0.0 && followed.guard.direction.admits(*side, -side);
             followed.search.known_side().is_some_and(|side| admitted(&side))
         };
-        if followed.iter().any(|followed| changed(&followed)) && !integration.at_rest() {
+        if let Some(changed) = followed.iter().find(changed)
+            && !integration.at_rest()
+        {
             let sides = sides_before(followed);
             let step = integration.last_step()?;
             let on_step = CorrectedStep::uncorrected(&step);
             let first = self.sooner_on(&on_step, (None, step.to), &sides)?;
-            if let Some((time, surface)) = first {
-                let event = (surface, EventKind::Crossing);
-                return Ok(NextEvent::Crossing(self.crossing(
-                    &on_step,
-                    (time, 0.0),
-                    event,
-                    accuracy,
-                )));
+            // The polynomial of the step may end an ulp beside the state, still on the other side.
+            let side = changed.search.known_side().unwrap_or(0.0);
+            let (time, surface, side) = first.unwrap_or((step.to, changed.guard.surface, side));
+            let event = (surface, EventKind::Crossing, Some(side));
+            let mut crossing = self.crossing(&on_step, (time, 0.0), event, accuracy);
+            if first.is_none() {
+                crossing.state = state;
             }
+            return Ok(NextEvent::Crossing(crossing));
         }
         for Followed { guard, search, .. } in followed {
             let Some(side) = search.known_side() else { continue };
             let surface = guard.surface;
             let value = |state: &T::State| self.system.guard_value(surface, state);
             let time = integration.interval().1;
-            let rate = self.approach(surface, side, &integration).unwrap_or(0.0);
             if !guard.direction.admits(side, -side)
-                || !(value(&state).abs() <= rate * self.request.horizon_reach())
                 || integration.at_rest()
+                || self.approach(surface, side, &integration).is_none()
             {
                 continue;
             }
+            // The rate before the horizon: a guard may jump or bend behind it.
             let step = integration.last_step()?;
+            let rate = -side * rate(&step, time, value);
+            if !(value(&state).abs() <= rate * self.request.horizon_reach()) {
+                continue;
+            }
             let on_step = CorrectedStep::uncorrected(&step);
             let kind = EventKind::Crossing;
-            let crossing = self.crossing(&on_step, (time, 0.0), (surface, kind), accuracy);
+            let crossing =
+                self.crossing(&on_step, (time, 0.0), (surface, kind, Some(side)), accuracy);
             return Ok(NextEvent::Crossing(Crossing { state, ..crossing }));
         }
         Ok(NextEvent::None { state: Some(state), certainty })

@@ -50,6 +50,14 @@ fn hidden_time(found: &Found, time: f64, from: f64) -> f64 {
     }
 }
 
+/// The side from which a guard comes that is crossed.
+fn side_of(found: &Found) -> Option<f64> {
+    match *found {
+        Found::Crossing { rising, .. } => Some(if rising { -1.0 } else { 1.0 }),
+        _ => None,
+    }
+}
+
 /// The result of a search with one choice of the first step.
 enum Outcome<S, X> {
     Finished(NextEvent<S, X>),
@@ -205,8 +213,8 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         let sides = sides_before(before);
         let found_first = (Some(surface), time);
         let (time, hidden, event) = match self.sooner_on(&corrected, found_first, &sides)? {
-            Some((time, sooner)) => (time, 0.0, (sooner, EventKind::Crossing)),
-            None => (time, hidden_time(found, time, step.from), (surface, kind)),
+            Some((time, sooner, side)) => (time, 0.0, (sooner, EventKind::Crossing, Some(side))),
+            None => (time, hidden_time(found, time, step.from), (surface, kind, side_of(found))),
         };
         let crossing = self.crossing(&corrected, (time, hidden), event, accuracy);
         Ok(Some(Outcome::Finished(NextEvent::Crossing(crossing))))
