@@ -240,7 +240,7 @@ impl IntervalBasins {
 /// >>> basins.ground
 /// 'branches'
 /// >>> basins.fraction(1)
-/// Bounds(lower=0.046297011493017744, upper=0.046297286508650615)
+/// Bounds(lower=0.046297011493017744, upper=0.04629728650865171)
 #[pyfunction]
 #[pyo3(signature = (mass_ratio, first = 1, last = 6, undecided = 1e-6, shortest = 1e-12, samples = 400, most = 100_000))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]

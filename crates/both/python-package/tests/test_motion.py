@@ -101,6 +101,8 @@ def test_an_animation_is_written_through_a_link_and_into_no_pipe(tmp_path):
     os.mkfifo(pipe)
     with pytest.raises(OSError, match="named pipe"):
         hopper.animate(found, pipe)
+    folder = tmp_path / "folder.gif"
+    folder.mkdir()
     with pytest.raises(IsADirectoryError, match="folder"):
-        hopper.animate(found, tmp_path)
-    assert sorted(file.name for file in tmp_path.iterdir()) == ["link.gif", "pipe.gif", "target.gif"]
+        hopper.animate(found, folder)
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["folder.gif", "link.gif", "pipe.gif", "target.gif"]

@@ -135,11 +135,16 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
         [(time - reach).max(from), (time + reach).min(to)].map(|time| self.state(time))
     }
 
-    /// True if a guard that jumps at its zero passes it in the other direction than `rising` says.
+    /// True if a guard that jumps at its zero does not pass it in the direction that `rising` says.
     ///
     /// A sum of components is rounded, and a guard that jumps where the sum is zero changes its sign several times within
     /// that rounding. The shortest time at which the values on each side agree tells from where the guard comes.
-    pub(super) fn crosses_back(&self, time: f64, rising: bool, guard: impl Fn(&V) -> f64) -> bool {
+    pub(super) fn is_no_crossing(
+        &self,
+        time: f64,
+        rising: bool,
+        guard: impl Fn(&V) -> f64,
+    ) -> bool {
         if !self.jumps(time, &guard) || !self.is_no_rounding(time, &guard) {
             return false;
         }
@@ -155,7 +160,7 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
         let longest = POLISHING_REACHES[POLISHING_REACHES.len() - 1] * (to - from);
         while distance < longest {
             if let (Some(before), Some(behind)) = (agreed(-distance), agreed(distance)) {
-                return before != behind && (behind > 0.0) != rising;
+                return before == behind || (behind > 0.0) != rising;
             }
             distance *= 2.0;
         }

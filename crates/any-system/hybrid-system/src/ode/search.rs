@@ -7,7 +7,7 @@ use super::step::Step;
 use super::tolerances::Tolerances;
 use crate::crossing::{Certainty, EventKind, Found, NextEvent, Search};
 use crate::error::Error;
-use crate::guard::{Direction, Guard, Role, Touch};
+use crate::guard::{Guard, Role, Touch};
 use crate::looked::Looked;
 use crate::system::HybridSystem;
 use smallvec::SmallVec;
@@ -201,9 +201,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         let (time, corrected) = match *found {
             Found::Crossing { error, rising, .. } => {
                 let polished = polished(integration, step, (time, error), until, value)?;
-                if followed.guard.direction != Direction::Either
-                    && polished.1.crosses_back(polished.0, rising, value)
-                {
+                if polished.1.is_no_crossing(polished.0, rising, value) {
                     return Ok(None);
                 }
                 polished
