@@ -65,7 +65,7 @@ impl ProvedCrisis {
     ///
     /// ```
     /// // The crisis of hump 1.
-    /// let touch = hopper_proof::Touch::new(1)?;
+    /// let touch = hopper_proof::ProvedCrisis::new(1)?;
     /// let crisis = touch.mass_ratio();
     /// assert!(crisis.contains(0.10345775533613707) && crisis.width() < 1e-13);
     /// # Ok::<(), hopper_proof::Error>(())

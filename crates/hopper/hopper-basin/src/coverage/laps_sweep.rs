@@ -59,9 +59,9 @@ pub(crate) fn laps_are_known(mass_ratio: MassRatio, top: f64) -> bool {
     branches_are_proved(mass_ratio, (top / PI).floor() as u64)
 }
 
-/// A part of a pixel.
+/// Some speeds of a pixel.
 #[derive(Debug, Clone, Copy)]
-enum PixelPart {
+enum Span {
     Labelled(Interval, Label),
     Open(ImagedSpeed, ImagedSpeed),
 }
@@ -151,14 +151,14 @@ impl<I: SpeedImages> LapsSweep<I> {
             let mut next = Vec::with_capacity(2 * parts.len());
             for part in parts {
                 match part {
-                    PixelPart::Labelled(interval, label) => self.add(&mut next, interval, label),
-                    PixelPart::Open(a, b) => self.resolve((a, b), finest, &mut next),
+                    Span::Labelled(interval, label) => self.add(&mut next, interval, label),
+                    Span::Open(a, b) => self.resolve((a, b), finest, &mut next),
                 }
             }
             parts = next;
-            let open = |part: &PixelPart| match part {
-                PixelPart::Labelled(..) => 0.0,
-                PixelPart::Open(a, b) => b.speed - a.speed,
+            let open = |part: &Span| match part {
+                Span::Labelled(..) => 0.0,
+                Span::Open(a, b) => b.speed - a.speed,
             };
             let open = parts.iter().map(open).sum::<f64>();
             let stalled = finest <= resolution.finest * allowed && open > STALLED * open_before;
@@ -171,7 +171,7 @@ impl<I: SpeedImages> LapsSweep<I> {
     }
 
     /// The traps of a pixel, and the gaps between them.
-    fn cut(&self, left: f64, right: f64) -> Vec<PixelPart> {
+    fn cut(&self, left: f64, right: f64) -> Vec<Span> {
         let mut parts = Vec::new();
         // No hop starts with the speed 0, which belongs to the trap of α*_0.
         let mut from = self.end(left.max(f64::MIN_POSITIVE));
@@ -179,13 +179,13 @@ impl<I: SpeedImages> LapsSweep<I> {
         for &(trap, label) in self.traps[first..].iter().take_while(|(trap, _)| trap.left < right) {
             let (low, high) = (trap.left.max(left), trap.right.min(right));
             if from.speed < low {
-                parts.push(PixelPart::Open(from, self.end(low)));
+                parts.push(Span::Open(from, self.end(low)));
             }
-            parts.push(PixelPart::Labelled(Interval { left: low, right: high }, label));
+            parts.push(Span::Labelled(Interval { left: low, right: high }, label));
             from = self.end(high);
         }
         if from.speed < right {
-            parts.push(PixelPart::Open(from, self.end(right)));
+            parts.push(Span::Open(from, self.end(right)));
         }
         parts
     }
@@ -195,12 +195,7 @@ impl<I: SpeedImages> LapsSweep<I> {
     }
 
     /// Labels parts of a gap, from below, as far as their width is at least `finest`.
-    fn resolve(
-        &mut self,
-        (a, b): (ImagedSpeed, ImagedSpeed),
-        finest: f64,
-        parts: &mut Vec<PixelPart>,
-    ) {
+    fn resolve(&mut self, (a, b): (ImagedSpeed, ImagedSpeed), finest: f64, parts: &mut Vec<Span>) {
         let mut from = a;
         while from.speed < b.speed {
             if let Some((end, label)) = self.one_label_up_to_fixed_point(&from) {
@@ -222,7 +217,7 @@ impl<I: SpeedImages> LapsSweep<I> {
             {
                 let step = TURN * (from.speed - low);
                 if step < finest {
-                    return parts.push(PixelPart::Open(from, b));
+                    return parts.push(Span::Open(from, b));
                 }
                 if from.speed + step < b.speed {
                     next = self.end(from.speed + step);
@@ -250,17 +245,12 @@ impl<I: SpeedImages> LapsSweep<I> {
     }
 
     /// Divides a gap where the labels of its image change, and labels the parts.
-    fn split(
-        &mut self,
-        (a, b): (ImagedSpeed, ImagedSpeed),
-        finest: f64,
-        parts: &mut Vec<PixelPart>,
-    ) {
+    fn split(&mut self, (a, b): (ImagedSpeed, ImagedSpeed), finest: f64, parts: &mut Vec<Span>) {
         if let Some(label) = self.label(&a, &b, 1) {
             return self.add(parts, Interval { left: a.speed, right: b.speed }, label);
         }
         if b.speed - a.speed <= finest || self.budget == 0 {
-            return parts.push(PixelPart::Open(a, b));
+            return parts.push(Span::Open(a, b));
         }
         let loose = self.images.are_sharper_on_halves();
         let unknown = || self.images.of_all_between(&a, &b) == SpeedImage::Unknown;
@@ -269,7 +259,7 @@ impl<I: SpeedImages> LapsSweep<I> {
             // undecided hop, and an interval on which the map is not known to be monotone.
             let middle = a.speed.midpoint(b.speed);
             if !(a.speed < middle && middle < b.speed) {
-                return parts.push(PixelPart::Open(a, b));
+                return parts.push(Span::Open(a, b));
             }
             let middle = self.end(middle);
             self.budget -= 1;
@@ -277,7 +267,7 @@ impl<I: SpeedImages> LapsSweep<I> {
             if [a, middle, b].iter().all(undecided) {
                 // Hops that are open at some mass ratio of a strip lie in a band. It has ends that are worth
                 // finding; inside, bisection finds nothing, and would take all speeds from the rest of the pixel.
-                return parts.extend([PixelPart::Open(a, middle), PixelPart::Open(middle, b)]);
+                return parts.extend([Span::Open(a, middle), Span::Open(middle, b)]);
             }
             self.split((a, middle), finest, parts);
             return self.split((middle, b), finest, parts);
@@ -298,11 +288,11 @@ impl<I: SpeedImages> LapsSweep<I> {
         &mut self,
         (a, b): (ImagedSpeed, ImagedSpeed),
         images: usize,
-        parts: &mut Vec<PixelPart>,
+        parts: &mut Vec<Span>,
     ) {
         match self.label(&a, &b, images) {
             Some(label) => self.add(parts, Interval { left: a.speed, right: b.speed }, label),
-            None => parts.push(PixelPart::Open(a, b)),
+            None => parts.push(Span::Open(a, b)),
         }
     }
 
@@ -362,8 +352,8 @@ impl<I: SpeedImages> LapsSweep<I> {
         (Vec::new(), 1)
     }
 
-    fn add(&mut self, parts: &mut Vec<PixelPart>, interval: Interval, label: Label) {
-        parts.push(PixelPart::Labelled(interval, label));
+    fn add(&mut self, parts: &mut Vec<Span>, interval: Interval, label: Label) {
+        parts.push(Span::Labelled(interval, label));
         match self.known.last_mut() {
             Some((last, own)) if *own == label && last.right == interval.left => {
                 last.right = interval.right;
