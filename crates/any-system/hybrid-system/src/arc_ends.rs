@@ -92,9 +92,8 @@ impl<T: HybridSystem> Execution<'_, T> {
             // A reset that moves a guard off its surface leaves no residue.
             self.forget_residues(None, after, 0.0);
             let next = FlowFrom { system: self.system, mode: self.at.mode, start: after };
-            let rounding = next.rounding_at(surface, after);
             let arrival = self.at.arrival.as_ref();
-            if arrival.is_some_and(|arrival| arrival.is_beyond_jump(&next, rounding)) {
+            if arrival.is_some_and(|arrival| arrival.is_beyond_jump(&next)) {
                 self.at.residues.forget(surface);
             }
         }

@@ -312,14 +312,14 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
 
     /// The error of a guard after the reset, at the start of `next`, by the error of the time of the crossing. The
     /// guard of the crossed surface is zero by construction, if the reset has not changed it.
-    pub(crate) fn error_after<T>(&self, next: &FlowFrom<T>, surface: S, rounding: f64) -> f64
+    pub(crate) fn error_after<T>(&self, next: &FlowFrom<T>, surface: S) -> f64
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let value = next.guard_value(surface, next.start);
         let (_, change) = self.earlier(next.system, surface);
         let same = || value == next.guard_value(surface, &self.before);
-        if Some(surface) == self.surface && same() && !self.is_beyond_jump(next, rounding) {
+        if Some(surface) == self.surface && same() && !self.is_beyond_jump(next) {
             change.max(value.abs())
         } else {
             change

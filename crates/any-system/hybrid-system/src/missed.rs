@@ -45,7 +45,7 @@ pub(crate) fn check_missed<T: HybridSystem>(
         };
         let next = FlowFrom { system: arc.system, mode: arc.mode, start: end };
         let rounding = arc.rounding_at(surface, end);
-        let by_time = arrival.error_after(&next, surface, rounding);
+        let by_time = arrival.error_after(&next, surface);
         let error = rounding + by_time.max(residues.error(surface));
         if value.abs() > error {
             return Err(Error::MissedEvent {

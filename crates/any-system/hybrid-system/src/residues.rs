@@ -67,17 +67,14 @@ impl<S: Copy + PartialEq> Residues<S> {
     ) {
         self.0.retain(|&mut Residue { surface, value: before, passes_later }| {
             let value = value(surface);
+            let is_behind = before * value > 0.0 || value == 0.0 && passes_later;
+            let is_near =
+                value.abs() <= before.abs() || value.abs() <= before.abs() + rounding(surface);
             // It may have gone far away, and come back.
             let is_away = |inside: &f64| {
                 before * inside < 0.0 || inside.abs() > 2.0 * before.abs() + rounding(surface)
             };
-            if inside(surface).iter().any(is_away) {
-                return false;
-            }
-            let is_behind = before * value > 0.0 || value == 0.0 && passes_later;
-            Some(surface) != now
-                && is_behind
-                && (value.abs() <= before.abs() || value.abs() <= before.abs() + rounding(surface))
+            Some(surface) != now && is_behind && is_near && !inside(surface).iter().any(is_away)
         });
     }
 

@@ -122,7 +122,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         let crossed_by_flow = reached.is_some_and(|from| from * now < 0.0);
         let by_time = arrival
             .filter(|_| now != 0.0 && !crossed_by_flow)
-            .map_or(0.0, |arrival| arrival.error_after(flow, surface, rounding));
+            .map_or(0.0, |arrival| arrival.error_after(flow, surface));
         let error = rounding + by_time.max(residue);
         let on_surface = now.abs() <= error;
         let touched = arrival.is_some_and(|arrival| arrival.has_touched(flow, surface));

@@ -1,7 +1,7 @@
 //! Where does a reset or a flow lead, if the guard jumps at its surface, so that its value does not tell?
 
 use super::{Arrival, LOOKBACK};
-use crate::crossing::GuardedFlow;
+use crate::crossing::{GuardedFlow, is_far};
 use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem};
 
@@ -12,14 +12,19 @@ const SHORTEST_LOOK: f64 = 1.0 / 268_435_456.0;
 impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     /// True if the reset has moved the state beyond the crossed surface, although the guard has the same value there: it
     /// jumps at the surface.
-    pub(crate) fn is_beyond_jump<T>(&self, next: &FlowFrom<T>, rounding: f64) -> bool
+    pub(crate) fn is_beyond_jump<T>(&self, next: &FlowFrom<T>) -> bool
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let Some(surface) = self.surface else { return false };
         let value = next.guard_value(surface, next.start);
+        let guard = |state: &X| next.guard_value(surface, state);
+        // The usual case, a value of rounding, takes one evaluation.
+        if self.from * value >= 0.0 || !is_far(next.start, next.start.largest(), value, guard) {
+            return false;
+        }
         let (_, change) = self.earlier(next.system, surface);
-        let jumps = self.from * value < 0.0 && value.abs() > rounding + change;
+        let jumps = value.abs() > next.rounding_at(surface, next.start) + change;
         let moved = || self.moved_on(next, next.start, surface);
         jumps && moved().is_some_and(|moved| moved * self.from <= 0.0)
     }
