@@ -5,8 +5,7 @@ use crate::error::Error;
 use crate::layers::FLAG;
 use basin_of_attraction::{Grid, Label};
 use hopper_basin::{
-    CoverageColumn, CoverageLimits, Fates, HOP_BUDGET, ShareColumn, ShareRaster, Upwards,
-    basin_columns,
+    CoverageColumn, CoverageLimits, Fates, ShareColumn, ShareRaster, Upwards, basin_columns,
 };
 use hopper_proof::ProvedPoints;
 use passive_hopper::MassRatio;
@@ -59,10 +58,7 @@ pub(crate) fn fates(of: &LayerColumns) -> Result<Vec<Vec<u64>>, Error> {
 /// The numbers of hops until the fates are known.
 pub(crate) fn hops(of: &LayerColumns) -> Result<Vec<Vec<u64>>, Error> {
     let speeds = of.speeds();
-    of.each(|ratio| {
-        let found = Fates::new(ratio)?.fates_within(&speeds, HOP_BUDGET)?;
-        Ok(found.into_iter().map(|(_, hops)| hops as u64).collect())
-    })
+    of.each(|ratio| Ok(Fates::new(ratio)?.hop_counts(&speeds)?))
 }
 
 /// The codes of the labels, with the flag where the fate is proved.

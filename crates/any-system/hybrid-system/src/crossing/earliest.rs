@@ -37,7 +37,7 @@ pub(crate) fn earliest_crossing<F: GuardedFlow>(
             continue;
         }
         let (time, error, touch, from) = match event_under_bounds(flow, guard, search, until)? {
-            Some(OneGuard::Crossing { time, error, from }) => (time, error, None, Some(from)),
+            Some(OneGuard::Crossing { time, error, from }) => (time, error, None, from),
             Some(OneGuard::Touch { time, error, value }) => (time, error, Some(value), None),
             Some(OneGuard::BudgetEnded { time }) => {
                 (until, unfinished) = (time, true);

@@ -37,3 +37,13 @@ pub(crate) enum Found {
     /// The budget of intervals ended at `ZeroSearch::time`. There is no crossing before.
     BudgetEnded,
 }
+
+impl Found {
+    /// The side from which a function comes that changes sign, ±1.
+    pub(crate) fn from(&self) -> Option<f64> {
+        match *self {
+            Found::Crossing { rising, .. } => Some(if rising { -1.0 } else { 1.0 }),
+            _ => None,
+        }
+    }
+}

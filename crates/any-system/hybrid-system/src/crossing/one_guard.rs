@@ -10,7 +10,7 @@ pub(crate) enum OneGuard {
         /// Bound on the error of the time.
         error: f64,
         /// The side from which it comes.
-        from: f64,
+        from: Option<f64>,
     },
     /// The guard touches its surface, and its policy does not ignore that.
     Touch {

@@ -114,8 +114,8 @@ fn first_event<F: GuardedFlow>(
         let horizon = (until >= search.horizon).then(|| search.horizon_reach());
         let found = zeros.advance(bounded, until, horizon, &mut budget)?;
         return Ok(match found {
-            Found::Crossing { time, error, rising, .. } => {
-                OneGuard::Crossing { time, error, from: if rising { -1.0 } else { 1.0 } }
+            Found::Crossing { time, error, .. } => {
+                OneGuard::Crossing { time, error, from: found.from() }
             }
             // The search goes on behind the touch.
             Found::Touch { .. } if touch == Touch::Ignore => continue,

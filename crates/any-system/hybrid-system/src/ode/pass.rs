@@ -238,14 +238,13 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         }
     }
 
-    /// The rate at which a guard comes to its surface from `side` at the end of the last step; `None` if it goes away, or if
-    /// rounding hides the rate.
-    pub(super) fn approach<F>(
+    /// Whether a guard comes to its surface from `side` at the end of the last step, as far as rounding shows.
+    pub(super) fn approaches<F>(
         &self,
         surface: T::Surface,
         side: f64,
         integration: &Integration<F, T::State>,
-    ) -> Option<f64>
+    ) -> bool
     where
         F: Fn(f64, &T::State) -> T::State,
     {
@@ -253,8 +252,8 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         let value = |state: &T::State| self.system.guard_value(surface, state);
         let stated = self.system.guard_error(surface, &state);
         let rounding = stated_or_measured(stated, &state, value);
-        let rate = guard_rate(&state, &integration.slope(), rounding, value)?;
-        (rate * side < 0.0).then_some(rate.abs())
+        let rate = guard_rate(&state, &integration.slope(), rounding, value);
+        rate.is_some_and(|rate| rate * side < 0.0)
     }
 
     /// No event before the horizon. A guard on its way to its surface that comes there within some ulps of time has its
@@ -302,7 +301,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             let time = integration.interval().1;
             if !guard.direction.admits(side, -side)
                 || integration.at_rest()
-                || self.approach(surface, side, &integration).is_none()
+                || !self.approaches(surface, side, &integration)
             {
                 continue;
             }

@@ -177,9 +177,14 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
         by_state.max(2.0 * f64::EPSILON * time)
     }
 
+    /// The change of a guard from the double before `time`.
+    fn change_at(&self, time: f64, guard: impl Fn(&V) -> f64) -> f64 {
+        (guard(&self.state(time)) - guard(&self.state(time.next_down()))).abs()
+    }
+
     /// True if the guard changes at `time` by much more than its rounding beside it.
     fn is_no_rounding(&self, time: f64, guard: impl Fn(&V) -> f64) -> bool {
-        let jump = (guard(&self.state(time)) - guard(&self.state(time.next_down()))).abs();
+        let jump = self.change_at(time, &guard);
         let beside = self.beside(time);
         beside.iter().all(|state| jump > JUMP * rounding_of_state(state, state, &guard))
     }
@@ -187,7 +192,7 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
     /// True if the guard jumps at its zero: it changes between two neighbouring doubles much more than by its rate.
     fn jumps(&self, time: f64, guard: impl Fn(&V) -> f64) -> bool {
         let rate = rate(self.step, time, &guard).abs();
-        let jump = (guard(&self.state(time)) - guard(&self.state(time.next_down()))).abs();
+        let jump = self.change_at(time, &guard);
         jump > JUMP * rate * (time - time.next_down())
     }
 

@@ -50,14 +50,6 @@ fn hidden_time(found: &Found, time: f64, from: f64) -> f64 {
     }
 }
 
-/// The side from which a guard comes that is crossed.
-fn side_of(found: &Found) -> Option<f64> {
-    match *found {
-        Found::Crossing { rising, .. } => Some(if rising { -1.0 } else { 1.0 }),
-        _ => None,
-    }
-}
-
 /// The result of a search with one choice of the first step.
 enum Outcome<S, X> {
     Finished(NextEvent<S, X>),
@@ -178,7 +170,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         // Rounding hides the guard up to the end of the search, but it is still on its way to its zero.
         if matches!(found, Found::Undecided { .. })
             && let Some(side) = followed.search.known_side()
-            && self.approach(surface, side, integration).is_some()
+            && self.approaches(surface, side, integration)
         {
             return Ok(None);
         }
@@ -212,7 +204,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         let found_first = (Some(surface), time);
         let (time, hidden, event) = match self.sooner_on(&corrected, found_first, &sides)? {
             Some((time, sooner, side)) => (time, 0.0, (sooner, EventKind::Crossing, Some(side))),
-            None => (time, hidden_time(found, time, step.from), (surface, kind, side_of(found))),
+            None => (time, hidden_time(found, time, step.from), (surface, kind, found.from())),
         };
         let crossing = self.crossing(&corrected, (time, hidden), event, accuracy);
         Ok(Some(Outcome::Finished(NextEvent::Crossing(crossing))))

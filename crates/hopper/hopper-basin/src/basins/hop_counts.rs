@@ -29,10 +29,17 @@ use std::ops::Range;
 /// As [`basin_columns`](crate::basin_columns).
 pub fn hop_columns(grid: &Grid, columns: Range<usize>) -> Result<Vec<Vec<u64>>, Error> {
     let (ratios, speeds) = places(grid, columns)?;
-    let column = |m: f64| {
-        let fates = Fates::new(MassRatio::new(m)?)?;
-        let found = fates.fates_within(&speeds, HOP_BUDGET)?;
-        Ok(found.into_iter().map(|(_, hops)| hops as u64).collect())
-    };
+    let column = |m: f64| Fates::new(MassRatio::new(m)?)?.hop_counts(&speeds);
     ratios.into_iter().map(column).collect()
+}
+
+impl Fates {
+    /// The numbers of hops of these speeds, as in [`hop_columns`].
+    ///
+    /// # Errors
+    /// As [`Fates::fates_within`].
+    pub fn hop_counts(&self, speeds: &[f64]) -> Result<Vec<u64>, Error> {
+        let found = self.fates_within(speeds, HOP_BUDGET)?;
+        Ok(found.into_iter().map(|(_, hops)| hops as u64).collect())
+    }
 }
