@@ -5,6 +5,7 @@
 //! | which crates may print, read files or use clocks | `crate_classes.rs` |
 //! | code that a line may not contain | `line_rules.rs` |
 //! | the workspace lists its members | `workspace_members.rs` |
+//! | every file of tests is named by what runs it | `listed_tests.rs` |
 //! | the root of the repository holds known names only | `root_folder.rs` |
 //! | citations of `docs/theory.md` name statements that exist | `theory_citations.rs` |
 //! | sources cited by name and year are in the bibliography | `bibliography.rs` |
@@ -16,6 +17,7 @@ mod breach;
 mod crate_classes;
 mod line_rules;
 mod links;
+mod listed_tests;
 mod names_in_pages;
 mod one_line;
 mod root_folder;
@@ -51,6 +53,7 @@ fn breaches(root: &Path) -> Result<Vec<Breach>, Error> {
     for source in &sources {
         line_rules::check(source, &mut breaches);
     }
+    listed_tests::check(&sources, &mut breaches);
     let crates = root_folder::crates(root)?;
     crate_classes::check(&crates, &mut breaches);
     workspace_members::check(&sources::read(root, "Cargo.toml")?.text, &crates, &mut breaches);

@@ -1,15 +1,11 @@
 //! Attractors found by the features of orbits: known ones are found with their fractions, and all other orbits are
 //! reported.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
-mod runge_kutta;
-
+use super::runge_kutta::after;
 use basin_of_attraction::{
     Error, FeatureAttractors, FeatureGroups, FeatureLimits, Hyperrectangle, Interval, Label,
     SplitMix64, UnmatchedReason, region_fractions,
 };
-use runge_kutta::after;
 
 fn cube(dimension: usize, half: f64) -> Hyperrectangle {
     Hyperrectangle::new(vec![Interval::new(-half, half).unwrap(); dimension]).unwrap()

@@ -1,7 +1,5 @@
 //! Attractors found by recurrences: known ones are found, and slow passages are not attractors.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::{
     Attractors, Error, Hyperrectangle, Interval, Label, RecurrenceLimits, SplitMix64,
     UnmatchedReason, region_fractions,

@@ -1,7 +1,5 @@
 //! Each attractor is found once: slow ones, long ones, ones beside a basin's boundary or cut by the region.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::{
     Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits, Remedy, SplitMix64,
     UnmatchedReason, region_fractions,

@@ -1,11 +1,7 @@
 //! Distances from the boundary of basins whose intervals are given.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
-mod planted_intervals;
-
+use super::planted_intervals::basins;
 use basin_of_attraction::{Bounds, Label};
-use planted_intervals::basins;
 
 #[test]
 fn gaps_are_boundary_for_the_lower_bound_and_other_basins_for_the_upper() {

@@ -1,13 +1,9 @@
 //! Smooth and fractal boundaries by the entropy of random balls, at several radii.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::disallowed_methods)]
-
-mod cantor;
-
+use super::cantor::{cantor_label, interval};
 use basin_of_attraction::{
     BallEntropy, BoundaryShape, Error, Hyperrectangle, Label, RandomBalls, ball_entropy,
 };
-use cantor::{cantor_label, interval};
 
 fn found(dimension: usize, radius: f64, label: &(impl Fn(&[f64]) -> Label + Sync)) -> BallEntropy {
     let region = Hyperrectangle::new(vec![interval(0.0, 1.0); dimension]).unwrap();

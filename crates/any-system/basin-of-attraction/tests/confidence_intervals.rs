@@ -1,16 +1,12 @@
 //! 95 % intervals contain the true number in at least 93 of 100 samples: basin fractions, dimensions, uncertainty
 //! exponents.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
-mod cantor;
-
+use super::cantor::{THIRD, cantor_boxes, cantor_label, interval};
 use basin_of_attraction::{
     ConfidenceInterval, Error, Interval, Label, SplitMix64, equally_spaced_counts,
     equally_spaced_fractions, low_discrepancy_fractions, power_law, proportion_interval,
     random_fractions, uncertain_fraction, wilson_interval,
 };
-use cantor::{THIRD, cantor_boxes, cantor_label, interval};
 use std::collections::BTreeMap;
 
 /// The number of `trials` intervals that contain the truth. A label without points has the interval of no success.

@@ -1,8 +1,6 @@
 //! Fractions along a parameter with known answers: a fraction that changes smoothly, a jump, a narrow peak,
 //! attractors whose numbers change.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::{
     Attractors, CurveLimits, Error, FractionRange, Fractions, FractionsAlong, Hyperrectangle,
     Interval, Label, Matching, RecurrenceLimits, UnresolvedReason, fractions_along,

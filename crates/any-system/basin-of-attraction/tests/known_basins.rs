@@ -1,16 +1,12 @@
 //! Basins that are known exactly: known answers from the literature, and from the test suites of other projects
 //! (Attractors.jl).
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
-mod cantor;
-
+use super::cantor::{THIRD, cantor_label, interval};
 use basin_of_attraction::{
     BoxCount, Branch, Error, Fate, Grid, IntervalBasins, Label, LabelImage, PreimageTree,
     Refinement, ResidualSet, TrapSet, classify, entropy, equally_spaced_fractions, geometric_limit,
     interval_basins, occupied_boxes, power_law, raster, uncertain_fraction,
 };
-use cantor::{THIRD, cantor_label, interval};
 use std::ops::ControlFlow::Continue;
 
 /// The gap (1/3, 2/3) and its preimages.

@@ -1,15 +1,11 @@
 //! Flows whose basin fractions are known from the literature: their attractors are found by recurrences, their
 //! basins by random points.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
-mod runge_kutta;
-
+use super::runge_kutta::after;
 use basin_of_attraction::{
     Attractors, EdgeLimits, Hyperrectangle, Interval, Label, LabelCounts, RecurrenceLimits,
     SplitMix64, UnmatchedReason, region_fractions, track_edge,
 };
-use runge_kutta::after;
 
 fn region(sides: &[(f64, f64)]) -> Hyperrectangle {
     let side = |&(left, right): &(f64, f64)| Interval::new(left, right).unwrap();

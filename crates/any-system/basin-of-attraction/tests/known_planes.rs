@@ -1,7 +1,5 @@
 //! Basins of the plane and of the line with known answers: countably many basins, escape sets, and Hénon's map.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::{
     Branch, Grid, Hyperrectangle, Interval, Label, Refinement, entropy, interval_basins,
     interval_basins_from_known, raster, region_fractions,

@@ -1,7 +1,5 @@
 //! Minimal fatal shocks and points of the boundary with known answers.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::{
     Error, Fate, Grid, Interval, Label, ShockSearch, TrapSet, boundary_between, classify,
     minimal_fatal_shock, value_raster,

@@ -6,8 +6,6 @@
 //!   ÿ = −γ ẏ − ∂V/∂y                    γ = 0.05, x̄ = 1.9, f₀ = 2.3, ω = 3.5
 //! ```
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::{Hyperrectangle, Interval, Label, region_boxes, uncertainty_exponent};
 use std::sync::LazyLock;
 

@@ -1,13 +1,9 @@
 //! Tipping with known answers: intersections of intervals, and a slow change that an orbit follows.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
-mod planted_intervals;
-
+use super::planted_intervals::basins;
 use basin_of_attraction::{
     Bounds, Error, Interval, Label, TippingCounts, label_after_drift, random_tipping,
 };
-use planted_intervals::basins;
 use std::ops::ControlFlow::{Break, Continue};
 
 fn close(bounds: Bounds, lower: f64, upper: f64) -> bool {

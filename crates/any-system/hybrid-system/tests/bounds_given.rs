@@ -1,7 +1,5 @@
 //! Systems whose guards have bounds and are not sampled. The names of tests give the source of a case.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use hybrid_system::*;
 use nalgebra::Vector2;
 

@@ -1,7 +1,5 @@
 //! Crossings under bounds: all are found, and no others. The names of tests give the source of a case.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use hybrid_system::*;
 use nalgebra::Vector2;
 use proptest::prelude::*;

@@ -1,7 +1,6 @@
 //! Executions that are stopped, advanced piece by piece, saved and restored.
 
 #![cfg(all(feature = "ode", feature = "serde"))]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
 use nalgebra::{DVector, Vector2};

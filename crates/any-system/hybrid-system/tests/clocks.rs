@@ -1,7 +1,5 @@
 //! Guards that are clocks: periodic and preset times.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use hybrid_system::*;
 use nalgebra::{Vector1, Vector2};
 

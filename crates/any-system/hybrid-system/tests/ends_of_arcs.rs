@@ -1,7 +1,6 @@
 //! States and errors of times at the ends of arcs.
 
 #![cfg(feature = "ode")]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use hybrid_system::*;
 

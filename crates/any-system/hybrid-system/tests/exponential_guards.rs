@@ -1,7 +1,6 @@
 //! Guards with exponentials: damped and overdamped oscillators, growing oscillations. The zeros are those of mpmath 1.3
 //! with 40 digits (`findroot` on each change of sign of a fine sample), rounded to 20 digits.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)]
 
 use hybrid_system::*;

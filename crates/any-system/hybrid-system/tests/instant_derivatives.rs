@@ -1,7 +1,6 @@
 //! Derivatives through several events at one instant, through preset times, touches and sliding, against differences.
 
 #![cfg(feature = "ode")]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
 use nalgebra::{Matrix2, SMatrix, Vector2};

@@ -1,7 +1,6 @@
 //! A system with one integrated mode and one in closed form.
 
 #![cfg(feature = "ode")]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
 use nalgebra::{SMatrix, Vector2};

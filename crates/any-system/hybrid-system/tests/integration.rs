@@ -1,7 +1,6 @@
 //! What an integration promises: its end, its domain, its direction, its tolerances, its budget, and its size.
 
 #![cfg(feature = "ode")]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 #![allow(clippy::disallowed_methods)] // std's sine is off by an ulp on some machines, far below the tolerances
 
 use hybrid_system::*;

@@ -1,7 +1,6 @@
 //! Guards that jump at their zeros, and stops or clocks within ulps of a zero: each crossing is one event, in its direction.
 
 #![cfg(feature = "ode")]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
 

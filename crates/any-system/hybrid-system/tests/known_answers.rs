@@ -1,6 +1,5 @@
 //! Systems with known solutions: balls, oscillators, polynomials. The names of tests give the source of a case.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use approx::assert_relative_eq;

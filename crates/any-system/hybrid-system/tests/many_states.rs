@@ -1,7 +1,6 @@
 //! Many states of one integrated arc, by one integration.
 
 #![cfg(feature = "ode")]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use hybrid_system::*;
 use nalgebra::Vector2;

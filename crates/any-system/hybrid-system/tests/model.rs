@@ -1,7 +1,6 @@
 //! Models written with closures.
 
 #![cfg(feature = "ode")]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
 use nalgebra::{DVector, SMatrix};

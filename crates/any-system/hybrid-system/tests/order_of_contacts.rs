@@ -2,7 +2,6 @@
 //! clocks.
 
 #![cfg(feature = "ode")]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
 use std::f64::consts::TAU;

@@ -1,12 +1,8 @@
 //! Events come in the order of the zeros on the computed trajectory: none is lost, none comes twice, none comes early.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
-mod peer_scene;
-
+use super::peer_scene::Searched;
+use super::peer_scene::*;
 use hybrid_system::*;
-use peer_scene::Searched;
-use peer_scene::*;
 
 const ULP: f64 = f64::EPSILON;
 

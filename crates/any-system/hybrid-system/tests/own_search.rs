@@ -1,7 +1,5 @@
 //! Models that solve for their own crossings: what the execution checks, and the default search inside an override.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use hybrid_system::*;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

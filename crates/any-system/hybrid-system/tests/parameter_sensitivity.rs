@@ -2,7 +2,6 @@
 
 #![cfg(feature = "ode")]
 #![allow(clippy::type_complexity)] // the type of a model contains the types of its closures
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::model_parts::{Integrated, ModelPart};
 use hybrid_system::*;

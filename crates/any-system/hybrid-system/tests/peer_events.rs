@@ -11,12 +11,8 @@
 //! guard: time is a component here. `testEventCausedByDerivativesReset` asserts an exception for a reset that
 //! returns null, which Rust does not have.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
-mod peer_scene;
-
+use super::peer_scene::*;
 use hybrid_system::*;
-use peer_scene::*;
 use std::f64::consts::PI;
 
 #[test]

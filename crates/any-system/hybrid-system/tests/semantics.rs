@@ -1,8 +1,6 @@
 //! The scenes of the page `hybrid_system::semantics`, a test each: what happens at the start of an arc, at surfaces
 //! that are met together, where both fields point at a surface, and where a guard touches zero.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use example_systems::scenes::*;
 use hybrid_system::*;
 

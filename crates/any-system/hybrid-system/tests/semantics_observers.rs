@@ -1,8 +1,6 @@
 //! The scenes of the page `hybrid_system::semantics` in which a guard watches: observers on a circle, triple roots,
 //! jumps of a guard, and guards that fall and rise in turn. A transversal crossing is never a grazing.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use hybrid_system::*;
 use nalgebra::{Vector1, Vector2};
 

@@ -1,7 +1,5 @@
 //! State transition and saltation matrices against finite differences.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use hybrid_system::*;
 use nalgebra::{Matrix2, SMatrix, Vector2};
 use proptest::prelude::*;

@@ -1,7 +1,5 @@
 //! Several guards at the same instant: no event is lost.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use hybrid_system::*;
 use nalgebra::Vector4;
 

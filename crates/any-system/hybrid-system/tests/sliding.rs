@@ -1,14 +1,11 @@
 //! Filippov's sliding modes against known answers.
 
 #![cfg(feature = "ode")]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-mod two_sided;
-
+use super::two_sided::*;
 use hybrid_system::*;
 use interval_arithmetic::bracketed_root;
 use nalgebra::{Vector1, Vector2};
-use two_sided::*;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Band {

@@ -1,13 +1,10 @@
 //! Derivatives through sliding motions against finite differences.
 
 #![cfg(feature = "ode")]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-mod two_sided;
-
+use super::two_sided::{Side, TIGHT, is_sliding, lasting, run};
 use hybrid_system::*;
 use nalgebra::{SMatrix, Vector3};
-use two_sided::{Side, TIGHT, is_sliding, lasting, run};
 
 /// A sphere, with fields that turn along it at different rates: sliding on a curved surface in space, entered from
 /// below and left where the field above turns tangent.

@@ -1,7 +1,6 @@
 //! Sliding is recognised from the rates on both sides of a surface: typed ends of arcs.
 
 #![cfg(feature = "ode")]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
 use nalgebra::Vector1;

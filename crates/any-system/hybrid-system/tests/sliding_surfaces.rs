@@ -1,13 +1,10 @@
 //! Where a sliding motion is not unique, and where it meets other surfaces.
 
 #![cfg(feature = "ode")]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-mod two_sided;
-
+use super::two_sided::*;
 use hybrid_system::*;
 use nalgebra::{Vector1, Vector2};
-use two_sided::*;
 
 /// A sliding motion that starts beside its surface is an error, not a silent projection.
 #[test]

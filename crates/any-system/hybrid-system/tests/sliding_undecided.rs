@@ -1,13 +1,10 @@
 //! Cases in which two fields decide, or do not decide, whether a state slides.
 
 #![cfg(feature = "ode")]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-mod two_sided;
-
+use super::two_sided::{Side, TIGHT, run};
 use hybrid_system::*;
 use nalgebra::{Vector1, Vector2};
-use two_sided::{Side, TIGHT, run};
 
 const LIMITS: Limits = Limits::sampled(10.0, 5000, 0.01);
 

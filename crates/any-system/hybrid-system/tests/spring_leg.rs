@@ -1,7 +1,5 @@
 //! A leg that takes off below the height of its touchdown: which of two kinds of guards is its touchdown?
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use hybrid_system::*;
 
 /// A point mass on a spring leg of 1 m (80 kg, 20 kN/m, angle of attack 68°), with the energy of 5 m/s at a height

@@ -1,7 +1,5 @@
 //! Guards that touch their surface: an error, an event, or nothing, and the execution goes on behind the touch.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use hybrid_system::*;
 use nalgebra::Vector1;
 

@@ -1,7 +1,6 @@
 //! Touches, jumps, narrow bumps and regions without values along integrated flows.
 
 #![cfg(feature = "ode")]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
 use nalgebra::Vector2;

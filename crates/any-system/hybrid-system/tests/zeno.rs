@@ -3,7 +3,6 @@
 //! A test with the name of another project has its known answer from that project's test suite or issues: SciML, and
 //! the FMI reference FMUs. A number is that of the issue.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use hybrid_system::*;

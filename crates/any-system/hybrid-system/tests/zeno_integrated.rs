@@ -3,7 +3,6 @@
 //! The limits are sums of flight times. Each flight has a closed form, and its end is found by bisection.
 
 #![cfg(feature = "ode")]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use hybrid_system::*;

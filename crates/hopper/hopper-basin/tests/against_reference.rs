@@ -1,6 +1,5 @@
 //! Traps, crises, fates and the paper's basin fractions agree with independent values.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use approx::assert_relative_eq;

@@ -1,7 +1,5 @@
 //! The body of the fuzz target `any_bits` as a property test.
 
-#![allow(missing_docs, clippy::panic, clippy::disallowed_methods, unreachable_pub)]
-
 use proptest::prelude::*;
 
 mod body {

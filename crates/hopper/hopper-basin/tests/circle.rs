@@ -1,7 +1,5 @@
 //! The circle of fates shows the fates of single speeds at every scale.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::{Label, Refinement};
 use hopper_asymptotics::{FatouCoordinate, Offset, Phase};
 use hopper_basin::{

@@ -1,7 +1,5 @@
 //! A pixel of a coverage raster has the shares of the basins in it, within its bounds.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::{Grid, Interval, Label, Refinement};
 use hopper_basin::{
     CoverageColumn, CoverageGround, CoverageLimits, Error, FIG_9, Fates, HopperFate, ShareColumn,

@@ -1,8 +1,6 @@
 //! Fates at mass ratios some ulps beside a crisis: whether the hump falls through is not known to `f64`, and no
 //! fate says otherwise.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::SplitMix64;
 use hopper_basin::{Fates, HopperFate, crisis};
 use passive_hopper::{Arithmetic, ExtendedOrbit, MassRatio, alpha_star};

@@ -1,7 +1,5 @@
 //! Charts about edges of basins have the edge to forty digits, and the fates beside it.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::Label;
 use hopper_asymptotics::{Offset, Side};
 use hopper_basin::{CircleLimits, EdgeChart, Error, Fates, HopperFate, PhaseBasins};

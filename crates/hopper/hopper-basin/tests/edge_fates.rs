@@ -2,8 +2,6 @@
 //!
 //! The reference follows every hop. Here the slow hops left of the fixed points are jumped over.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::Label;
 use hopper_basin::{Fates, HopperFate, TrapSide};
 use hopper_reference::{Row, rows};

@@ -1,8 +1,6 @@
 //! A boundary point followed over the mass ratio is the boundary point that a search finds there, and windows of
 //! the (M, α) plane about it have the fates of their points.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::{Grid, Interval, Label};
 use hopper_basin::{
     CircleLimits, EdgeChart, Error, Fates, FollowedEdge, HopperFate, PhaseBasins, ShareColumn,

@@ -1,7 +1,5 @@
 //! Windows about an edge show the fates of their speeds, at any height.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use hopper_basin::{CircleLimits, EdgeChart, Error, Fates, PhaseBasins, edge_window};
 use passive_hopper::MassRatio;
 

@@ -1,7 +1,5 @@
 //! Basin fractions over the mass ratio, and tipping between two mass ratios.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::{
     CurveLimits, Interval, Label, Refinement, TippingCounts, UnresolvedReason,
 };

@@ -1,7 +1,5 @@
 //! The number of gaps between boundary points left of a fixed point, against counts of single gaps and against its law.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::Refinement;
 use hopper_basin::{CircleLimits, Fates, GapCount, PhaseBasins, hopper_basins};
 use passive_hopper::{MassRatio, alpha_star};

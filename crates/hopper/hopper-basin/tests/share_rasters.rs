@@ -1,7 +1,5 @@
 //! A pixel of a raster of shares has the fates of the speeds that it covers.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::{Grid, Interval, Label};
 use hopper_asymptotics::{Offset, Phase};
 use hopper_basin::{

@@ -2,8 +2,6 @@
 //!
 //! The reference follows the orbit in 256 to 1024 bits, with nothing rounded to `f64` between hops.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::UndecidedReason;
 use hopper_basin::{Fates, HopperFate, Trap, TrapEdge, TrapSide};
 use passive_hopper::{
@@ -26,6 +24,11 @@ fn trap_of(fates: &Fates, orbit: &ExtendedOrbit) -> Option<u64> {
     }
     let (offset, error) = orbit.offset_from(n);
     let trap = fates.trap(n).unwrap();
+    if trap.edge == TrapEdge::NextFixedPoint {
+        // The trap is the whole hump: its end is known to more digits than its length.
+        let (beyond, beyond_error) = orbit.offset_from(n + 1);
+        return (offset > error && beyond < -beyond_error).then_some(n);
+    }
     (trap.side_of_offset(offset, error) == TrapSide::Inside).then_some(n)
 }
 

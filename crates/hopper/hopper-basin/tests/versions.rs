@@ -3,8 +3,6 @@
 //!
 //! After a change that is meant: raise the version, and enter the digests that this test reports.
 
-#![allow(missing_docs, clippy::unwrap_used)]
-
 use basin_of_attraction::{Grid, Interval};
 use hopper_asymptotics::Offset;
 use hopper_basin::{

@@ -1,7 +1,5 @@
 //! Rasters next to edges that fall onto a fixed point, at every depth that `f64` has.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{Fates, basin_columns};
 use passive_hopper::{MassRatio, alpha_star};

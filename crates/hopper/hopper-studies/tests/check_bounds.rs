@@ -1,7 +1,5 @@
 //! `check-bounds` as a program: it passes on the bounds of the libraries, and fails on bounds that are too small.
 
-#![allow(missing_docs, clippy::unwrap_used)]
-
 use std::process::{Command, Output};
 
 fn check(arguments: &[&str]) -> Output {

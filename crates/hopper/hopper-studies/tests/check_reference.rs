@@ -1,7 +1,5 @@
 //! `check-reference` as a program: a check that compares no value, or allows every error, is an error.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

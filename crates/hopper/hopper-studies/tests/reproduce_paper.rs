@@ -1,7 +1,5 @@
 //! `reproduce-paper --check` as a program.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
-
 use std::process::{Command, Output};
 
 fn check(only: &str) -> Output {

@@ -1,7 +1,5 @@
 //! Two reports in one folder at the same time.
 
-#![allow(missing_docs, clippy::unwrap_used)]
-
 use std::process::{Command, Stdio};
 
 #[test]

@@ -1,13 +1,10 @@
 //! Files of a job with random bytes: no call panics, and no result has wrong bytes.
 //!
-//! `HOPPER_ROUNDS=1000 cargo test -p hopper --test damaged_files` damages more files than the test.
+//! `HOPPER_ROUNDS=1000 cargo test -p passive-hopper-cli damaged_files` damages more files than the test.
 
 #![cfg(unix)]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
-mod basin_calls;
-
-use basin_calls::{Files, Folder, Random, basins, ends, text, undisturbed};
+use super::basin_calls::{Files, Folder, Random, basins, ends, text, undisturbed};
 use std::path::PathBuf;
 
 /// Rounds unless `HOPPER_ROUNDS` says another number.

@@ -2,9 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::call;
+use super::common::call;
 use serde_json::{Map, Value};
 
 type Row = Map<String, Value>;

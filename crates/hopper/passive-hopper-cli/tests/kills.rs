@@ -1,20 +1,11 @@
 //! Calls of `hopper basins` that are killed at any instant, beside others or alone, and full disks: no result has
 //! wrong bytes, and no exit status is wrong.
 //!
-//! `HOPPER_KILLS=200 cargo test -p hopper --test kills -- --nocapture` kills 200 calls, and prints what happened.
+//! `HOPPER_KILLS=200 cargo test -p passive-hopper-cli kills -- --nocapture` kills 200 calls, and prints what happened.
 
 #![cfg(unix)]
-#![allow(
-    missing_docs,
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::print_stdout,
-    clippy::print_stderr
-)]
 
-mod basin_calls;
-
-use basin_calls::{Files, Folder, Random, basins, ends, signal, text};
+use super::basin_calls::{Files, Folder, Random, basins, ends, signal, text};
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
@@ -55,7 +46,7 @@ struct Campaign {
 impl Campaign {
     fn new() -> Self {
         let begin = Instant::now();
-        let whole = basin_calls::undisturbed("kills_whole", &JOB);
+        let whole = super::basin_calls::undisturbed("kills_whole", &JOB);
         let longest = begin.elapsed();
         let (tiles, join) = (Folder::new("kills_tiles"), Folder::new("kills_join"));
         ends(job(&tiles.0, &["--part", "1/1"]), 0);

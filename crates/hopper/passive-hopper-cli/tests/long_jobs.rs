@@ -2,11 +2,8 @@
 //! wrong calls.
 
 #![cfg(unix)]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
-mod basin_calls;
-
-use basin_calls::{Folder, basins, ends, signal, text, undisturbed};
+use super::basin_calls::{Folder, basins, ends, signal, text, undisturbed};
 use std::process::{Command, Stdio};
 
 /// 20 tiles of labels.
@@ -41,7 +38,7 @@ fn a_signal_ends_a_call_with_its_status_and_the_same_call_goes_on() {
         let tiles = folder.tiles();
         assert!(text.contains(&format!(" {tiles} of 50 tiles are finished")), "{tiles}: {text}");
         let output = ends(basins(&folder.0, &LONG), 0);
-        let text = basin_calls::text(&output);
+        let text = super::basin_calls::text(&output);
         assert!(text.contains(&format!("{tiles} of 50 tiles found")), "{text}");
         assert!(folder.files() == whole);
         folder.remove();
@@ -91,7 +88,7 @@ fn damaged_tiles_are_named_and_computed_again() {
     assert!(text.contains("6 of 20 tiles are missing or damaged"), "{text}");
     assert!(text.contains("--part 1/1"), "{text}");
     let output = ends(basins(&folder.0, &JOB), 0);
-    let text = basin_calls::text(&output);
+    let text = super::basin_calls::text(&output);
     for (tile, (_, reason)) in damage.iter().enumerate() {
         let name = folder.tile(tile).display().to_string();
         let line = text.lines().find(|line| line.contains(&name)).unwrap_or_default();
@@ -149,7 +146,7 @@ fn parts_are_computed_side_by_side_and_joined_when_all_are_there() {
     assert!(folder.files() == whole);
     // A part that is computed after the end has nothing to do.
     let output = ends(part("3/3"), 0);
-    assert!(basin_calls::text(&output).contains("complete already"));
+    assert!(super::basin_calls::text(&output).contains("complete already"));
     assert!(folder.files() == whole);
     folder.remove();
 }
@@ -265,7 +262,9 @@ fn shares_and_frames_go_on_after_a_signal_and_are_joined_from_parts() {
         ends(call(&folder, &["--part", "1/2"]), 0);
         ends(call(&folder, &["--join"]), 0);
         assert!(folder.files() == whole.files());
-        assert!(basin_calls::text(&ends(call(&folder, &[]), 0)).contains("complete already"));
+        assert!(
+            super::basin_calls::text(&ends(call(&folder, &[]), 0)).contains("complete already")
+        );
         whole.remove();
         folder.remove();
     }

@@ -1,7 +1,6 @@
 //! The calls of docs/long-jobs.md, as a reader would type them.
 
 #![cfg(unix)]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use std::path::Path;
 use std::process::Command;

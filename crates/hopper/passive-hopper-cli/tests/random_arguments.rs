@@ -1,13 +1,11 @@
 //! Thousands of random calls: no panic, a known exit status, one line for a refusal.
 //!
-//! `HOPPER_SEED=1 cargo test -p hopper --test random_arguments` makes other calls than the test.
+//! `HOPPER_SEED=1 cargo test -p passive-hopper-cli random_calls` makes other calls than the test.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
+use super::common::call;
 use basin_of_attraction::SplitMix64;
-use common::call;
 use std::panic::catch_unwind;
 
 /// Words that calls are made of: names, options, values, and what is none.
@@ -123,7 +121,7 @@ fn random_calls_never_panic() {
         (random.uniform(at) * most as f64) as usize
     };
     let mut codes = [0u32; 3];
-    for k in 0..3000 {
+    for k in 0..1000 {
         let mut arguments: Vec<&str> = (0..next(9)).map(|_| WORDS[next(WORDS.len())]).collect();
         // Two of three calls begin as a sensible one does, so that the words reach further.
         match k % 3 {
@@ -148,7 +146,7 @@ fn random_calls_never_panic() {
             assert!(called.messages.ends_with('\n'), "{arguments:?}");
         }
     }
-    assert!(codes[0] > 50 && codes[2] > 1500, "{codes:?}");
+    assert!(codes[0] > 15 && codes[2] > 500, "{codes:?}");
 }
 
 /// Words of `hopper basins`.
@@ -213,7 +211,7 @@ fn random_rasters_never_panic() {
     };
     let folder = std::env::temp_dir().join(format!("hopper_random_{}", std::process::id()));
     let mut codes = [0u32; 3];
-    for k in 0..1500 {
+    for k in 0..500 {
         let out = folder.join((k / 100).to_string()).display().to_string();
         let mut arguments = vec!["basins", "--out", &out, "--pixels", "3", "3"];
         // Every third call begins with options that belong together.
@@ -246,5 +244,5 @@ fn random_rasters_never_panic() {
         );
     }
     let _ = std::fs::remove_dir_all(&folder);
-    assert!(codes[0] > 50 && codes[2] > 500, "{codes:?}");
+    assert!(codes[0] > 15 && codes[2] > 150, "{codes:?}");
 }

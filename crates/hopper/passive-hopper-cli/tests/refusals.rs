@@ -2,9 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::call;
+use super::common::call;
 
 /// Calls, and a part of the message: the option or its value, and the remedy.
 const WRONG: &[(&str, &[&str])] = &[

@@ -2,11 +2,8 @@
 //! the bytes of an undisturbed call, even if either call is stopped or killed.
 
 #![cfg(unix)]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
-mod basin_calls;
-
-use basin_calls::{Folder, basins, ends, signal, text, undisturbed};
+use super::basin_calls::{Folder, basins, ends, signal, text, undisturbed};
 use std::path::Path;
 use std::process::{Child, Command, Output};
 use std::time::Duration;
@@ -92,7 +89,7 @@ fn a_call_whose_folder_was_removed_leaves_the_next_call_alone() {
     assert!(text.contains(&folder.0.display().to_string()), "{text}");
     signal(&second, "-CONT");
     let output = second.wait_with_output().unwrap();
-    assert!(output.status.success(), "{}", basin_calls::text(&output));
+    assert!(output.status.success(), "{}", super::basin_calls::text(&output));
     assert!(folder.files() == whole);
     folder.remove();
 }
@@ -112,7 +109,7 @@ fn a_name_that_no_result_can_have_is_an_error_before_the_computation() {
         std::fs::create_dir_all(&folder.0).unwrap();
         assert!(Command::new("mkfifo").arg(folder.0.join(name)).status().unwrap().success());
         let output = ends(raster(&folder.0), 1);
-        assert!(basin_calls::text(&output).contains(name), "{output:?}");
+        assert!(super::basin_calls::text(&output).contains(name), "{output:?}");
         folder.remove();
     }
 }

@@ -1,7 +1,5 @@
 //! The same input gives the same bits on any machine, with any number of threads.
 
-#![allow(missing_docs, clippy::unwrap_used)]
-
 use passive_hopper::{LiftOffMap, MassRatio};
 
 /// The hash of a million hops: α′, loss and number of sudden lift-offs, with zeros for a grounded hopper.

@@ -3,7 +3,6 @@
 //! All seven numbers come from `xtask/generators/hop.py`, which shares no code with this crate: mpmath at rising
 //! precision until 40 digits agree. The 512 bits of [`Solver::Bits512`] give the same hops.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // digits of the independent computation, as it prints them
 
 use passive_hopper::{LiftOffMap, MassRatio, Solver};

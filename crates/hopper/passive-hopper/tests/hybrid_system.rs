@@ -1,6 +1,5 @@
 //! The hopper as a hybrid system: energy, flows, landing times, and the map built from it.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use approx::assert_relative_eq;

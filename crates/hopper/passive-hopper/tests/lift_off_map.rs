@@ -1,6 +1,5 @@
 //! The lift-off map against references of 40 digits, and its identities.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use hopper_reference::{UNITS_PER_FLIGHT, map, rows};

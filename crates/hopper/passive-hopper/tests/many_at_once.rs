@@ -1,7 +1,5 @@
 //! Many hops at once have the same bits as single hops.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use passive_hopper::{Error, HopStatus, HopWithin, LiftOffMap, MassRatio, alpha_star};
 use proptest::prelude::*;
 use std::f64::consts::PI;

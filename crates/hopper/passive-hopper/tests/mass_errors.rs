@@ -1,7 +1,5 @@
 //! Bounds for all speeds and mass ratios of a box: against the hops of its corners and of points inside.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
-
 use basin_of_attraction::SplitMix64;
 use passive_hopper::{
     Arithmetic, ExtendedOrbit, ExtendedStep, HopWithin, LiftOffMap, MassRatio, alpha_star,

@@ -1,6 +1,5 @@
 //! Hops in (n, δ), the coordinate of a fixed point: α = α*_n + δ.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use hopper_reference::{map, rows};

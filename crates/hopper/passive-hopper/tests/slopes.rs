@@ -1,6 +1,5 @@
 //! Derivatives of the map, against references and near fixed points.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use hopper_reference::{map, rows};

@@ -1,0 +1,21 @@
+//! The tests of this crate are one program: what they share is compiled once, and the tests of all files run side by side.
+
+#![allow(missing_docs, clippy::disallowed_methods, clippy::panic, clippy::unwrap_used)]
+
+mod attractor_features;
+mod attractors;
+mod attractors_once;
+mod boundary_distance;
+mod boundary_shapes;
+mod cantor;
+mod confidence_intervals;
+mod endless_windows;
+mod fractions_along;
+mod known_basins;
+mod known_flows;
+mod known_planes;
+mod planted_intervals;
+mod resilience;
+mod riddled_basin;
+mod runge_kutta;
+mod tipping;

@@ -1,0 +1,17 @@
+//! The tests of this crate are one program: what they share is compiled once, and the tests of all files run side by side.
+
+#![allow(missing_docs, clippy::panic, clippy::unwrap_used)]
+
+mod basin_calls;
+mod cli_page;
+mod common;
+mod damaged_files;
+mod errors_of_numbers;
+mod help_examples;
+mod kills;
+mod long_jobs;
+mod long_jobs_page;
+mod random_arguments;
+mod refusals;
+mod streams;
+mod two_calls;
