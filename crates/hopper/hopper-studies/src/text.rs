@@ -21,6 +21,18 @@ pub(crate) fn duration(time: Duration) -> String {
     format!("{value:.digits$} {unit}")
 }
 
+/// A table of Markdown, from rows whose cells are separated by ` | `. A column whose name ends with a colon has
+/// numbers: they end at its right.
+pub(crate) fn markdown_table(columns: &str, rows: impl IntoIterator<Item = String>) -> String {
+    let names: Vec<&str> = columns.split(" | ").collect();
+    let rule = names.iter().map(|name| if name.ends_with(':') { "---:" } else { "---" });
+    let header = names.iter().map(|name| name.trim_end_matches(':'));
+    let mut out = format!("| {} |\n", header.collect::<Vec<_>>().join(" | "));
+    out += &format!("|{}|\n", rule.collect::<Vec<_>>().join("|"));
+    rows.into_iter().for_each(|row| out += &format!("| {row} |\n"));
+    out
+}
+
 /// `text` with a new block between the markers `<!-- begin NAME -->` and `<!-- end NAME -->`.
 ///
 /// # Errors
@@ -47,6 +59,12 @@ mod tests {
         assert_eq!(text(7.4e-7), "740 ns");
         assert_eq!(text(2.1e-6), "2.1 µs");
         assert_eq!(text(0.013), "13 ms");
+    }
+
+    #[test]
+    fn a_table_has_a_header_a_rule_and_rows() {
+        let table = markdown_table("a | b:", ["x | 1".to_owned(), "y | 2".to_owned()]);
+        assert_eq!(table, "| a | b |\n|---|---:|\n| x | 1 |\n| y | 2 |\n");
     }
 
     #[test]

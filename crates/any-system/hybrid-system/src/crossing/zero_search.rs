@@ -34,6 +34,34 @@ const OPEN_INTERVALS: usize = 64;
 /// hidden intervals longer, and two touches next to each other become one.
 const CLEAR: f64 = 2.0;
 
+/// What a search knows of the zero at its start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Phase {
+    /// There was none, or the function has left it.
+    OnSide,
+    /// It is not known yet how the function leaves it.
+    Leaving,
+    /// The function has stayed at it up to the time of the search.
+    Staying,
+    /// The function has had it, and its next change of sign belongs to it.
+    Passing,
+}
+
+impl Phase {
+    fn is_at_start(self) -> bool {
+        matches!(self, Phase::Leaving | Phase::Staying)
+    }
+}
+
+/// A piece of the function: from the time at which the search begins to the one at which it ends.
+#[derive(Clone, Copy)]
+struct Stretch {
+    from: f64,
+    until: f64,
+    /// Time after the end within which a zero counts, if no later stretch follows.
+    horizon: Option<f64>,
+}
+
 /// The state of a search for the zeros of a function of time.
 ///
 /// Invariant: all crossings and touches in (start, `time`] have been returned, and the function is on `side` just after
@@ -46,10 +74,7 @@ pub(crate) struct ZeroSearch {
     pub(super) side: Option<f64>,
     /// The last time at which the function was clear of rounding, on `side`.
     pub(super) clear: f64,
-    /// True as long as it is not known how the function leaves the zero it started at.
-    pub(super) leaving: bool,
-    /// True if the function has stayed at that zero up to `time`.
-    pub(super) stays: bool,
+    pub(super) phase: Phase,
     /// True as long as the function has not been clear of the error of its start.
     pub(super) unclear: bool,
     /// The value at the start, if it counts as zero. The zeros of g − level are searched as long as g is `unclear`.
@@ -59,8 +84,6 @@ pub(crate) struct ZeroSearch {
     pub(super) hidden: Option<Hidden>,
     /// The last crossing was found before the function had left its start clearly.
     pub(super) left_hidden: bool,
-    /// The next change of sign belongs to a zero before the start.
-    pub(super) passes: bool,
 }
 
 impl ZeroSearch {
@@ -73,13 +96,13 @@ impl ZeroSearch {
     /// rounding hides it.
     #[cfg(feature = "ode")]
     pub(crate) fn clear_side(&self) -> Option<f64> {
-        self.side.filter(|_| !self.leaving && self.hidden.is_none())
+        self.side.filter(|_| !self.phase.is_at_start() && self.hidden.is_none())
     }
 
     /// The side on which the function is, as far as its start has told, although rounding may hide it now.
     #[cfg(feature = "ode")]
     pub(crate) fn known_side(&self) -> Option<f64> {
-        self.side.filter(|_| !self.leaving && self.level == 0.0 && !self.passes)
+        self.side.filter(|_| self.phase == Phase::OnSide && self.level == 0.0)
     }
 
     /// True if the last crossing was found on the first interval that showed a side after the start at zero: rounding
@@ -100,39 +123,62 @@ impl ZeroSearch {
         horizon: Option<f64>,
         budget: &mut usize,
     ) -> Result<Found, Error> {
-        let from = self.time;
-        if from >= until {
+        if self.time >= until {
             return Ok(Found::Nothing);
         }
-        if self.leaving && self.hidden.is_none() {
-            match (function.leave(from, until, self.level_error)?, self.side) {
-                (Leave::To { time, side }, known) if known.is_none_or(|known| known == side) => {
-                    self.pass(function, time, side)?;
-                    // It has stayed at its zero, and leaves it to the side of the event.
-                    if self.stays && self.direction.is_beyond(side) {
-                        (self.stays, self.left_hidden) = (false, true);
-                        let error = time - from;
-                        let rising = side > 0.0;
-                        return Ok(Found::Crossing { time, error, hidden: true, rising });
-                    }
-                }
-                // The function stays zero. The side is still to be found, on the next stretch.
-                (Leave::Stays, _) => {
-                    (self.time, self.stays) = (until, true);
-                    return Ok(Found::Nothing);
-                }
-                (Leave::Hidden | Leave::To { .. }, None) => {
-                    return Err(Error::UndecidedSign { order: 0, value: function.value(from) });
-                }
-                // The caller knows the side better than the bounds do. The start is hidden.
-                (Leave::Hidden | Leave::To { .. }, Some(_)) => {}
-            }
-            if self.time >= until {
-                return Ok(Found::Nothing);
-            }
+        let stretch = Stretch { from: self.time, until, horizon };
+        if self.phase.is_at_start()
+            && self.hidden.is_none()
+            && let Some(found) = self.leave(function, stretch)?
+        {
+            return Ok(found);
         }
+        if let Some(found) = self.test_intervals(function, stretch, budget)? {
+            return Ok(found);
+        }
+        Ok(self.hidden_at_end(function, stretch))
+    }
+
+    /// Looks how the function leaves the zero that it started at, and passes the part on which it does.
+    fn leave(
+        &mut self,
+        function: &impl Bounded,
+        Stretch { from, until, .. }: Stretch,
+    ) -> Result<Option<Found>, Error> {
+        match (function.leave(from, until, self.level_error)?, self.side) {
+            (Leave::To { time, side }, known) if known.is_none_or(|known| known == side) => {
+                let stayed = self.phase == Phase::Staying;
+                self.pass(function, time, side)?;
+                // It has stayed at its zero, and leaves it to the side of the event.
+                if stayed && self.direction.is_beyond(side) {
+                    self.left_hidden = true;
+                    let (error, rising) = (time - from, side > 0.0);
+                    return Ok(Some(Found::Crossing { time, error, hidden: true, rising }));
+                }
+                Ok(None)
+            }
+            // The function stays zero. The side is still to be found, on the next stretch.
+            (Leave::Stays, _) => {
+                (self.time, self.phase) = (until, Phase::Staying);
+                Ok(Some(Found::Nothing))
+            }
+            (Leave::Hidden | Leave::To { .. }, None) => {
+                Err(Error::UndecidedSign { order: 0, value: function.value(from) })
+            }
+            // The caller knows the side better than the bounds do. The start is hidden.
+            (Leave::Hidden | Leave::To { .. }, Some(_)) => Ok(None),
+        }
+    }
+
+    /// Tests the intervals of a stretch from left to right, up to its end or to what is found.
+    fn test_intervals(
+        &mut self,
+        function: &impl Bounded,
+        stretch: Stretch,
+        budget: &mut usize,
+    ) -> Result<Option<Found>, Error> {
         // The right ends of the intervals that wait, the nearest one last; the first `open` entries count.
-        let mut ends = [until; OPEN_INTERVALS];
+        let mut ends = [stretch.until; OPEN_INTERVALS];
         let mut open = 1;
         while open > 0 {
             let (left, right) = (self.time, ends[open - 1]);
@@ -141,40 +187,23 @@ impl ZeroSearch {
                 continue;
             }
             if *budget == 0 {
-                return Ok(Found::BudgetEnded);
+                return Ok(Some(Found::BudgetEnded));
             }
             *budget -= 1;
             let sign = match function.test(left, right, self.level)? {
-                ZeroTest::NoZero { sign } => sign,
+                ZeroTest::NoZero { sign } => Some(sign),
                 ZeroTest::Monotone { slope } => {
-                    match (function.at(right)? - self.level).sign() {
-                        Some(sign) => sign,
-                        // Rounding hides the sign at the right end. The next interval decides.
-                        None if horizon.is_none() || right < until => {
-                            self.time = right;
-                            continue;
-                        }
-                        // No interval follows. A function on its way to zero is there, within rounding.
-                        None => {
-                            self.time = right;
-                            let side = self.side.unwrap_or(slope);
-                            if slope * side < 0.0
-                                && !(self.passes || self.leaving)
-                                && self.direction.admits(side, -side)
-                                && self.is_there(function, from, (right, horizon.unwrap_or(0.0)))
-                            {
-                                let error =
-                                    function.root_error(right, self.clear.max(from), right)?;
-                                return Ok(Found::Crossing {
-                                    time: right,
-                                    error,
-                                    hidden: false,
-                                    rising: side < 0.0,
-                                });
-                            }
-                            continue;
+                    let sign = (function.at(right)? - self.level).sign();
+                    if sign.is_none() {
+                        // Rounding hides the sign at the right end. The next interval decides, if one follows.
+                        self.time = right;
+                        if right >= stretch.until
+                            && let Some(found) = self.reaches_horizon(function, stretch, slope)?
+                        {
+                            return Ok(Some(found));
                         }
                     }
+                    sign
                 }
                 ZeroTest::Undecided => {
                     let middle = left + 0.5 * (right - left);
@@ -187,34 +216,63 @@ impl ZeroSearch {
                         // Two neighbouring doubles: halving cannot help.
                         self.hide(left, right);
                     }
-                    continue;
+                    None
                 }
                 ZeroTest::Hidden => {
                     self.hide(left, right);
-                    continue;
+                    None
                 }
             };
+            let Some(sign) = sign else { continue };
             if self.hidden.is_some() && !is_clear(&(function.at(right)? - self.level)) {
                 self.time = right;
                 continue;
             }
-            if let Some(found) = self.emerge(function, from, right, sign)? {
-                return Ok(found);
+            if let Some(found) = self.emerge(function, stretch.from, right, sign)? {
+                return Ok(Some(found));
             }
         }
-        if let Some(hidden) = &mut self.hidden {
-            let closest = closest(function, self.level, hidden, from, until);
-            hidden.closest = Some(closest);
-            let last = function.value(until) - self.level;
-            if horizon.is_some() && self.side.is_some_and(|side| last * side < 0.0) {
-                // It has changed its sign on the last stretch, by a jump.
-                return Ok(self.crossing_at_horizon(from, until, last.signum()));
-            }
-            if horizon.is_some() && !self.unclear {
-                return Ok(Found::Undecided { time: closest.0, value: closest.1 });
-            }
+        Ok(None)
+    }
+
+    /// The crossing at the horizon of a monotone function on its way to zero that is there, within rounding.
+    fn reaches_horizon(
+        &self,
+        function: &impl Bounded,
+        Stretch { from, until, horizon }: Stretch,
+        slope: f64,
+    ) -> Result<Option<Found>, Error> {
+        let Some(reach) = horizon else { return Ok(None) };
+        let side = self.side.unwrap_or(slope);
+        let comes = slope * side < 0.0
+            && self.phase == Phase::OnSide
+            && self.direction.admits(side, -side)
+            && self.is_there(function, from, (until, reach));
+        if !comes {
+            return Ok(None);
         }
-        Ok(Found::Nothing)
+        let error = function.root_error(until, self.clear.max(from), until)?;
+        Ok(Some(Found::Crossing { time: until, error, hidden: false, rising: side < 0.0 }))
+    }
+
+    /// What is known of a hidden interval that reaches the end of a stretch.
+    fn hidden_at_end(&mut self, function: &impl Bounded, stretch: Stretch) -> Found {
+        let Stretch { from, until, horizon } = stretch;
+        let Some(hidden) = &mut self.hidden else { return Found::Nothing };
+        let closest = closest(function, self.level, hidden, from, until);
+        hidden.closest = Some(closest);
+        if horizon.is_none() {
+            return Found::Nothing;
+        }
+        let last = function.value(until) - self.level;
+        if self.side.is_some_and(|side| last * side < 0.0) {
+            // It has changed its sign on the last stretch, by a jump.
+            return self.crossing_at_horizon(from, until, last.signum());
+        }
+        match self.unclear {
+            true => Found::Nothing,
+            false => Found::Undecided { time: closest.0, value: closest.1 },
+        }
     }
 
     /// Whether a function on its way to its zero is there at the horizon, or within a time `reach` after it.
@@ -229,9 +287,10 @@ impl ZeroSearch {
     /// What a change of sign to `sign` on a hidden stretch that ends at the horizon is.
     fn crossing_at_horizon(&mut self, from: f64, until: f64, sign: f64) -> Found {
         let hidden = self.hidden.take().map_or(from, |hidden| hidden.from);
-        let counts = self.direction.admits(-sign, sign) && !std::mem::take(&mut self.passes);
+        let counts = self.direction.admits(-sign, sign) && self.phase == Phase::OnSide;
         (self.side, self.clear) = (Some(sign), until);
-        match counts && !self.leaving {
+        self.has_passed();
+        match counts {
             true => Found::Crossing {
                 time: until,
                 error: until - hidden,
@@ -275,9 +334,9 @@ impl ZeroSearch {
         }
         // Rounding hid how the function leaves its start, and now it is on the other side than its caller expected.
         // If both directions count, no side is beyond the surface, and this is the side to which it left.
-        let at_start = self.leaving && self.direction == Direction::Either;
-        self.left_hidden = self.leaving;
-        let passes = std::mem::take(&mut self.passes);
+        self.left_hidden = self.phase.is_at_start();
+        let at_start = self.left_hidden && self.direction == Direction::Either;
+        let passes = self.has_passed();
         let found = if self.direction.admits(side, sign) && !at_start && !passes {
             let (time, error) = match &hidden {
                 // Where the function is clear again. At an earlier time a new search would start in the same hidden
@@ -319,10 +378,21 @@ impl ZeroSearch {
         Ok(time)
     }
 
+    /// Whether a change of sign belongs to a zero before the start. The next one does not.
+    fn has_passed(&mut self) -> bool {
+        let passes = self.phase == Phase::Passing;
+        if passes {
+            self.phase = Phase::OnSide;
+        }
+        passes
+    }
+
     /// Moves to `time`, where the function is clearly on `side`.
     fn pass(&mut self, function: &impl Bounded, time: f64, side: f64) -> Result<(), Error> {
         (self.time, self.clear, self.side) = (time, time, Some(side));
-        self.leaving = false;
+        if self.phase.is_at_start() {
+            self.phase = Phase::OnSide;
+        }
         if self.unclear {
             let value = function.at(time)?;
             let is_clear =

@@ -1,6 +1,6 @@
 //! How a search for zeros starts: on a side, on a zero that it leaves, before a zero, or behind a jump.
 
-use super::zero_search::ZeroSearch;
+use super::zero_search::{Phase, ZeroSearch};
 use crate::guard::Direction;
 use interval_arithmetic::Enclosure;
 
@@ -12,14 +12,12 @@ impl ZeroSearch {
             time,
             side: Some(side),
             clear: time,
-            leaving: false,
-            stays: false,
+            phase: Phase::OnSide,
             unclear: false,
             level: 0.0,
             level_error: 0.0,
             hidden: None,
             left_hidden: false,
-            passes: false,
         }
     }
 
@@ -34,8 +32,7 @@ impl ZeroSearch {
     ) -> Self {
         ZeroSearch {
             side: side.filter(|side| *side != 0.0),
-            stays: side == Some(0.0),
-            leaving: true,
+            phase: if side == Some(0.0) { Phase::Staying } else { Phase::Leaving },
             unclear: true,
             level: value,
             level_error: error.max(value.abs()),
@@ -52,7 +49,7 @@ impl ZeroSearch {
     /// side first.
     #[cfg(feature = "ode")]
     pub(crate) fn passing(direction: Direction, time: f64, side: f64) -> Self {
-        ZeroSearch { passes: true, ..Self::on_side(direction, time, side) }
+        ZeroSearch { phase: Phase::Passing, ..Self::on_side(direction, time, side) }
     }
 
     /// Starts at `time`, where `at` encloses the function and `value` is the computed one, wrong by `error` at

@@ -2,6 +2,7 @@
 
 use super::measured::Measured;
 use crate::error::Error;
+use crate::text::markdown_table;
 use journal_figures::{DataFile, csv_text};
 use std::fmt::Write;
 
@@ -60,15 +61,11 @@ pub(crate) fn markdown(measured: &[Measured]) -> String {
             bounds.push(m.bound);
         }
     }
-    let mut out = String::from(
-        "| bound | derived in | comparisons | median | largest | class of the largest | at |\n\
-         |---|---|---:|---:|---:|---|---|\n",
-    );
-    for bound in bounds {
+    let row = |bound: &str| {
         let classes = || measured.iter().filter(|m| m.bound == bound);
         // The first class with the largest ratio.
         let worst = classes().reduce(|a, b| if b.largest > a.largest { b } else { a });
-        let Some(worst) = worst else { continue };
+        let worst = worst?;
         let count: u64 = classes().map(|m| m.count).sum();
         let medians = || classes().filter(|m| m.count > 0).map(|m| m.median);
         let low = medians().fold(f64::INFINITY, f64::min);
@@ -80,12 +77,11 @@ pub(crate) fn markdown(measured: &[Measured]) -> String {
         // A stroke is the border of a cell.
         let bound = bound.replace('|', "\\|");
         let (class, at) = (class.replace('|', "\\|").replace('*', "\\*"), at.replace('|', "\\|"));
-        let _ = writeln!(
-            out,
-            "| {bound} | {statement} | {count} | {median} | {largest} | {class} | {at} |"
-        );
-    }
-    out
+        Some(format!("{bound} | {statement} | {count} | {median} | {largest} | {class} | {at}"))
+    };
+    let columns =
+        "bound | derived in | comparisons: | median: | largest: | class of the largest | at";
+    markdown_table(columns, bounds.into_iter().filter_map(row))
 }
 
 #[cfg(test)]

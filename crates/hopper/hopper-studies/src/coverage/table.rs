@@ -2,15 +2,11 @@
 
 use super::tally::{Promise, Row};
 use crate::error::Error;
-use std::fmt::Write as _;
+use crate::text::markdown_table;
 
 /// One line for each row.
 pub(crate) fn markdown(rows: &[Row]) -> Result<String, Error> {
-    let mut out = String::from(
-        "| interval | scene | stated | trials | contained | mean half width | over Wilson's |\n\
-         |---|---|---:|---:|---:|---:|---:|\n",
-    );
-    for row in rows {
+    let line = |row: &Row| {
         let Row { interval, scene, promise, given, refused, mean_half_width, over_wilson, .. } =
             row;
         let stated = match promise {
@@ -36,12 +32,13 @@ pub(crate) fn markdown(rows: &[Row]) -> Result<String, Error> {
             _ => format!("{given}, {refused} refused"),
         };
         let over = over_wilson.map_or("–".to_owned(), |over| format!("{over:.2}"));
-        let _ = writeln!(
-            out,
-            "| `{interval}` | {scene} | {stated} | {trials} | {contained} | {mean_half_width:.1e} | {over} |"
-        );
-    }
-    Ok(out)
+        Ok(format!(
+            "`{interval}` | {scene} | {stated} | {trials} | {contained} | {mean_half_width:.1e} | {over}"
+        ))
+    };
+    let columns =
+        "interval | scene | stated: | trials: | contained: | mean half width: | over Wilson's:";
+    Ok(markdown_table(columns, rows.iter().map(line).collect::<Result<Vec<_>, Error>>()?))
 }
 
 #[cfg(test)]

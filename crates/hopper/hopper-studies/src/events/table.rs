@@ -2,19 +2,14 @@
 
 use super::verdict::{End, Verdict};
 use crate::error::Error;
-use crate::text::{digit, duration};
+use crate::text::{digit, duration, markdown_table};
 use journal_figures::{DataFile, csv_text};
-use std::fmt::Write;
 use std::time::Duration;
 
 /// A table, scene by scene.
-pub(crate) fn markdown(verdicts: &[Verdict]) -> String {
-    let mut out = String::from(
-        "| scene | program | events | missed | wrong | largest error | at the end | time an event | lines |\n\
-         |---|---|---:|---:|---:|---:|---|---:|---:|\n",
-    );
+pub(crate) fn markdown<'a>(verdicts: &'a [Verdict]) -> String {
     let mut before = "";
-    for verdict in verdicts {
+    let row = |verdict: &'a Verdict| {
         // The name of the scene stands in its first row only.
         let scene = if verdict.scene == before { "" } else { verdict.scene.as_str() };
         before = &verdict.scene;
@@ -22,12 +17,12 @@ pub(crate) fn markdown(verdicts: &[Verdict]) -> String {
         let (exact, missed) = (verdict.exact, verdict.exact - verdict.right);
         let (error, end) = (digit(verdict.error), end(verdict.end));
         let Verdict { program, wrong, lines, .. } = verdict;
-        let _ = writeln!(
-            out,
-            "| {scene} | {program} | {exact} | {missed} | {wrong} | {error} | {end} | {time} | {lines} |"
-        );
-    }
-    out
+        format!(
+            "{scene} | {program} | {exact} | {missed} | {wrong} | {error} | {end} | {time} | {lines}"
+        )
+    };
+    let columns = "scene | program | events: | missed: | wrong: | largest error: | at the end | time an event: | lines:";
+    markdown_table(columns, verdicts.iter().map(row))
 }
 
 fn end(end: End) -> String {

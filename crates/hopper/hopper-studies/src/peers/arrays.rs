@@ -3,9 +3,9 @@
 use super::python::Python;
 use crate::error::Error;
 use crate::repository::{Progress, read};
+use crate::text::markdown_table;
 use passive_hopper::{LiftOffMap, MassRatio};
 use resumable_job::write_atomically;
-use std::fmt::Write;
 use std::path::Path;
 use std::time::Instant;
 
@@ -67,17 +67,11 @@ pub(crate) fn array_times(
 
 /// The times as a table.
 pub(crate) fn arrays_markdown(times: &[ArrayTime]) -> String {
-    let mut out = String::from("| M | in Rust | from Python | ratio |\n|---:|---:|---:|---:|\n");
-    for ArrayTime { ratio, rust, python } in times {
-        let _ = writeln!(
-            out,
-            "| {ratio} | {:.1} ns | {:.1} ns | {:.2} |",
-            1e9 * rust,
-            1e9 * python,
-            python / rust
-        );
-    }
-    out
+    let row = |ArrayTime { ratio, rust, python }: &ArrayTime| {
+        let slower = python / rust;
+        format!("{ratio} | {:.1} ns | {:.1} ns | {slower:.2}", 1e9 * rust, 1e9 * python)
+    };
+    markdown_table("M: | in Rust: | from Python: | ratio:", times.iter().map(row))
 }
 
 /// Speeds spread over the window, with no order that the processor could learn: multiples of the golden section,

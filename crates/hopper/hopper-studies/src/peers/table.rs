@@ -2,19 +2,14 @@
 
 use super::peer::Peer;
 use crate::error::Error;
-use crate::text::{digit, duration};
+use crate::text::{digit, duration, markdown_table};
 use journal_figures::{DataFile, csv_text};
-use std::fmt::Write;
 use std::time::Duration;
 
 /// A table with the slowest program first; ratios are to the fastest one.
 pub(crate) fn markdown(peers: &[Peer]) -> String {
     let fastest = fastest(peers);
-    let mut out = String::from(
-        "| | time a hop | times the fastest | median error | worst error | wrong | of |\n\
-         |---|---:|---:|---:|---:|---:|---:|\n",
-    );
-    for peer in sorted(peers) {
+    let row = |peer: &Peer| {
         let Peer { name, seconds, compared, wrong, errors, .. } = peer;
         let time = duration(Duration::from_secs_f64(*seconds));
         let ratio = seconds / fastest;
@@ -26,12 +21,11 @@ pub(crate) fn markdown(peers: &[Peer]) -> String {
             }
             None => ("–".into(), "–".into(), "–".into(), "–".into()),
         };
-        let _ = writeln!(
-            out,
-            "| {name} | {time} | {ratio} | {median} | {worst} | {wrong} | {compared} |"
-        );
-    }
-    out
+        format!("{name} | {time} | {ratio} | {median} | {worst} | {wrong} | {compared}")
+    };
+    let columns =
+        "program | time a hop: | times the fastest: | median error: | worst error: | wrong: | of:";
+    markdown_table(columns, sorted(peers).into_iter().map(row))
 }
 
 /// Seconds for a hop by the fastest program.

@@ -3,6 +3,7 @@
 use super::plan::{SIDE, WINDOWS};
 use super::simulation::{LOST_ONE_IN, SLOW_ONE_IN, SLOWER, START_UP};
 use super::{Finished, Plan, Raster, simulate};
+use crate::text::markdown_table;
 use std::fmt::Write as _;
 
 /// Workers of the simulations.
@@ -10,20 +11,18 @@ const WORKERS: [usize; 5] = [1, 10, 100, 1000, 10_000];
 
 /// Cost and storage by size, with the fitted growth.
 pub(crate) fn cost(rasters: &[Raster], growth: Option<f64>) -> String {
-    let mut out = String::from(
-        "| N | tiles | CPU time | per pixel | longest tile | `.npy` |\n|---:|---:|---:|---:|---:|---:|\n",
-    );
-    for raster in rasters {
+    let row = |raster: &Raster| {
         let Raster { side, tiles, bytes } = raster;
         let seconds = raster.seconds();
-        let _ = writeln!(
-            out,
-            "| {side} | {} | {seconds:.2} s | {:.1} ns | {:.0} ms | {bytes} bytes |",
+        format!(
+            "{side} | {} | {seconds:.2} s | {:.1} ns | {:.0} ms | {bytes} bytes",
             tiles.len(),
             seconds * 1e9 / (*side as f64 * *side as f64),
             1e3 * raster.longest(),
-        );
-    }
+        )
+    };
+    let columns = "N: | tiles: | CPU time: | per pixel: | longest tile: | `.npy`:";
+    let mut out = markdown_table(columns, rasters.iter().map(row));
     if let Some(growth) = growth {
         let _ = write!(
             out,
@@ -82,22 +81,19 @@ pub(crate) fn model() -> String {
 }
 
 fn workers(jobs: &[(&str, &[f64])]) -> String {
-    let mut out = String::from("| workers |");
-    let mut rule = String::from("|---:|");
+    let mut columns = String::from("workers:");
     for (name, _) in jobs {
-        let _ = write!(out, " time{name} | work / all time{name} | lost tries{name} |");
-        rule += "---:|---:|---:|";
+        columns += &format!(" | time{name}: | work / all time{name}: | lost tries{name}:");
     }
-    let _ = writeln!(out, "\n{rule}");
-    for workers in WORKERS {
-        let _ = write!(out, "| {workers} |");
-        for (_, tiles) in jobs {
-            let Finished { seconds, lost, efficiency } = simulate(tiles, workers);
-            let _ = write!(out, " {} | {:.1} % | {lost} |", long(seconds), 100.0 * efficiency);
-        }
-        out.push('\n');
-    }
-    out
+    let cells = |workers: usize, tiles: &[f64]| {
+        let Finished { seconds, lost, efficiency } = simulate(tiles, workers);
+        format!(" | {} | {:.1} % | {lost}", long(seconds), 100.0 * efficiency)
+    };
+    let row = |workers: usize| {
+        let cells: String = jobs.iter().map(|(_, tiles)| cells(workers, tiles)).collect();
+        format!("{workers}{cells}")
+    };
+    markdown_table(&columns, WORKERS.map(row))
 }
 
 /// A time of seconds to days.

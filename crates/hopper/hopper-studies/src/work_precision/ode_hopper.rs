@@ -13,12 +13,12 @@ use passive_hopper::{Hopper, HopperSurface, MassRatio, Phase};
 const STEPS: usize = 20_000;
 
 /// The hopper without its closed forms: the guards and resets are the model's, flows and crossings are integrated.
-struct IntegratedHopper {
+struct OdeHopper {
     hopper: Hopper,
     tolerances: Tolerances,
 }
 
-impl HybridSystem for IntegratedHopper {
+impl HybridSystem for OdeHopper {
     type State = State<4>;
     type Mode = Phase;
     type Surface = HopperSurface;
@@ -88,7 +88,7 @@ pub(super) fn integrated_hop(case: &Case, tolerance: f64) -> Option<Answer> {
         return None;
     }
     let tolerances = Tolerances { steps: STEPS, ..Tolerances::both(tolerance) };
-    let hopper = IntegratedHopper { hopper: Hopper::new(case.mass_ratio), tolerances };
+    let hopper = OdeHopper { hopper: Hopper::new(case.mass_ratio), tolerances };
     // Flights end by themselves, and contacts at their horizon.
     answer(&hopper, Limits::new(f64::INFINITY, EVENTS), case)
 }

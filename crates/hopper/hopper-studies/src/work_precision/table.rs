@@ -4,7 +4,7 @@ use super::methods::Method;
 use super::scenes::Scene;
 use super::score::Score;
 use crate::error::Error;
-use crate::text::{digit, duration};
+use crate::text::{digit, duration, markdown_table};
 use journal_figures::{DataFile, csv_text};
 use std::fmt::Write;
 use std::time::Duration;
@@ -52,11 +52,7 @@ pub(crate) fn csv(scores: &[Score], unit: Duration) -> Result<DataFile, Error> {
 /// A table of the paper's window with all numbers, and one of the hard classes for the methods in [`HARD`]. `unit` is
 /// the time of one `sin_cos`.
 pub(crate) fn methods(scores: &[Score], unit: Duration) -> String {
-    let mut out = String::from(
-        "| on the paper's window | time a hop | in `sin_cos` | median error | worst error | wrong | refused |\n\
-         |---|---:|---:|---:|---:|---:|---:|\n",
-    );
-    for score in scores.iter().filter(|s| s.class == "window" && shown(s.method)) {
+    let row = |score: &Score| {
         let (median, worst) = match score.errors {
             Some((median, worst)) => (digit(median), digit(worst)),
             None => ("–".into(), "–".into()),
@@ -71,11 +67,11 @@ pub(crate) fn methods(scores: &[Score], unit: Duration) -> String {
         };
         let (wrong, refused) = (score.wrong, score.refused);
         let name = score.method.name();
-        let _ = writeln!(
-            out,
-            "| {name} | {time} | {units} | {median} | {worst} | {wrong} | {refused} |"
-        );
-    }
+        format!("{name} | {time} | {units} | {median} | {worst} | {wrong} | {refused}")
+    };
+    let columns = "on the paper's window | time a hop: | in `sin_cos`: | median error: | worst error: | wrong: | refused:";
+    let window = scores.iter().filter(|s| s.class == "window" && shown(s.method));
+    let mut out = markdown_table(columns, window.map(row));
     out.push_str(
         "\nThe hard classes: the worst error, then, if any, the wrong decisions and the refused inputs. All methods, with \
          their times, are in [work_precision.csv](work_precision.csv).\n\n",
@@ -87,16 +83,15 @@ pub(crate) fn methods(scores: &[Score], unit: Duration) -> String {
         }
     }
     let names: Vec<String> = HARD.iter().map(|method| method.name()).collect();
-    let _ = writeln!(out, "| class | {} |", names.join(" | "));
-    let _ = writeln!(out, "|---|{}", "---|".repeat(HARD.len()));
-    for class in classes {
+    let row = |class: &str| {
         let cells = HARD.iter().map(|&method| {
             let score = scores.iter().find(|s| s.class == class && s.method == method);
             score.map_or(String::new(), cell)
         });
-        let _ = writeln!(out, "| {class} | {} |", cells.collect::<Vec<_>>().join(" | "));
-    }
-    out
+        format!("{class} | {}", cells.collect::<Vec<_>>().join(" | "))
+    };
+    let columns = format!("class | {}", names.join(" | "));
+    out + &markdown_table(&columns, classes.into_iter().map(row))
 }
 
 /// A class and a method: the worst error, the wrong decisions and the refused inputs.
@@ -114,14 +109,12 @@ fn cell(score: &Score) -> String {
 
 /// The table of questions and models.
 pub(crate) fn scenes(scenes: &[Scene]) -> String {
-    let mut out =
-        String::from("| question | model only | call | time | error |\n|---|---|---|---:|---|\n");
-    for scene in scenes {
+    let row = |scene: &Scene| {
         let Scene { question, model, call, time, per, error } = scene;
         let time = duration(*time);
-        let _ = writeln!(out, "| {question} | {model} | {call} | {time} {per} | {error} |");
-    }
-    out
+        format!("{question} | {model} | {call} | {time} {per} | {error}")
+    };
+    markdown_table("question | model only | call | time: | error", scenes.iter().map(row))
 }
 
 #[cfg(test)]
