@@ -156,11 +156,11 @@ impl FeatureAttractors {
     /// ```
     ///
     /// # Errors
-    /// [`Error::BadSearch`] for a radius or a distance that is not positive and finite, stretches without steps, and a budget that is too
-    /// small; [`Error::WrongDimension`] and [`Error::NoDimension`] for features of different lengths or none;
-    /// [`Error::TooManySamples`] for more than 20 000 features, as many as starts times `agree`, stretches of more
-    /// than 10⁷ steps, a transient and a budget of more than 10⁹ steps together, and more than 10⁶ tests;
-    /// [`Error::TooManyAttractors`] beyond 65 000.
+    /// [`Error::BadSearch`] for a radius or a distance that is not positive and finite, stretches without steps, and
+    /// a budget that is too small; [`Error::WrongDimension`] and [`Error::NoDimension`] for features of different
+    /// lengths or none; [`Error::TooManySamples`] for more than 20 000 features, as many as starts times `agree`,
+    /// stretches of more than 10⁷ steps, a transient and a budget of more than 10⁹ steps together, and more than 10⁶
+    /// tests; [`Error::TooManyAttractors`] beyond 65 000.
     pub fn search(
         map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
         feature: &(impl Fn(&[Vec<f64>]) -> Vec<f64> + Sync),

@@ -37,8 +37,8 @@ use rayon::prelude::*;
 /// ```
 ///
 /// # Errors
-/// [`Error::OverlappingTraps`] if two traps have a point in common; [`Error::BadRefinement`] for limits that are negative or NaN;
-/// else as [`check_trap`](crate::check_trap) and [`check_branches`](crate::check_branches).
+/// [`Error::OverlappingTraps`] if two traps have a point in common; [`Error::BadRefinement`] for limits that are
+/// negative or NaN; else as [`check_trap`](crate::check_trap) and [`check_branches`](crate::check_branches).
 pub fn interval_basins(
     map: &(impl ScalarMap + Sync),
     traps: &[(Interval, Label)],
@@ -75,8 +75,9 @@ pub fn interval_basins(
 /// ```
 ///
 /// # Errors
-/// [`Error::OverlappingTraps`] if two intervals have a point in common; [`Error::BadInterval`] for a window or a branch that is reversed
-/// or not finite, and for a window of infinite length; [`Error::BadRefinement`] for limits that are negative or NaN.
+/// [`Error::OverlappingTraps`] if two intervals have a point in common; [`Error::BadInterval`] for a window or a
+/// branch that is reversed or not finite, and for a window of infinite length; [`Error::BadRefinement`] for limits
+/// that are negative or NaN.
 pub fn interval_basins_from_known(
     map: &(impl ScalarMap + Sync),
     known: &[(Interval, Label)],

@@ -58,9 +58,9 @@ pub(crate) fn check_point(point: &[f64]) -> Result<(), Error> {
 /// ```
 ///
 /// # Errors
-/// [`Error::NotTwoBasins`] unless both states have the labels of two basins; [`Error::WrongDimension`] for states of different
-/// dimensions; [`Error::BadPoint`] for a coordinate that is not finite; [`Error::BadSearch`] unless `precision` is
-/// positive and finite.
+/// [`Error::NotTwoBasins`] unless both states have the labels of two basins; [`Error::WrongDimension`] for states of
+/// different dimensions; [`Error::BadPoint`] for a coordinate that is not finite; [`Error::BadSearch`] unless
+/// `precision` is positive and finite.
 pub fn boundary_between(
     first: &[f64],
     second: &[f64],

@@ -70,8 +70,8 @@ impl BoxCount {
 /// The number of boxes [left + k size, left + (k+1) size) that contain at least one of the points.
 ///
 /// # Errors
-/// [`Error::BadPoints`] if the distance of a point from `left` is infinite or NaN; [`Error::BadBoxSize`] unless `size` is
-/// finite, positive, and larger than an ulp of the farthest point's distance from `left`.
+/// [`Error::BadPoints`] if the distance of a point from `left` is infinite or NaN; [`Error::BadBoxSize`] unless
+/// `size` is finite, positive, and larger than an ulp of the farthest point's distance from `left`.
 pub fn occupied_boxes(points: &[f64], left: f64, size: f64) -> Result<u64, Error> {
     let bad = points.iter().filter(|x| !(*x - left).is_finite()).count();
     if bad > 0 {

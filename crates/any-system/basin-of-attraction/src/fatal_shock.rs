@@ -86,9 +86,10 @@ struct Ray {
 /// ```
 ///
 /// # Errors
-/// [`Error::NoBasin`] for a state that is undecided or outside; [`Error::NoDimension`] and [`Error::BadPoint`] for a state without, or
-/// with bad coordinates; [`Error::BadSearch`] unless `farthest`, `directions`, `along` and `precision` are positive
-/// and finite; [`Error::TooManySamples`] for more than a billion states on the rays, or changes of all shocks.
+/// [`Error::NoBasin`] for a state that is undecided or outside; [`Error::NoDimension`] and [`Error::BadPoint`] for a
+/// state without, or with bad coordinates; [`Error::BadSearch`] unless `farthest`, `directions`, `along` and
+/// `precision` are positive and finite; [`Error::TooManySamples`] for more than a billion states on the rays, or
+/// changes of all shocks.
 pub fn minimal_fatal_shock(
     state: &[f64],
     search: ShockSearch,

@@ -45,8 +45,9 @@ impl FeatureGroups {
     /// ```
     ///
     /// # Errors
-    /// [`Error::BadSearch`] for a radius that is not positive and finite; [`Error::BadPoint`], [`Error::WrongDimension`] and [`Error::NoDimension`] for
-    /// templates that are not finite, of different lengths, or empty; [`Error::NoBasin`] for a label that is no basin.
+    /// [`Error::BadSearch`] for a radius that is not positive and finite; [`Error::BadPoint`],
+    /// [`Error::WrongDimension`] and [`Error::NoDimension`] for templates that are not finite, of different lengths,
+    /// or empty; [`Error::NoBasin`] for a label that is no basin.
     pub fn from_templates(templates: &[(Label, Vec<f64>)], radius: f64) -> Result<Self, Error> {
         check(templates.iter().map(|(_, vector)| vector), radius)?;
         match templates.iter().find(|(label, _)| !label.is_basin()) {

@@ -22,7 +22,8 @@ impl Hyperrectangle {
     /// The points whose coordinate k lies in `sides[k]`.
     ///
     /// # Errors
-    /// [`Error::NoDimension`] without sides; [`Error::BadInterval`] for a side as for [`Interval::new`], and for one of length 0.
+    /// [`Error::NoDimension`] without sides; [`Error::BadInterval`] for a side as for [`Interval::new`], and for one
+    /// of length 0.
     pub fn new(sides: Vec<Interval>) -> Result<Self, Error> {
         if sides.is_empty() {
             return Err(Error::NoDimension);

@@ -18,8 +18,8 @@ impl LabelImage {
     /// grid breaks the model.
     ///
     /// # Errors
-    /// [`Error::BadImage`] as for [`check`](Self::check); [`Error::NothingInside`] if all pixels are outside the region of
-    /// interest.
+    /// [`Error::BadImage`] as for [`check`](Self::check); [`Error::NothingInside`] if all pixels are outside the
+    /// region of interest.
     pub fn fractions_as_random_points(&self) -> Result<BTreeMap<Label, ConfidenceInterval>, Error> {
         let (counts, all, undecided) = self.inside()?;
         let fraction = |(label, found): (Label, usize)| {

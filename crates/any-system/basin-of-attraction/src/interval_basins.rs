@@ -53,8 +53,8 @@ impl IntervalBasins {
     /// ```
     ///
     /// # Errors
-    /// [`Error::BadInterval`] for a window as for [`within`](Self::within), and for an interval that is reversed or not finite, or that
-    /// begins before the end of the one before.
+    /// [`Error::BadInterval`] for a window as for [`within`](Self::within), and for an interval that is reversed or
+    /// not finite, or that begins before the end of the one before.
     pub fn from_known(
         window: Interval,
         known: &[(Interval, Label)],
@@ -139,7 +139,8 @@ impl IntervalBasins {
     /// some left out, or with other levels.
     ///
     /// # Errors
-    /// [`Error::BadInterval`] for an interval that is reversed, not finite, outside the window, or not above the one before.
+    /// [`Error::BadInterval`] for an interval that is reversed, not finite, outside the window, or not above the one
+    /// before.
     pub fn with_intervals(self, parts: Vec<LabelledInterval>) -> Result<IntervalBasins, Error> {
         let mut end = self.window.left;
         for LabelledInterval { interval: Interval { left, right }, .. } in &parts {

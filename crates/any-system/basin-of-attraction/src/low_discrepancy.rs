@@ -80,8 +80,8 @@ pub fn low_discrepancy_fractions(
 /// For labels that are found faster together than one by one.
 ///
 /// # Errors
-/// [`Error::TooFewPoints`] for fewer than a hundred points, [`Error::TooManySamples`] for more than a billion; [`Error::BadInterval`] for a
-/// window that is reversed or not finite.
+/// [`Error::TooFewPoints`] for fewer than a hundred points, [`Error::TooManySamples`] for more than a billion;
+/// [`Error::BadInterval`] for a window that is reversed or not finite.
 pub fn stratified_points(window: Interval, count: usize, seed: u64) -> Result<Vec<f64>, Error> {
     check_window(window)?;
     if count < ENOUGH_TRIALS {

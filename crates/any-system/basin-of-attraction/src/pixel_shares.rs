@@ -41,8 +41,8 @@ impl PixelShares {
     /// outside the window does not count; an interval whose label is no basin is undecided.
     ///
     /// # Errors
-    /// [`Error::BadPixels`] as for [`edges`](Self::edges); [`Error::UnsortedIntervals`] for intervals that overlap, or are not in
-    /// increasing order; [`Error::BadInterval`] for an interval that is reversed or not finite.
+    /// [`Error::BadPixels`] as for [`edges`](Self::edges); [`Error::UnsortedIntervals`] for intervals that overlap,
+    /// or are not in increasing order; [`Error::BadInterval`] for an interval that is reversed or not finite.
     pub fn of_intervals(
         parts: &[(Interval, Label)],
         window: Interval,
@@ -89,8 +89,8 @@ impl PixelShares {
     /// window.
     ///
     /// # Errors
-    /// [`Error::BadPixels`] for no pixels, for more than 2²⁶, and for a window so narrow that two ends are the same `f64`;
-    /// [`Error::BadInterval`] for a window that is reversed or not finite.
+    /// [`Error::BadPixels`] for no pixels, for more than 2²⁶, and for a window so narrow that two ends are the same
+    /// `f64`; [`Error::BadInterval`] for a window that is reversed or not finite.
     pub fn edges(window: Interval, pixels: usize) -> Result<Vec<f64>, Error> {
         let Interval { left, right } = Interval::new(window.left, window.right)?;
         let bad = Error::BadPixels { pixels, left, right };

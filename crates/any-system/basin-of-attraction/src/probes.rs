@@ -106,8 +106,8 @@ pub fn check_trap(
 /// miss a part of 3/n of the window in 5 of 100 cases.
 ///
 /// # Errors
-/// [`Error::BadInterval`] for a window or a branch that is no interval; [`Error::BranchMissed`] with the point at which a branch is
-/// wrong or is missing.
+/// [`Error::BadInterval`] for a window or a branch that is no interval; [`Error::BranchMissed`] with the point at
+/// which a branch is wrong or is missing.
 pub fn check_branches(
     map: &impl ScalarMap,
     branches: &[Branch],

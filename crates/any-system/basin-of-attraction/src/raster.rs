@@ -37,7 +37,8 @@ impl Grid {
     /// ```
     ///
     /// # Errors
-    /// [`Error::BadRaster`] for fewer than two columns or rows; [`Error::BadInterval`] if a range is infinite, or reversed.
+    /// [`Error::BadRaster`] for fewer than two columns or rows; [`Error::BadInterval`] if a range is infinite, or
+    /// reversed.
     pub fn with_ends(x: Interval, y: Interval, columns: usize, rows: usize) -> Result<Grid, Error> {
         if columns < 2 || rows < 2 {
             return Err(Error::BadRaster { columns, rows });

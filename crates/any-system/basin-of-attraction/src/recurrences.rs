@@ -20,8 +20,8 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 /// With fewer cells a side each of them is at the border of the region, and no orbit can be seen to stay away from it.
 const FEWEST_CELLS: usize = 3;
 
-/// Fewest orbits that test a candidate. With 10 a slow spiral of a factor 1 − 10⁻⁶ passed as an attractor, with 50 it does not.
-/// More take longer: a test is three stretches.
+/// Fewest orbits that test a candidate. With 10 a slow spiral of a factor 1 − 10⁻⁶ passed as an attractor, with 50
+/// it does not. More take longer: a test is three stretches.
 const FEWEST_TESTS: usize = 50;
 
 /// An attractor, located to the cells of a grid.
@@ -85,8 +85,9 @@ impl Attractors {
     ///
     /// # Errors
     /// [`Error::BadStateGrid`] for a grid without cells, of more than ten dimensions, or with more than 2⁶⁴ cells;
-    /// [`Error::BadSearch`] for fewer than three cells a side, and for a distance of escape that is not positive and finite; [`Error::WrongDimension`] for a start of another
-    /// dimension than the region; [`Error::TooManyAttractors`] beyond 65 000.
+    /// [`Error::BadSearch`] for fewer than three cells a side, and for a distance of escape that is not positive and
+    /// finite; [`Error::WrongDimension`] for a start of another dimension than the region;
+    /// [`Error::TooManyAttractors`] beyond 65 000.
     pub fn search(
         map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
         region: Hyperrectangle,

@@ -12,10 +12,10 @@ use std::collections::BTreeMap;
 
 /// Divides every side of a region by `divisions`, and counts the boxes by the labels of `points` random points in each.
 ///
-/// [`BoxCount::size`] is 1/`divisions`, the side of a box over that of the region. A basin that no point of a box meets is not
-/// seen: the number of mixed boxes is a lower bound. The entropy of a box of f basins is too small by about (f −
-/// 1)/(2 `points`) in the mean. Without many points the entropies of small boxes cannot be compared with those of
-/// large ones, which all have as many.
+/// [`BoxCount::size`] is 1/`divisions`, the side of a box over that of the region. A basin that no point of a box
+/// meets is not seen: the number of mixed boxes is a lower bound. The entropy of a box of f basins is too small by
+/// about (f − 1)/(2 `points`) in the mean. Without many points the entropies of small boxes cannot be compared with
+/// those of large ones, which all have as many.
 ///
 /// ```
 /// use basin_of_attraction::{Hyperrectangle, Interval, Label, region_boxes};
@@ -26,7 +26,8 @@ use std::collections::BTreeMap;
 /// ```
 ///
 /// # Errors
-/// [`Error::TooManySamples`] for more than a billion points of all boxes together; [`Error::BadTrials`] for no divisions or no points.
+/// [`Error::TooManySamples`] for more than a billion points of all boxes together; [`Error::BadTrials`] for no
+/// divisions or no points.
 pub fn region_boxes(
     region: &Hyperrectangle,
     divisions: usize,

@@ -96,8 +96,8 @@ impl LabelCounts {
 /// ```
 ///
 /// # Errors
-/// [`Error::TooManySamples`] for more than a billion points; [`Error::NothingInside`] if no point is inside the region of interest, also
-/// for a `count` of 0.
+/// [`Error::TooManySamples`] for more than a billion points; [`Error::NothingInside`] if no point is inside the
+/// region of interest, also for a `count` of 0.
 pub fn region_fractions(
     region: &Hyperrectangle,
     count: usize,

@@ -54,8 +54,8 @@ impl PairCount {
 /// ```
 ///
 /// # Errors
-/// [`Error::BadPerturbation`] unless `epsilon` is positive and finite; [`Error::TooManySamples`] for more than a billion pairs;
-/// [`Error::NothingInside`] if no pair is inside the region of interest.
+/// [`Error::BadPerturbation`] unless `epsilon` is positive and finite; [`Error::TooManySamples`] for more than a
+/// billion pairs; [`Error::NothingInside`] if no pair is inside the region of interest.
 pub fn uncertain_pairs(
     region: &Hyperrectangle,
     epsilon: f64,
@@ -161,9 +161,10 @@ impl UncertaintyExponent {
 /// ```
 ///
 /// # Errors
-/// [`Error::BadFit`] for fewer than three different distances; [`Error::TooFewUncertainPairs`] for fewer than thirty uncertain pairs at all distances together, and if
-/// their numbers give no bound on the exponent: take more pairs or larger distances. [`Error::TooManyOpenPairs`] if
-/// open pairs are more than a tenth of the uncertain ones at all distances together. Else as [`uncertain_pairs`].
+/// [`Error::BadFit`] for fewer than three different distances; [`Error::TooFewUncertainPairs`] for fewer than thirty
+/// uncertain pairs at all distances together, and if their numbers give no bound on the exponent: take more pairs or
+/// larger distances. [`Error::TooManyOpenPairs`] if open pairs are more than a tenth of the uncertain ones at all
+/// distances together. Else as [`uncertain_pairs`].
 pub fn uncertainty_exponent(
     region: &Hyperrectangle,
     epsilons: &[f64],

@@ -41,7 +41,8 @@ pub(crate) fn check_window(Interval { left, right }: Interval) -> Result<(), Err
 /// ```
 ///
 /// # Errors
-/// [`Error::TooManySamples`] for more than a billion points; [`Error::BadInterval`] for a window that is reversed or not finite.
+/// [`Error::TooManySamples`] for more than a billion points; [`Error::BadInterval`] for a window that is reversed or
+/// not finite.
 pub fn equally_spaced_counts(
     window: Interval,
     count: usize,
@@ -69,8 +70,8 @@ pub struct EquallySpacedFraction {
 /// each.
 ///
 /// # Errors
-/// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion points, [`Error::BadInterval`] for a window
-/// that is reversed or not finite.
+/// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion points,
+/// [`Error::BadInterval`] for a window that is reversed or not finite.
 pub fn equally_spaced_fractions(
     window: Interval,
     count: usize,
@@ -118,8 +119,8 @@ pub fn equally_spaced_fractions(
 /// [`proportion_interval`]`(0, count)`.
 ///
 /// # Errors
-/// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion points, [`Error::BadInterval`] for a window
-/// that is reversed or not finite.
+/// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion points,
+/// [`Error::BadInterval`] for a window that is reversed or not finite.
 pub fn random_fractions(
     window: Interval,
     count: usize,

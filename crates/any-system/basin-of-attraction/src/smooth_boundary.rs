@@ -104,9 +104,9 @@ const FEWEST_MIXED_BALLS: usize = 30;
 /// ```
 ///
 /// # Errors
-/// [`Error::BadBalls`] for a radius that is not positive or leaves no place for a ball, and fewer than two points in a ball;
-/// [`Error::TooManySamples`] for more than a billion points in all; [`Error::TooFewMixedBalls`] if fewer than 30 balls have more than
-/// one basin.
+/// [`Error::BadBalls`] for a radius that is not positive or leaves no place for a ball, and fewer than two points in
+/// a ball; [`Error::TooManySamples`] for more than a billion points in all; [`Error::TooFewMixedBalls`] if fewer
+/// than 30 balls have more than one basin.
 pub fn ball_entropy(
     region: &Hyperrectangle,
     balls: RandomBalls,

@@ -285,7 +285,8 @@ impl TippingCounts {
 /// ```
 ///
 /// # Errors
-/// [`Error::TooManySamples`] for more than a billion points; [`Error::NothingInside`] if no point is counted, also for a `count` of 0.
+/// [`Error::TooManySamples`] for more than a billion points; [`Error::NothingInside`] if no point is counted, also
+/// for a `count` of 0.
 pub fn random_tipping(
     region: &Hyperrectangle,
     count: usize,

@@ -21,9 +21,9 @@ use rayon::prelude::*;
 /// start with one of the three points outside the region of interest does not count.
 ///
 /// # Errors
-/// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion, [`Error::BadPerturbation`]
-/// unless `epsilon` is positive and finite, [`Error::BadInterval`] for a window that is reversed or not finite,
-/// [`Error::NothingInside`] if no start counts.
+/// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion,
+/// [`Error::BadPerturbation`] unless `epsilon` is positive and finite, [`Error::BadInterval`] for a window that is
+/// reversed or not finite, [`Error::NothingInside`] if no start counts.
 pub fn uncertain_fraction(
     window: Interval,
     epsilon: f64,
@@ -65,7 +65,8 @@ impl IntervalBasins {
     /// undecided gap longer than `resolution` as boundary, over its whole length, those at the ends of the window too.
     ///
     /// # Errors
-    /// [`Error::BadPerturbation`] unless `epsilon` is positive and finite; [`Error::BadInterval`] for a window of length 0.
+    /// [`Error::BadPerturbation`] unless `epsilon` is positive and finite; [`Error::BadInterval`] for a window of
+    /// length 0.
     pub fn uncertain_fraction(&self, epsilon: f64, resolution: f64) -> Result<Bounds, Error> {
         check_perturbation(epsilon)?;
         let window = self.window();

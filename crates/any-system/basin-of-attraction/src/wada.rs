@@ -149,7 +149,8 @@ impl IntervalBasins {
     /// ```
     ///
     /// # Errors
-    /// [`Error::TooFewLabels`] for fewer than three basins; [`Error::BadPerturbation`] unless `distance` is positive and finite.
+    /// [`Error::TooFewLabels`] for fewer than three basins; [`Error::BadPerturbation`] unless `distance` is positive
+    /// and finite.
     pub fn wada(&self, distance: f64) -> Result<LineWadaTest, Error> {
         check_perturbation(distance)?;
         let labels: Vec<Label> =

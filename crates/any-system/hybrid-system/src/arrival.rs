@@ -209,8 +209,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         })
     }
 
-    /// The side from which a guard has come to its zero, if the model has solved for the crossing. Two surfaces that are
-    /// reached together by its formulas have signs of rounding.
+    /// The side from which a guard has come to its zero, if the model has solved for the crossing. Two surfaces that
+    /// are reached together by its formulas have signs of rounding.
     fn side_by_rounding<T>(&self, arc: &FlowFrom<T>, surface: S) -> Option<f64>
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,

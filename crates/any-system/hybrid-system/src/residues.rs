@@ -88,7 +88,8 @@ impl<S: Copy + PartialEq> Residues<S> {
         self.of(surface).map_or(0.0, |known| known.value.abs())
     }
 
-    /// The side to which the guard of this surface passes, if it has had its event, and has not passed through its zero yet.
+    /// The side to which the guard of this surface passes, if it has had its event, and has not passed through its
+    /// zero yet.
     pub(crate) fn passes_later(&self, surface: S) -> Option<f64> {
         self.of(surface).filter(|known| known.passes_later).map(|known| -known.value.signum())
     }

@@ -20,10 +20,10 @@
 //! A guard that the flow has brought next to its surface, and whose zero is still ahead by the signs of the computed
 //! trajectory, is on its side, however small its value.
 //!
-//! Where the same flow goes on, after a stop or an event that changes neither the mode nor the state, nothing is looked for: a
-//! guard has the side of its sign, and an observer that was crossed the side to which it passed. What a contact that jumps at
-//! its surface does after its reset is told by the motion: a path beside the flow, from the side of the flow, comes beyond
-//! the surface, or the flow turns back.
+//! Where the same flow goes on, after a stop or an event that changes neither the mode nor the state, nothing is
+//! looked for: a guard has the side of its sign, and an observer that was crossed the side to which it passed. What
+//! a contact that jumps at its surface does after its reset is told by the motion: a path beside the flow, from the
+//! side of the flow, comes beyond the surface, or the flow turns back.
 //!
 //! For guards of all roles: if the flow has reached the surface at the same instant as the surface of the last
 //! event, and the reset of that event lets the state pass through, that is an event. No crossing is lost between
@@ -73,8 +73,8 @@ pub(crate) struct Undeclared {
 /// to a horizon, with samples at an interval, if there is one.
 ///
 /// # Errors
-/// [`Error::StartsBeyond`], [`Error::NotFinite`] for a guard without a value, and errors if rounding hides to which side a
-/// guard leaves its surface.
+/// [`Error::StartsBeyond`], [`Error::NotFinite`] for a guard without a value, and errors if rounding hides to which
+/// side a guard leaves its surface.
 pub(crate) fn start_of_arc<T: HybridSystem>(
     flow: &FlowFrom<T>,
     arrival: Option<&Arrival<T::Mode, T::Surface, T::State>>,

@@ -221,8 +221,8 @@ fn errors_at_a_hidden_kink_are_about_ten_times_the_tolerance_at_most() {
 }
 
 /// A ball falls on a soft floor, with the force 30 (−x)^1.5 during the contact, and rises again. Where the contact is a
-/// surface, the errors stay near the tolerance: all but one of 1400 below 6 times, and one, whose step looks over the surface
-/// and is accepted by chance, at 14.2 times. Where it is hidden, they are up to 100 times as large.
+/// surface, the errors stay near the tolerance: all but one of 1400 below 6 times, and one, whose step looks over
+/// the surface and is accepted by chance, at 14.2 times. Where it is hidden, they are up to 100 times as large.
 #[test]
 fn a_soft_contact_costs_digits_unless_it_is_a_surface() {
     let force = |x: f64| 30.0 * (-x).max(0.0).powf(1.5);

@@ -1,4 +1,5 @@
-//! Guards that jump at their zeros, and stops or clocks within ulps of a zero: each crossing is one event, in its direction.
+//! Guards that jump at their zeros, and stops or clocks within ulps of a zero: each crossing is one event, in its
+//! direction.
 
 #![cfg(feature = "ode")]
 
@@ -27,8 +28,8 @@ fn stopped<T: HybridSystem<Mode = (), State = State<1>>>(
     Ok(found)
 }
 
-/// The rounding of a sum of components changes the sign of a guard several times next to its zero. A guard of one direction
-/// has no event where the zero is crossed in the other one.
+/// The rounding of a sum of components changes the sign of a guard several times next to its zero. A guard of one
+/// direction has no event where the zero is crossed in the other one.
 #[test]
 fn a_sign_has_events_in_its_direction_only() {
     let mut wrong = Vec::new();
@@ -62,7 +63,8 @@ fn a_sign_has_events_in_its_direction_only() {
     assert!(wrong.is_empty(), "{} of 600: {wrong:?}", wrong.len());
 }
 
-/// Two stops some ulps before or behind the zero of a line, by its field, its samples or its quasi-polynomial: one event.
+/// Two stops some ulps before or behind the zero of a line, by its field, its samples or its quasi-polynomial: one
+/// event.
 #[test]
 fn stops_within_ulps_of_a_zero_double_nothing() {
     let place = 0.3f64;
@@ -125,7 +127,8 @@ fn a_contact_with_a_sign_holds() {
     assert!(failed || execution.state()[0] > -1e-9, "{}", execution.state());
 }
 
-/// A guard that is zero at one double and jumps at the next one, with a clock at that double, or at the one behind: one event.
+/// A guard that is zero at one double and jumps at the next one, with a clock at that double, or at the one behind:
+/// one event.
 #[test]
 fn a_zero_of_one_double_is_one_event() {
     let place = 0.7f64;

@@ -71,8 +71,9 @@ type Raster<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>);
 ///
 /// Each label is the fate of its pixel's middle. label_name names the labels. Another `layer` of `layers()` gives its
 /// numbers instead: "hops" until the fate is known (uint64), or "proof", labels with 65536 more where the fate is
-/// proved (uint32). `alpha` is the window of the paper, from α*_1 to α*_6, unless given. `progress(done, all)` is called with the number of finished columns, some times
-/// a second and at the end; `progress=True` shows a bar of tqdm. Ctrl-C ends the computation.
+/// proved (uint32). `alpha` is the window of the paper, from α*_1 to α*_6, unless given. `progress(done, all)` is
+/// called with the number of finished columns, some times a second and at the end; `progress=True` shows a bar of
+/// tqdm. Ctrl-C ends the computation.
 #[pyfunction]
 #[pyo3(signature = (M = [0.1, 1.0], alpha = None, shape = [512, 512], progress = None, layer = "label"),
        text_signature = "(M=(0.1, 1.0), alpha=None, shape=(512, 512), progress=None, layer='label')")]

@@ -40,8 +40,8 @@ impl AtomicFile {
     /// Begins a file that will be named `path`, in a folder that exists.
     ///
     /// # Errors
-    /// [`Error::File`] if the file cannot be created, or if `path` is, or leads to, a folder, a named pipe or a device, which no
-    /// file can replace.
+    /// [`Error::File`] if the file cannot be created, or if `path` is, or leads to, a folder, a named pipe or a
+    /// device, which no file can replace.
     pub fn create(path: &Path) -> Result<Self, Error> {
         let destination = destination(path)?;
         let old = std::fs::metadata(&destination).ok();
@@ -163,7 +163,8 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 /// Makes a folder with its parents. A folder that exists stays as it is.
 ///
 /// # Errors
-/// [`Error::File`] with the answer of the system; with the reason if a file, or a link that leads nowhere, has this name.
+/// [`Error::File`] with the answer of the system; with the reason if a file, or a link that leads nowhere, has this
+/// name.
 pub fn make_folder(folder: &Path) -> Result<(), Error> {
     std::fs::create_dir_all(folder).map_err(|error| {
         let error = if error.kind() == ErrorKind::AlreadyExists {

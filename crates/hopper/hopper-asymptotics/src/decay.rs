@@ -129,8 +129,8 @@ impl Decay {
     /// The offset after `hops` hops from `start`.
     ///
     /// # Errors
-    /// [`Error::OutsideRange`] unless 0 < `start` ≤ [`range`](Self::range), `hops` is not negative, and u = λ `hops`/3 is
-    /// finite.
+    /// [`Error::OutsideRange`] unless 0 < `start` ≤ [`range`](Self::range), `hops` is not negative, and u = λ
+    /// `hops`/3 is finite.
     pub fn offset_after(&self, start: f64, hops: f64) -> Result<ExpansionValue, Error> {
         self.check(start)?;
         let u0 = 1.0 / pxfm::f_cbrt(start);

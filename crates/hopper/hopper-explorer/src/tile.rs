@@ -1,8 +1,8 @@
 //! Strips of pixels of the (M, α) plane.
 //!
 //! A tile is a window of `columns` × `rows` pixels. On the linear axis its pixels are those of
-//! [`basin_columns`](hopper_basin::basin_columns) on the same grid, bit for bit. On the logarithmic axis the columns are equally
-//! far apart in log₂ M.
+//! [`basin_columns`](hopper_basin::basin_columns) on the same grid, bit for bit. On the logarithmic axis the columns
+//! are equally far apart in log₂ M.
 
 use crate::refusal::Refusal;
 use basin_of_attraction::{Grid, Interval};

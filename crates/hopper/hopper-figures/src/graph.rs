@@ -112,7 +112,8 @@ const MOST_PIECES: u64 = 400;
 /// The points where pieces of the map meet between two speeds, and the two speeds. Instead of 0 it begins at 10⁻³.
 ///
 /// # Errors
-/// [`Error::TooWide`] for more than 200 humps; [`Error::Hopper`] unless both are speeds or 0, and the first one is smaller.
+/// [`Error::TooWide`] for more than 200 humps; [`Error::Hopper`] unless both are speeds or 0, and the first one is
+/// smaller.
 pub fn cuts_between(from: f64, to: f64) -> Result<Vec<f64>, Error> {
     let (first, last) = (index_below(from)?, index_below(to)?);
     if !(from < to) {

@@ -78,8 +78,8 @@ pub static LAYERS: &[Layer] = &[
 /// What a value of a layer of fates has beside the code of its label if it has the flag of the layer.
 pub const FLAG: u64 = 1 << 16;
 
-/// The colour of a fate without the flag of its layer: a light blue. The colours of fates are black, grey, yellow and dark
-/// ones.
+/// The colour of a fate without the flag of its layer: a light blue. The colours of fates are black, grey, yellow
+/// and dark ones.
 pub const WITHOUT_FLAG: Color = Color { css: "#38c0ff", rgb: [0x38, 0xc0, 0xff] };
 
 /// What the pixels of a raster show.
@@ -130,7 +130,8 @@ pub struct Values {
 /// What the numbers of a layer mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Meaning {
-    /// The code of a label in the lowest 16 bits; and [`FLAG`], if the layer has a flag of this name, and the pixel has it.
+    /// The code of a label in the lowest 16 bits; and [`FLAG`], if the layer has a flag of this name, and the pixel
+    /// has it.
     Fates {
         /// The name of the flag.
         flag: Option<&'static str>,

@@ -80,8 +80,8 @@ impl Motion {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Hopper`] for a wrong speed, and for a hop that cannot be decided; [`Error::TooLong`] for a motion of more than a
-    /// million samples.
+    /// [`Error::Hopper`] for a wrong speed, and for a hop that cannot be decided; [`Error::TooLong`] for a motion of
+    /// more than a million samples.
     pub fn new(mass_ratio: MassRatio, alpha: f64, hops: usize) -> Result<Self, Error> {
         Self::watched(mass_ratio, alpha, hops, |_| ())
     }
@@ -141,7 +141,8 @@ impl Motion {
     /// A motion from samples of another source: a part of a motion, or one that was changed. It has no events.
     ///
     /// # Errors
-    /// [`Error::NoMotion`] for no samples, times that fall, or a number that is not finite; [`Error::TooLong`] for more than a million.
+    /// [`Error::NoMotion`] for no samples, times that fall, or a number that is not finite; [`Error::TooLong`] for
+    /// more than a million.
     pub fn from_samples(mass_ratio: MassRatio, samples: Vec<Sample>) -> Result<Self, Error> {
         let reason = |index: usize, reason: &'static str| Error::NoMotion { index, reason };
         if samples.is_empty() {

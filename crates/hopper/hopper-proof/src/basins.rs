@@ -49,7 +49,8 @@ const LARGEST_ENCLOSED: f64 = 50.0;
 /// ```
 ///
 /// # Errors
-/// [`Error::Speeds`] unless `from` < `to` and all fixed points have labels; [`Error::Basin`] for a refinement that is no number.
+/// [`Error::Speeds`] unless `from` < `to` and all fixed points have labels; [`Error::Basin`] for a refinement that
+/// is no number.
 pub fn proved_basins(
     fates: &Fates,
     from: u64,

@@ -37,8 +37,8 @@ impl ProvedLine {
     /// A sweep goes upwards from 0, since images lie below their speeds. So the intervals begin below the window.
     ///
     /// # Errors
-    /// [`Error::Speeds`] unless the window is from 0 to α*_n of the largest label; [`Error::Share`] unless `open` is above 0 and at most 1,
-    /// and there are parts.
+    /// [`Error::Speeds`] unless the window is from 0 to α*_n of the largest label; [`Error::Share`] unless `open` is
+    /// above 0 and at most 1, and there are parts.
     pub fn new(
         strip: Strip,
         window: Interval,

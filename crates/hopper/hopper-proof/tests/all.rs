@@ -1,4 +1,5 @@
-//! The tests of this crate are one program: what they share is compiled once, and the tests of all files run side by side.
+//! The tests of this crate are one program: what they share is compiled once, and the tests of all files run side by
+//! side.
 
 #![allow(missing_docs)]
 

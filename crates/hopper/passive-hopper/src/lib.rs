@@ -52,8 +52,8 @@
 //! α′ is at most 4 (1 + sudden lift-offs) units of ε (|α′| + |∂α′/∂α| α + |∂α′/∂M| M + α²/|α′|), ε = 2⁻⁵³
 //! (`cargo xtask check-reference`).
 //!
-//! [`LiftOffMap::bounded_hop`] gives bounds on the errors of a hop. `cargo xtask check-bounds` compares them with the actual
-//! errors on ten million hops and fails if one exceeds its bound (docs/accuracy.md has the ratios).
+//! [`LiftOffMap::bounded_hop`] gives bounds on the errors of a hop. `cargo xtask check-bounds` compares them with
+//! the actual errors on ten million hops and fails if one exceeds its bound (docs/accuracy.md has the ratios).
 //!
 //! # Decisions
 //! A *decision* of a hop (sudden or not, on which branch, grounded or not) is the sign of a computed number. The

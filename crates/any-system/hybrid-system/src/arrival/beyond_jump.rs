@@ -5,13 +5,13 @@ use crate::crossing::{GuardedFlow, is_far};
 use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem};
 
-/// The shortest look at a flow behind a jump of its guard, relative to the longest one: a motion under a force of 1 moves by
-/// the rounding of a state of size 1 in √(2·10⁻¹⁶). A smaller number would take more looks.
+/// The shortest look at a flow behind a jump of its guard, relative to the longest one: a motion under a force of 1
+/// moves by the rounding of a state of size 1 in √(2·10⁻¹⁶). A smaller number would take more looks.
 const SHORTEST_LOOK: f64 = 1.0 / 268_435_456.0;
 
 impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
-    /// True if the reset has moved the state beyond the crossed surface, although the guard has the same value there: it
-    /// jumps at the surface.
+    /// True if the reset has moved the state beyond the crossed surface, although the guard has the same value
+    /// there: it jumps at the surface.
     pub(crate) fn is_beyond_jump<T>(&self, next: &FlowFrom<T>) -> bool
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
@@ -29,9 +29,9 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         jumps && moved().is_some_and(|moved| moved * self.from <= 0.0)
     }
 
-    /// The guard a moment before the crossing, still on the side from which it came, moved on as the state has moved since the
-    /// crossing up to `now`: by the reset, and along the flow of `next`. Where it is not on that side any more, this motion
-    /// leads beyond the surface. `None` if the arc before was too short to show that side.
+    /// The guard a moment before the crossing, still on the side from which it came, moved on as the state has moved
+    /// since the crossing up to `now`: by the reset, and along the flow of `next`. Where it is not on that side any
+    /// more, this motion leads beyond the surface. `None` if the arc before was too short to show that side.
     fn moved_on<T>(&self, next: &FlowFrom<T>, now: &X, surface: S) -> Option<f64>
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
@@ -49,9 +49,10 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         None
     }
 
-    /// True if the flow of `next` leads on beyond the surface that was crossed, and false if it turns back over it. The guard
-    /// jumps there, so that its value does not tell: a path beside the flow, from the side before the crossing, comes beyond the
-    /// surface within `longest`, or the flow comes back. `None` for a guard that does not jump, or if neither happens.
+    /// True if the flow of `next` leads on beyond the surface that was crossed, and false if it turns back over it.
+    /// The guard jumps there, so that its value does not tell: a path beside the flow, from the side before the
+    /// crossing, comes beyond the surface within `longest`, or the flow comes back. `None` for a guard that does not
+    /// jump, or if neither happens.
     pub(crate) fn leads_beyond<T>(
         &self,
         next: &FlowFrom<T>,

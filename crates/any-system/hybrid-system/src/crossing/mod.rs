@@ -39,6 +39,7 @@ mod sampled;
 mod search_request;
 mod under_bounds;
 mod zero_search;
+mod zero_search_end;
 mod zero_search_start;
 mod zero_test;
 

@@ -60,8 +60,8 @@ impl QuasiPolynomial {
     /// # Errors
     /// [`Error::NotFinite`] for coefficients that are not finite, or a function that overflows up to the horizon;
     /// [`Error::DerivativeOverflows`] for coefficients above some 1e200 at high rates;
-    /// [`Error::BadLimit`] unless `horizon` is finite and not negative; [`Error::UndecidedSign`] if rounding hides the side
-    /// to which the function leaves zero; [`Error::IntervalBudget`] after a million intervals.
+    /// [`Error::BadLimit`] unless `horizon` is finite and not negative; [`Error::UndecidedSign`] if rounding hides
+    /// the side to which the function leaves zero; [`Error::IntervalBudget`] after a million intervals.
     pub fn first_crossing(
         &self,
         direction: Direction,

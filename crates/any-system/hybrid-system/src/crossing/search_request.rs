@@ -6,9 +6,9 @@ use smallvec::SmallVec;
 /// takes too long. Every oscillation up to the horizon takes several intervals.
 pub(crate) const MOST_INTERVALS: usize = 1_000_000;
 
-/// A guard that comes to its surface so many ulps of time after the horizon has its event on it. The time of an event is
-/// accurate to about two, and the horizon may be such a time, rounded once more. With a smaller number a run to the time of an
-/// event could miss it; with a larger one events would be early.
+/// A guard that comes to its surface so many ulps of time after the horizon has its event on it. The time of an
+/// event is accurate to about two, and the horizon may be such a time, rounded once more. With a smaller number a
+/// run to the time of an event could miss it; with a larger one events would be early.
 const HORIZON_ULPS: f64 = 4.0;
 
 /// How long after a horizon at this time a zero still counts as one on it.

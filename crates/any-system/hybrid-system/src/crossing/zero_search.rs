@@ -55,11 +55,11 @@ impl Phase {
 
 /// A piece of the function: from the time at which the search begins to the one at which it ends.
 #[derive(Clone, Copy)]
-struct Stretch {
-    from: f64,
-    until: f64,
+pub(super) struct Stretch {
+    pub(super) from: f64,
+    pub(super) until: f64,
     /// Time after the end within which a zero counts, if no later stretch follows.
-    horizon: Option<f64>,
+    pub(super) horizon: Option<f64>,
 }
 
 /// The state of a search for the zeros of a function of time.
@@ -235,72 +235,6 @@ impl ZeroSearch {
         Ok(None)
     }
 
-    /// The crossing at the horizon of a monotone function on its way to zero that is there, within rounding.
-    fn reaches_horizon(
-        &self,
-        function: &impl Bounded,
-        Stretch { from, until, horizon }: Stretch,
-        slope: f64,
-    ) -> Result<Option<Found>, Error> {
-        let Some(reach) = horizon else { return Ok(None) };
-        let side = self.side.unwrap_or(slope);
-        let comes = slope * side < 0.0
-            && self.phase == Phase::OnSide
-            && self.direction.admits(side, -side)
-            && self.is_there(function, from, (until, reach));
-        if !comes {
-            return Ok(None);
-        }
-        let error = function.root_error(until, self.clear.max(from), until)?;
-        Ok(Some(Found::Crossing { time: until, error, hidden: false, rising: side < 0.0 }))
-    }
-
-    /// What is known of a hidden interval that reaches the end of a stretch.
-    fn hidden_at_end(&mut self, function: &impl Bounded, stretch: Stretch) -> Found {
-        let Stretch { from, until, horizon } = stretch;
-        let Some(hidden) = &mut self.hidden else { return Found::Nothing };
-        let closest = closest(function, self.level, hidden, from, until);
-        hidden.closest = Some(closest);
-        if horizon.is_none() {
-            return Found::Nothing;
-        }
-        let last = function.value(until) - self.level;
-        if self.side.is_some_and(|side| last * side < 0.0) {
-            // It has changed its sign on the last stretch, by a jump.
-            return self.crossing_at_horizon(from, until, last.signum());
-        }
-        match self.unclear {
-            true => Found::Nothing,
-            false => Found::Undecided { time: closest.0, value: closest.1 },
-        }
-    }
-
-    /// Whether a function on its way to its zero is there at the horizon, or within a time `reach` after it.
-    fn is_there(&self, function: &impl Bounded, from: f64, (horizon, reach): (f64, f64)) -> bool {
-        let from = self.clear.max(from);
-        let [first, last] = [from, horizon].map(|time| function.value(time) - self.level);
-        let rate = (last - first) / (horizon - from);
-        let side = self.side.unwrap_or(first.signum());
-        last * side <= 0.0 || last.abs() <= rate.abs() * reach
-    }
-
-    /// What a change of sign to `sign` on a hidden stretch that ends at the horizon is.
-    fn crossing_at_horizon(&mut self, from: f64, until: f64, sign: f64) -> Found {
-        let hidden = self.hidden.take().map_or(from, |hidden| hidden.from);
-        let counts = self.direction.admits(-sign, sign) && self.phase == Phase::OnSide;
-        (self.side, self.clear) = (Some(sign), until);
-        self.has_passed();
-        match counts {
-            true => Found::Crossing {
-                time: until,
-                error: until - hidden,
-                hidden: true,
-                rising: sign > 0.0,
-            },
-            false => Found::Nothing,
-        }
-    }
-
     /// Passes an interval that rounding hides.
     fn hide(&mut self, left: f64, right: f64) {
         self.hidden.get_or_insert(Hidden { from: left, closest: None });
@@ -379,7 +313,7 @@ impl ZeroSearch {
     }
 
     /// Whether a change of sign belongs to a zero before the start. The next one does not.
-    fn has_passed(&mut self) -> bool {
+    pub(super) fn has_passed(&mut self) -> bool {
         let passes = self.phase == Phase::Passing;
         if passes {
             self.phase = Phase::OnSide;

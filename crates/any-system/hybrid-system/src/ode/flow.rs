@@ -35,8 +35,8 @@ pub fn integrated_flow<T: HybridSystem + ?Sized>(
 /// last state is the end of a step, the others are values of interpolants, with errors like those of the steps.
 ///
 /// # Errors
-/// [`Error::BadLimit`] for times that are not finite or not in order, [`Error::NoVectorField`] for a mode without field,
-/// and the errors of [`Integration`].
+/// [`Error::BadLimit`] for times that are not finite or not in order, [`Error::NoVectorField`] for a mode without
+/// field, and the errors of [`Integration`].
 pub fn integrated_states<T: HybridSystem + ?Sized>(
     system: &T,
     mode: T::Mode,

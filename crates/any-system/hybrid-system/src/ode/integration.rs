@@ -117,9 +117,9 @@ impl<F: Fn(f64, &V) -> V, V: StateVector> Integration<F, V> {
     /// Takes one step within the tolerances.
     ///
     /// # Errors
-    /// [`Error::Integration`] if no step meets the tolerances, no steps are left, the end has been reached, or the state
-    /// stays for ever and there is no end. [`Error::FieldNotFinite`] if the field is infinite or NaN just after the
-    /// last state, however short the step.
+    /// [`Error::Integration`] if no step meets the tolerances, no steps are left, the end has been reached, or the
+    /// state stays for ever and there is no end. [`Error::FieldNotFinite`] if the field is infinite or NaN just
+    /// after the last state, however short the step.
     pub fn step(&mut self) -> Result<(), Error> {
         self.inside = None;
         self.inner.step()

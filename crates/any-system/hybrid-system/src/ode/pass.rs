@@ -49,8 +49,8 @@ pub(super) struct Pass<'a, T: HybridSystem + ?Sized> {
     pub(super) tolerances: Tolerances,
 }
 
-/// Looks at a guard behind a jump, each four times as far as the one before: up to 2¹⁶ ulps. A motion that takes longer to
-/// come back over the surface may turn round before, so that its side is left open.
+/// Looks at a guard behind a jump, each four times as far as the one before: up to 2¹⁶ ulps. A motion that takes
+/// longer to come back over the surface may turn round before, so that its side is left open.
 const LOOKS: u32 = 9;
 
 impl<T: HybridSystem + ?Sized> Pass<'_, T> {

@@ -10,17 +10,17 @@ use crate::state::StateVector;
 use interval_arithmetic::root_beyond;
 
 /// The largest distances by which a crossing is moved when it is polished, in units of the step. The smallest distance
-/// that shows a change of sign is used. The error of an interpolant moves a guard of ordinary slope by the tolerance, or by
-/// its rounding; a guard that is crossed slowly needs more. If the last value shows no change of sign, the crossing of
-/// the interpolant is kept.
+/// that shows a change of sign is used. The error of an interpolant moves a guard of ordinary slope by the
+/// tolerance, or by its rounding; a guard that is crossed slowly needs more. If the last value shows no change of
+/// sign, the crossing of the interpolant is kept.
 const POLISHING_REACHES: [f64; 6] = [1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4];
 
-/// Most corrections of one crossing. Each of them makes the last move smaller by the relative error of the interpolant: two
-/// are enough at tolerances up to 10⁻⁵. Each costs the stages of a step.
+/// Most corrections of one crossing. Each of them makes the last move smaller by the relative error of the
+/// interpolant: two are enough at tolerances up to 10⁻⁵. Each costs the stages of a step.
 const CORRECTIONS: u32 = 3;
 
-/// The rate of a polynomial of degree nine on a step is at most this many times its size, over the length of the step: 2·9²,
-/// by Markov's inequality.
+/// The rate of a polynomial of degree nine on a step is at most this many times its size, over the length of the
+/// step: 2·9², by Markov's inequality.
 const BEND: f64 = 162.0;
 
 /// The rate of a guard at a crossing is taken over this part of the step on both sides. Over a shorter part rounding
@@ -36,12 +36,12 @@ const CLEAR: f64 = 0.75;
 /// one would give a jump an error of up to this many ulps too much.
 const JUMP: f64 = 1e3;
 
-/// Values of a guard on each side of its zero that must agree before they tell its direction: signs of pure rounding do so
-/// once in 2¹⁵. A larger number would cost evaluations of a guard that jumps, for each event.
+/// Values of a guard on each side of its zero that must agree before they tell its direction: signs of pure rounding
+/// do so once in 2¹⁵. A larger number would cost evaluations of a guard that jumps, for each event.
 const AGREEING: u32 = 8;
 
-/// The first distance at which signs are compared is the time in which the state moves by so many of its roundings. At a
-/// shorter one several values would be those of one and the same rounded state.
+/// The first distance at which signs are compared is the time in which the state moves by so many of its roundings.
+/// At a shorter one several values would be those of one and the same rounded state.
 const STATE_ULPS: f64 = 16.0;
 
 /// How accurate a flow is: its tolerances, and the number of steps from the start.
@@ -107,7 +107,8 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
         Ok(None)
     }
 
-    /// The zero of a guard near `time`, on the shortest distance that shows a change of sign; `None` if none of them does.
+    /// The zero of a guard near `time`, on the shortest distance that shows a change of sign; `None` if none of them
+    /// does.
     fn zero_near(
         &self,
         (time, hidden): (f64, f64),
@@ -117,7 +118,8 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
         let along = |time: f64| guard(&self.state(time));
         let reaches = POLISHING_REACHES.map(|fraction| fraction * (to - from)).into_iter();
         for reach in reaches.chain([hidden]) {
-            // A hidden stretch begins at the last double before its zero, which rounding of the difference must not miss.
+            // A hidden stretch begins at the last double before its zero, which rounding of the difference must not
+            // miss.
             let (left, right) = ((time - reach).next_down().max(from), (time + reach).min(to));
             let (before, after) = (along(left), along(right));
             if before.signum() != after.signum() {
@@ -137,8 +139,8 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
 
     /// True if a guard that jumps at its zero does not pass it in the direction that `rising` says.
     ///
-    /// A sum of components is rounded, and a guard that jumps where the sum is zero changes its sign several times within
-    /// that rounding. The shortest time at which the values on each side agree tells from where the guard comes.
+    /// A sum of components is rounded, and a guard that jumps where the sum is zero changes its sign several times
+    /// within that rounding. The shortest time at which the values on each side agree tells from where the guard comes.
     pub(super) fn is_no_crossing(
         &self,
         time: f64,
@@ -255,8 +257,8 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
 /// between the two states changes little around `time`. Therefore it is added to the interpolant, and the crossing
 /// is searched again next to the old one. Where it has moved so far that the difference may have changed, the step is
 /// corrected there once more: an execution that ends at the time of its event ends on the surface. The rounding of the
-/// interpolant may hide the guard for a time `hidden` around the crossing: the values with the correction show a change of
-/// sign there.
+/// interpolant may hide the guard for a time `hidden` around the crossing: the values with the correction show a
+/// change of sign there.
 pub(super) fn polished<'a, F, V: StateVector>(
     integration: &mut Integration<F, V>,
     step: &'a Step<V>,

@@ -148,8 +148,8 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         self.at_horizon(&followed, integration, steps).map(Outcome::Finished)
     }
 
-    /// What is found first on a step, on the step as it is corrected there; `None` if it is no event: the guard crosses its
-    /// surface in the direction that does not count, or it is still on its way to it where the search ends.
+    /// What is found first on a step, on the step as it is corrected there; `None` if it is no event: the guard
+    /// crosses its surface in the direction that does not count, or it is still on its way to it where the search ends.
     fn event<F>(
         &self,
         finding: &Finding<T::Surface>,

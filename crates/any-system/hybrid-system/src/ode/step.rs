@@ -15,8 +15,8 @@ const COEFFICIENTS: usize = 9;
 const CHANGE_ROUNDING: f64 = 64.0;
 
 /// The state along one step: component by component the state where it begins, and a polynomial in u ∈ [−1, 1],
-/// t = middle + u·radius, for the change since then. So the rounding of the polynomial is that of the change: on a short step
-/// it is smaller than the last digit of the state.
+/// t = middle + u·radius, for the change since then. So the rounding of the polynomial is that of the change: on a
+/// short step it is smaller than the last digit of the state.
 #[derive(Debug, Clone)]
 pub(super) struct Step<V> {
     pub(super) from: f64,

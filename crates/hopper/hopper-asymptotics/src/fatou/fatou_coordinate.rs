@@ -68,8 +68,8 @@ impl FatouCoordinate {
     /// The coordinate at α*_n. It takes some 50 microseconds.
     ///
     /// # Errors
-    /// [`Error::Index`] for n = 0; [`Error::Drift`] where the mass ratio is so extreme, or n so large, that the series has no
-    /// bound.
+    /// [`Error::Index`] for n = 0; [`Error::Drift`] where the mass ratio is so extreme, or n so large, that the
+    /// series has no bound.
     pub fn new(n: u64, mass_ratio: MassRatio, side: Side) -> Result<Self, Error> {
         if side == Side::Left {
             return Self::along(&OutwardWalk::new(n, mass_ratio)?);
@@ -140,8 +140,8 @@ impl FatouCoordinate {
     /// Ψ at `delta`, to as many digits as the fraction needs.
     ///
     /// # Errors
-    /// [`Error::OutsideRange`] for an offset that is zero, on the other side, or beyond [`reach`](Self::reach), and for one that
-    /// is more than 10 000 hops beyond [`range`](Self::range), which happens for M below some 10⁻⁴;
+    /// [`Error::OutsideRange`] for an offset that is zero, on the other side, or beyond [`reach`](Self::reach), and
+    /// for one that is more than 10 000 hops beyond [`range`](Self::range), which happens for M below some 10⁻⁴;
     /// [`Error::Offset`] for an exponent beyond [`Offset::LARGEST_EXPONENT`]; [`Error::Hop`] if a hop towards α*_n
     /// has no value.
     pub fn phase(&self, delta: Offset) -> Result<Phase, Error> {
@@ -192,8 +192,8 @@ impl FatouCoordinate {
     /// The offset with the given phase, as near as `f64` digits give it, and a bound on its relative error.
     ///
     /// # Errors
-    /// [`Error::OutsideRange`] for a phase whose offset is beyond [`reach`](Self::reach), or more than 10 000 hops beyond
-    /// [`range`](Self::range); [`Error::Phase`] for a phase that is known so badly that its offset has no bound.
+    /// [`Error::OutsideRange`] for a phase whose offset is beyond [`reach`](Self::reach), or more than 10 000 hops
+    /// beyond [`range`](Self::range); [`Error::Phase`] for a phase that is known so badly that its offset has no bound.
     pub fn offset(&self, phase: &Phase) -> Result<(Offset, f64), Error> {
         let (mantissa, exponent) = phase.scaled();
         let unknown = |hops| Error::Phase { hops, error: phase.error() };

@@ -65,8 +65,8 @@ const SAMPLES: usize = 400;
 /// ```
 ///
 /// # Errors
-/// [`Error::NoPoints`] if `from` is not below `to`; as [`hopper_basins`] and [`Fates::labels`]; as [`stratified_points`] for the
-/// number of points.
+/// [`Error::NoPoints`] if `from` is not below `to`; as [`hopper_basins`] and [`Fates::labels`]; as
+/// [`stratified_points`] for the number of points.
 pub fn hump_fractions(
     fates: &Fates,
     from: u64,

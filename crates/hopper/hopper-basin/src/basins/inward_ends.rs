@@ -9,8 +9,8 @@
 //!               k − 1 and the same fate
 //! ```
 //!
-//! An end beside an interval of level 0 is also followed by itself: whether a speed beside the end of a trap needs no hop or
-//! some is not seen in its image.
+//! An end beside an interval of level 0 is also followed by itself: whether a speed beside the end of a trap needs
+//! no hop or some is not seen in its image.
 //!
 //! The map is monotone between the ends (docs/theory.md, Lemma 50), so that all speeds between them then lead into
 //! that interval. In 53 bits the bounds of thousands of levels would add up beside the slow side of a fixed point.

@@ -47,8 +47,8 @@ const ON_FIXED_POINT: f64 = 1e-6;
 /// ```
 ///
 /// # Errors
-/// [`Error::BasinOfAttraction`] for a range that is reversed; [`Error::Hopper`] for an end that is no mass ratio, or a hop that cannot be computed; [`Error::Index`] for a hump whose fixed point has
-/// no label of its own.
+/// [`Error::BasinOfAttraction`] for a range that is reversed; [`Error::Hopper`] for an end that is no mass ratio, or
+/// a hop that cannot be computed; [`Error::Index`] for a hump whose fixed point has no label of its own.
 pub fn minima_on_fixed_points(
     range: Interval,
     last: u64,

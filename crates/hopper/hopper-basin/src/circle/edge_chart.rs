@@ -213,8 +213,8 @@ impl EdgeChart {
     /// a value.
     ///
     /// # Errors
-    /// [`Error::OtherCircle`] unless `circle` is that of n at this mass ratio; as [`offset`](Self::offset); [`PhaseBasins::phase`] has no
-    /// value on the side of the basin.
+    /// [`Error::OtherCircle`] unless `circle` is that of n at this mass ratio; as [`offset`](Self::offset);
+    /// [`PhaseBasins::phase`] has no value on the side of the basin.
     pub fn phase(&self, circle: &PhaseBasins, y: Offset) -> Result<Phase, Error> {
         self.check(circle)?;
         let (delta, relative) = self.offset(y)?;

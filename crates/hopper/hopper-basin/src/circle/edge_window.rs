@@ -80,8 +80,8 @@ pub fn frame_slant(edge: &FollowedEdge) -> f64 {
 /// The axes of the raster count in half heights and half widths from −1 to 1.
 ///
 /// # Errors
-/// [`Error::EdgeFrame`] for a window without pixels, with too many, or with a depth below 0; those of [`edge_window`] and
-/// [`basin_columns`].
+/// [`Error::EdgeFrame`] for a window without pixels, with too many, or with a depth below 0; those of
+/// [`edge_window`] and [`basin_columns`].
 pub fn edge_frame(
     fates: &Fates,
     (chart, edge): (&EdgeChart, &FollowedEdge),

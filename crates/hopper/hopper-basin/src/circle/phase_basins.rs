@@ -189,8 +189,8 @@ impl PhaseBasins {
     /// [coordinate](Self::coordinate) has no value any more.
     ///
     /// # Errors
-    /// [`Error::Asymptotics`] for an offset outside this range, and those of [`FatouCoordinate::phase`]; [`Error::NoTurn`] if the
-    /// orbit does not come to the domain.
+    /// [`Error::Asymptotics`] for an offset outside this range, and those of [`FatouCoordinate::phase`];
+    /// [`Error::NoTurn`] if the orbit does not come to the domain.
     pub fn phase(&self, delta: Offset) -> Result<Phase, Error> {
         self.domain.phase(&LiftOffMap::new(self.mass_ratio), delta)
     }
@@ -243,8 +243,8 @@ impl PhaseBasins {
     /// ([`ground`](Self::ground)).
     ///
     /// # Errors
-    /// [`Error::Phases`] unless both are finite, and `to` is not below `from`. If they are equal, the share is that of the
-    /// one phase.
+    /// [`Error::Phases`] unless both are finite, and `to` is not below `from`. If they are equal, the share is that
+    /// of the one phase.
     pub fn share(&self, from: f64, to: f64) -> Result<LocalFractions, Error> {
         let turns = to - from;
         if !(turns >= 0.0 && turns.is_finite()) {

@@ -43,8 +43,8 @@ impl CoverageColumn {
     /// The shares in `pixels` equal parts of `window`.
     ///
     /// # Errors
-    /// [`Error::Window`] if the window goes below zero, or contains fixed points without labels; [`Error::CoverageLimits`];
-    /// [`Error::TooManySpeeds`]; [`Error::BasinOfAttraction`] as for [`PixelShares::edges`].
+    /// [`Error::Window`] if the window goes below zero, or contains fixed points without labels;
+    /// [`Error::CoverageLimits`]; [`Error::TooManySpeeds`]; [`Error::BasinOfAttraction`] as for [`PixelShares::edges`].
     pub fn new(
         fates: &Fates,
         window: Interval,

@@ -13,8 +13,8 @@ impl Fates {
     /// The fate of each of `speeds`, and the number of hops until it was known, with a given budget of hops:
     /// the results of [`fate_within`](Self::fate_within), in about half the time.
     ///
-    /// [`labels`](Self::labels) needs less time again, since it follows some of the orbits only, and gives no numbers of hops. An
-    /// empty slice gives an empty vector.
+    /// [`labels`](Self::labels) needs less time again, since it follows some of the orbits only, and gives no
+    /// numbers of hops. An empty slice gives an empty vector.
     ///
     /// ```
     /// use hopper_basin::{Fates, HopperFate};

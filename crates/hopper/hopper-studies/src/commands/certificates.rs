@@ -11,8 +11,8 @@ use resumable_job::AtomicFile;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Writes NAME.jsonl into the folder: its path, and its size. `strips` are the lines for which [`CertificateLine::Strips`]
-/// stands, and are written as they come.
+/// Writes NAME.jsonl into the folder: its path, and its size. `strips` are the lines for which
+/// [`CertificateLine::Strips`] stands, and are written as they come.
 pub(super) fn write_certificate(
     theorem: &Theorem,
     mut strips: impl Iterator<Item = Result<CertificateLine, Error>>,

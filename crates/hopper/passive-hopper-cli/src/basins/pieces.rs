@@ -29,7 +29,8 @@ pub(crate) struct Finished {
 /// After a signal no piece is begun. Those at work are finished, and the error says how many there are.
 ///
 /// # Errors
-/// [`Error::Interrupted`]; [`Error::MissingPieces`] if the pieces are to be joined and some are missing; errors of `piece`.
+/// [`Error::Interrupted`]; [`Error::MissingPieces`] if the pieces are to be joined and some are missing; errors of
+/// `piece`.
 pub(crate) fn compute(
     job: &JobFolder,
     work: &Work<'_>,

@@ -26,8 +26,8 @@ const PART: usize = 1 << 15;
 /// `write` is told whether its numbers are the first.
 ///
 /// # Errors
-/// [`Error::Misuse`] if a person would have to type the lines; [`Error::Input`] for a line that is no number, after the texts of the
-/// lines before it; the errors of `write` and of the streams.
+/// [`Error::Misuse`] if a person would have to type the lines; [`Error::Input`] for a line that is no number, after
+/// the texts of the lines before it; the errors of `write` and of the streams.
 pub(crate) fn filter(
     streams: &mut Streams<'_>,
     value: impl Fn(&str) -> Result<f64, String> + Sync,

@@ -53,8 +53,8 @@ impl LiftOffMap {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Lengths`] for slices of different lengths; else the first error that [`image`](Self::image) gives for one of the
-    /// speeds. The image of such a speed is NaN, and all other images are written.
+    /// [`Error::Lengths`] for slices of different lengths; else the first error that [`image`](Self::image) gives
+    /// for one of the speeds. The image of such a speed is NaN, and all other images are written.
     pub fn images_into(&self, speeds: &[f64], images: &mut [f64]) -> Result<(), Error> {
         let mut first = Ok(());
         self.each_image(speeds, images, |_, result| {
@@ -72,8 +72,8 @@ impl LiftOffMap {
     /// status, and no error.
     ///
     /// # Errors
-    /// [`Error::Lengths`] for slices of different lengths; else the first error other than an undecided hop, after all images are
-    /// written.
+    /// [`Error::Lengths`] for slices of different lengths; else the first error other than an undecided hop, after
+    /// all images are written.
     pub fn images_with_status(
         &self,
         speeds: &[f64],

@@ -1,8 +1,8 @@
 //! Which Runge–Kutta scheme takes the steps?
 //!
-//! [`scheme_for`] chooses between J. H. Verner's "efficient" pairs of orders 9(8) (`nine`), with an interpolant of order 8,
-//! and 6(5) (`six`), with one of order 6. `scheme` is the layout of their coefficients. The coefficients are not
-//! copied: they are Verner's published digits, polished on the order conditions with 120 digits
+//! [`scheme_for`] chooses between J. H. Verner's "efficient" pairs of orders 9(8) (`nine`), with an interpolant of
+//! order 8, and 6(5) (`six`), with one of order 6. `scheme` is the layout of their coefficients. The coefficients
+//! are not copied: they are Verner's published digits, polished on the order conditions with 120 digits
 //! (`xtask/generators/verner.py`).
 //!
 //! # Rounding

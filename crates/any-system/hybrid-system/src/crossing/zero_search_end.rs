@@ -1,0 +1,75 @@
+//! What a search for zeros knows where it ends: at the horizon, or where rounding hides the function.
+
+use super::bounded::Bounded;
+use super::found::Found;
+use super::hidden::closest;
+use super::zero_search::{Phase, Stretch, ZeroSearch};
+use crate::error::Error;
+
+impl ZeroSearch {
+    /// The crossing at the horizon of a monotone function on its way to zero that is there, within rounding.
+    pub(super) fn reaches_horizon(
+        &self,
+        function: &impl Bounded,
+        Stretch { from, until, horizon }: Stretch,
+        slope: f64,
+    ) -> Result<Option<Found>, Error> {
+        let Some(reach) = horizon else { return Ok(None) };
+        let side = self.side.unwrap_or(slope);
+        let comes = slope * side < 0.0
+            && self.phase == Phase::OnSide
+            && self.direction.admits(side, -side)
+            && self.is_there(function, from, (until, reach));
+        if !comes {
+            return Ok(None);
+        }
+        let error = function.root_error(until, self.clear.max(from), until)?;
+        Ok(Some(Found::Crossing { time: until, error, hidden: false, rising: side < 0.0 }))
+    }
+
+    /// What is known of a hidden interval that reaches the end of a stretch.
+    pub(super) fn hidden_at_end(&mut self, function: &impl Bounded, stretch: Stretch) -> Found {
+        let Stretch { from, until, horizon } = stretch;
+        let Some(hidden) = &mut self.hidden else { return Found::Nothing };
+        let closest = closest(function, self.level, hidden, from, until);
+        hidden.closest = Some(closest);
+        if horizon.is_none() {
+            return Found::Nothing;
+        }
+        let last = function.value(until) - self.level;
+        if self.side.is_some_and(|side| last * side < 0.0) {
+            // It has changed its sign on the last stretch, by a jump.
+            return self.crossing_at_horizon(from, until, last.signum());
+        }
+        match self.unclear {
+            true => Found::Nothing,
+            false => Found::Undecided { time: closest.0, value: closest.1 },
+        }
+    }
+
+    /// Whether a function on its way to its zero is there at the horizon, or within a time `reach` after it.
+    fn is_there(&self, function: &impl Bounded, from: f64, (horizon, reach): (f64, f64)) -> bool {
+        let from = self.clear.max(from);
+        let [first, last] = [from, horizon].map(|time| function.value(time) - self.level);
+        let rate = (last - first) / (horizon - from);
+        let side = self.side.unwrap_or(first.signum());
+        last * side <= 0.0 || last.abs() <= rate.abs() * reach
+    }
+
+    /// What a change of sign to `sign` on a hidden stretch that ends at the horizon is.
+    fn crossing_at_horizon(&mut self, from: f64, until: f64, sign: f64) -> Found {
+        let hidden = self.hidden.take().map_or(from, |hidden| hidden.from);
+        let counts = self.direction.admits(-sign, sign) && self.phase == Phase::OnSide;
+        (self.side, self.clear) = (Some(sign), until);
+        self.has_passed();
+        match counts {
+            true => Found::Crossing {
+                time: until,
+                error: until - hidden,
+                hidden: true,
+                rising: sign > 0.0,
+            },
+            false => Found::Nothing,
+        }
+    }
+}
