@@ -36,7 +36,7 @@ pub fn coverage_png(name: &str, raster: &ShareRaster) -> Result<Vec<u8>, Error> 
 
 /// Red, green and blue of every pixel, the highest row first. A small undecided part takes the mixture of the
 /// decided part; a larger one is yellow.
-pub fn coverage_pixels(raster: &ShareRaster) -> Vec<u8> {
+pub(crate) fn coverage_pixels(raster: &ShareRaster) -> Vec<u8> {
     let grid = raster.grid();
     let mut pixels = Vec::with_capacity(3 * grid.columns * grid.rows);
     for row in (0..grid.rows).rev() {

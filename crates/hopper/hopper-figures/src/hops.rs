@@ -17,7 +17,7 @@ const STEPS: usize = 64;
 ///
 /// # Errors
 /// [`Error::Figure`] if the numbers are not one for each pixel, or there are none.
-pub fn draw_hops(window: &BasinWindow, grid: &Grid, hops: &[u64]) -> Result<Svg, Error> {
+pub(crate) fn draw_hops(window: &BasinWindow, grid: &Grid, hops: &[u64]) -> Result<Svg, Error> {
     let largest = hops.iter().copied().max().unwrap_or(0);
     let rows = hops.chunks(grid.columns.max(1)).rev();
     let pixels: Vec<u8> = rows.flatten().flat_map(|&count| hop_color(count, largest)).collect();
@@ -59,13 +59,7 @@ fn scale(svg: &mut Svg, (left, top): (f64, f64), width: f64, largest: u64) -> Re
 }
 
 /// The colour of a number of hops, on the scale from no hops to `largest`.
-///
-/// ```
-/// use hopper_figures::hop_color;
-/// assert_eq!(hop_color(0, 1000), [255, 247, 188]);
-/// assert_eq!(hop_color(1000, 1000), [23, 9, 58]);
-/// ```
-pub fn hop_color(count: u64, largest: u64) -> [u8; 3] {
+pub(crate) fn hop_color(count: u64, largest: u64) -> [u8; 3] {
     color(place(count, largest))
 }
 
@@ -88,6 +82,12 @@ fn color(place: f64) -> [u8; 3] {
 mod tests {
     use super::*;
     use basin_of_attraction::Interval;
+
+    #[test]
+    fn the_scale_goes_from_light_to_dark() {
+        assert_eq!(hop_color(0, 1000), [255, 247, 188]);
+        assert_eq!(hop_color(1000, 1000), [23, 9, 58]);
+    }
 
     #[test]
     fn more_hops_are_darker() {

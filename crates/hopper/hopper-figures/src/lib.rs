@@ -7,9 +7,8 @@
 //! | [`draw_basins`], [`BasinWindow`] | a raster of fates with axes, legend and the frame of an inset |
 //! | [`label_png`], [`legend`] | its pixels alone; its legend alone |
 //! | [`draw_shares`], [`share_png`], [`share_pixels`], [`share_words`] | a raster whose pixels cover several fates |
-//! | [`draw_coverage`], [`coverage_png`], [`coverage_pixels`] | the same over (M, α), with undecided parts |
+//! | [`draw_coverage`], [`coverage_png`] | the same over (M, α), with undecided parts |
 //! | [`ZoomPixels`], [`draw_zoom_frame`], [`draw_zoom`] | the frames of a zoom into an edge, and all of them side by side |
-//! | [`draw_hops`], [`hop_color`] | a raster of numbers of hops, with axes and scale; one of its colours |
 //! | [`fate_colors`] | the colour and the name of every fate |
 //! | [`Graph`], [`graph_pieces`], [`cuts`], [`cuts_between`] | the graph of the map, in pieces that are smooth |
 //! | [`MapPlot`] | the map with its fixed points and traps, and the cobweb of an orbit |
@@ -49,10 +48,9 @@ mod zoom;
 
 pub use animation::{AnimationForm, animation, frame_png};
 pub use basins::{BasinWindow, Inset, PIXELS, draw_basins, draw_pixels, label_png, legend};
-pub use coverage::{coverage_pixels, coverage_png, draw_coverage};
+pub use coverage::{coverage_png, draw_coverage};
 pub use error::Error;
 pub use graph::{Graph, cuts, cuts_between, graph_pieces};
-pub use hops::{draw_hops, hop_color};
 pub use layer_columns::LayerColumns;
 pub use layers::{
     Content, FLAG, LAYERS, Layer, Meaning, Values, WITHOUT_FLAG, draw_layer, label_of,
@@ -61,7 +59,7 @@ pub use machine::{draw_block, draw_ground, draw_spring};
 pub use map_plot::MapPlot;
 pub use motion::{Motion, MotionEvent, Sample};
 pub use motion_errors::{SampleError, motion_with_errors};
-pub use motion_frames::{SECONDS_A_FRAME, draw_frame, frame_times};
+pub use motion_frames::{draw_frame, frame_times};
 pub use motion_plot::draw_motion;
 pub use shares::{draw_shares, share_pixels, share_png, share_words};
 pub use zoom::{ZoomPixels, draw_zoom, draw_zoom_frame};

@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 const FRAMES_A_PERIOD: f64 = 24.0;
 
 /// The time of a frame in seconds, so that a period of the spring lasts 1.2 s. A GIF counts hundredths of a second.
-pub const SECONDS_A_FRAME: f64 = 0.05;
+pub(crate) const SECONDS_A_FRAME: f64 = 0.05;
 
 /// The most frames: a minute, and some 20 MB.
 const MOST_FRAMES: usize = 1200;

@@ -1,7 +1,7 @@
 //! The tests of this crate are one program: what they share is compiled once, and the tests of all files run side by
 //! side.
 
-#![allow(missing_docs, clippy::panic, clippy::unwrap_used)]
+#![allow(missing_docs, clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 
 mod basin_calls;
 mod cli_page;

@@ -1,7 +1,5 @@
 //! The calls of docs/cli.md, run in order in one folder, give the output that the page shows.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
 use std::process::Command;
 
 /// The calls of the page, each with the lines after it.

@@ -1,7 +1,5 @@
 //! Every number that the program prints has a bound on its error, and the bound holds.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
 use super::common::call;
 use serde_json::{Map, Value};
 

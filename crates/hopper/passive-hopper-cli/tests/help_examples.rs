@@ -1,7 +1,5 @@
 //! The help: every command says units, limits and fields, and its examples run.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
 use super::common::call;
 use std::process::Command;
 

@@ -2,8 +2,6 @@
 //!
 //! `HOPPER_SEED=1 cargo test -p passive-hopper-cli random_calls` makes other calls than the test.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
 use super::common::call;
 use basin_of_attraction::SplitMix64;
 use std::panic::catch_unwind;

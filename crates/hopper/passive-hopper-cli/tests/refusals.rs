@@ -1,7 +1,5 @@
 //! Wrong calls: one clear line each, exit status 2, and nothing written.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
 use super::common::call;
 
 /// Calls, and a part of the message: the option or its value, and the remedy.

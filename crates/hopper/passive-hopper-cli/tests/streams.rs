@@ -1,7 +1,5 @@
 //! Standard streams: filters, numbers that read back, readers that go away, full disks.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
 use super::common::call;
 use std::io::{Read, Write};
 use std::process::{Command, Stdio};
