@@ -14,7 +14,7 @@ use std::process::{Command, ExitCode, Stdio};
 /// statements names a smaller number where a claim takes a second.
 const SAMPLE: &str = "1000";
 
-/// Random changes of each certificate. Twenty take 18 seconds; a thousand were tried once.
+/// Random changes of each certificate. Twenty take 18 seconds; a thousand of each were tried once.
 const CHANGES: &str = "20";
 
 /// Arguments at which enclosures of functions are compared. A million take ten seconds.
