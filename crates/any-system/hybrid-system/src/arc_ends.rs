@@ -225,7 +225,7 @@ impl<T: HybridSystem> Execution<'_, T> {
     }
 
     /// The flow from the present state.
-    fn flow(&self) -> FlowFrom<'_, T> {
+    pub(crate) fn flow(&self) -> FlowFrom<'_, T> {
         FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state }
     }
 

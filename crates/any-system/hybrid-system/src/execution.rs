@@ -2,15 +2,19 @@
 
 use crate::arc::{Arc, ArcEnd};
 use crate::chain::Chain;
-use crate::crossing::{Certainty, EventKind, LeavingGuards, NextEvent};
+use crate::crossing::{
+    Certainty, EventKind, LeavingGuards, NextEvent, change_by_components, guard_rounding,
+};
 use crate::error::Error;
+use crate::guard::{Guard, Role};
 use crate::limits::{Limits, Stop};
+use crate::next_event::flow_to;
 use crate::point::Point;
 use crate::residues::Residues;
 use crate::state::StateVector;
 use crate::system::HybridSystem;
 use crate::time_sum::TimeSum;
-use crate::zeno::History;
+use crate::zeno::{History, ZenoLimit};
 
 /// An execution of a hybrid system, as an iterator over its arcs.
 ///
@@ -57,10 +61,20 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     fn arc(&mut self) -> Result<AnArc<T>, Error> {
         self.check()?;
         let horizon = self.at.time.up_to(self.limits.time);
-        // Events before a limit on time that lies before the Zeno limit are followed.
-        let limit = self.at.history.zeno_limit(false);
-        if let Some(limit) = limit.filter(|limit| limit.remainder <= horizon) {
-            return Ok(self.zeno_arc(limit));
+        // Events before a limit on time, a clock or another event that comes before the Zeno limit are followed.
+        if let Some(limit) = self.at.history.zeno_limit(false)
+            && limit.remainder <= horizon
+            && !self.crosses_before(&limit)
+        {
+            match self.next_clock(limit.remainder)? {
+                None => return Ok(self.zeno_arc(limit)),
+                // Within the error of the limit the order is not known. The clock has its event, at the limit's state.
+                Some(clock) if clock.until >= limit.remainder - limit.time_error => {
+                    let event = clock.crossing(limit.state, Certainty::Interpolated);
+                    return self.event_arc(event, horizon, LeavingGuards::new());
+                }
+                Some(_) => {}
+            }
         }
         let (found, leaving) = match self.next_event(horizon) {
             // After many short bounces rounding hides the next one. If the durations form a geometric series, this is a
@@ -70,14 +84,17 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 | Error::UndecidedSign { .. }
                 | Error::Grazing { .. }),
             ) => {
-                return match self.at.history.zeno_limit(true) {
-                    Some(limit) if limit.remainder <= horizon => Ok(self.zeno_arc(limit)),
-                    // Rounding hides the events up to the limit on time, and with them how far they move the state.
-                    Some(_) => {
-                        let leaving = LeavingGuards::new();
-                        self.arc_without_event(horizon, None, Certainty::Interpolated, leaving)
+                let Some(limit) = self.at.history.zeno_limit(true) else { return Err(hidden) };
+                // Rounding hides the events up to a clock or to the limit on time, and with them how far they move the
+                // state.
+                let (leaving, certainty) = (LeavingGuards::new(), Certainty::Interpolated);
+                return match self.next_clock(limit.remainder.min(horizon))? {
+                    Some(clock) => {
+                        let state = flow_to(&self.flow(), clock.until);
+                        self.event_arc(clock.crossing(state, certainty), horizon, leaving)
                     }
-                    None => Err(hidden),
+                    None if limit.remainder <= horizon => Ok(self.zeno_arc(limit)),
+                    None => self.arc_without_event(horizon, None, certainty, leaving),
                 };
             }
             found => found?,
@@ -122,6 +139,22 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 Ok(arc)
             }
         }
+    }
+
+    /// Whether a guard is clearly on its other side at a Zeno limit: then its event comes before the limit.
+    fn crosses_before(&self, limit: &ZenoLimit<T::State>) -> bool {
+        let crosses = |guard: &Guard<T::Surface>| {
+            let value = |state: &T::State| self.system.guard_value(guard.surface, state);
+            let [now, then] = [&self.at.state, &limit.state].map(value);
+            let rounding = |state: &T::State| guard_rounding(state, state, value);
+            let error = change_by_components(&limit.state, |_| limit.state_error, value);
+            now * then < 0.0
+                && guard.direction.admits(now.signum(), then.signum())
+                && now.abs() > rounding(&self.at.state)
+                && then.abs() > error + rounding(&limit.state)
+        };
+        let guards = self.system.guards(self.at.mode).iter();
+        guards.filter(|guard| guard.role != Role::Clock).any(crosses)
     }
 
     fn check(&self) -> Result<(), Error> {

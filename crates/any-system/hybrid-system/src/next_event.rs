@@ -71,19 +71,10 @@ impl<T: HybridSystem> Execution<'_, T> {
             false => self.system.first_crossing(mode, state, &search)?,
         };
         let found = match (found, clock) {
-            (
-                NextEvent::None { state: end, certainty },
-                Some(ClockEvent { surface, until, .. }),
-            ) => NextEvent::Crossing(Crossing {
-                surface,
-                time: until,
-                time_rounding: 0.0,
-                time_error: 0.0,
-                state: end.unwrap_or_else(|| flow_to(&flow, until)),
-                kind: EventKind::Clock,
-                from: None,
-                certainty,
-            }),
+            (NextEvent::None { state: end, certainty }, Some(clock)) => {
+                let state = end.unwrap_or_else(|| flow_to(&flow, clock.until));
+                NextEvent::Crossing(clock.crossing(state, certainty))
+            }
             (found, _) => found,
         };
         Ok((found, leaving))
@@ -129,6 +120,22 @@ pub(crate) struct ClockEvent<S> {
     pub(crate) until: f64,
     /// Its time t.
     pub(crate) time: f64,
+}
+
+impl<S> ClockEvent<S> {
+    /// The event, at a state. Its time has no error.
+    pub(crate) fn crossing<X>(self, state: X, certainty: Certainty) -> Crossing<S, X> {
+        Crossing {
+            surface: self.surface,
+            time: self.until,
+            time_rounding: 0.0,
+            time_error: 0.0,
+            state,
+            kind: EventKind::Clock,
+            from: None,
+            certainty,
+        }
+    }
 }
 
 /// The state at a time of a flow; the start itself at time zero.

@@ -315,3 +315,47 @@ fn an_integrated_ball_rests_as_in_sciml_696() {
         assert_eq!(last.state(&ball, last.duration).unwrap(), Vector2::new(-1.0, 0.0));
     }
 }
+
+/// A ball with restitution ½ from a height of ½ rests at t = 3. What comes a little before it is no part of the series:
+/// a clock that kicks, a clock that only ticks, and an observer of another component each have their event.
+#[test]
+fn what_comes_before_a_limit_is_not_jumped_over() {
+    for before in [1e-3, 1e-6, 1e-9, 1e-12] {
+        let tick = 3.0 - before;
+        for kick in [0.0, 10.0] {
+            let ball = Model::integrated(|flies: bool, x: &State<3>| match flies {
+                true => [x[1], -1.0, 1.0],
+                false => [0.0, 0.0, 1.0],
+            })
+            .falling(true, |x| x[0], |x| (true, [x[0], -0.5 * x[1], x[2]]))
+            .contact()
+            .rising(true, move |x| x[2] - tick, |x| (true, *x))
+            .crossing()
+            .clock(
+                true,
+                2,
+                move |now| (now < tick).then_some(tick),
+                move |_, x| (true, [x[0], x[1] + kick, x[2]]),
+            )
+            .tolerance(1e-12)
+            .rest(|_, limit| Some((false, [0.0, 0.0, limit[2]])));
+            let mut seen = [0; 3];
+            let mut execution =
+                Execution::new(&ball, true, State::from([0.5, 0.0, 0.0]), Limits::new(5.0, 4000));
+            for arc in execution.by_ref() {
+                let arc = arc.unwrap_or_else(|error| panic!("{before:e} {kick}: {error}"));
+                if let Some(event) = arc.event() {
+                    seen[usize::from(event.surface)] += 1;
+                }
+            }
+            assert_eq!(seen[2], 1, "{before:e} {kick}: {seen:?}");
+            if before >= 1e-6 {
+                assert_eq!(seen[1], 1, "{before:e} {kick}: {seen:?}");
+            }
+            if kick > 0.0 && before == 1e-3 {
+                // Two units of time after the kick it is at 18.
+                assert!(execution.state()[0] > 15.0, "{}", execution.state());
+            }
+        }
+    }
+}

@@ -54,11 +54,13 @@ pub use first_crossing::FirstCrossing;
 #[cfg(feature = "ode")]
 pub(crate) use found::Found;
 pub(crate) use guard_rate::guard_rate;
+pub(crate) use guard_rounding::{
+    change_by_components, guard_rounding, is_far, spread, stated_or_measured,
+};
 #[cfg(feature = "ode")]
 pub(crate) use guard_rounding::{
-    change_by_components, rounding_around, rounding_beside_zero, rounding_of_state, side_of_surface,
+    rounding_around, rounding_beside_zero, rounding_of_state, side_of_surface,
 };
-pub(crate) use guard_rounding::{guard_rounding, is_far, spread, stated_or_measured};
 pub(crate) use guarded_flow::GuardedFlow;
 pub use next_event::{Crossing, EventKind, NextEvent};
 pub use quasi_polynomial::{QuasiPolynomial, QuasiPolynomialPart};

@@ -229,7 +229,7 @@ mod tests {
         std::fs::write(&path, drawing).unwrap();
         let found = compare(&made, &folder, true).unwrap().differing;
         assert_eq!(found.len(), 1, "{found:?}");
-        assert!(found[0].starts_with("fig_02_map.svg: part ") && found[0].contains(" was "));
+        assert!(found[0].starts_with("fig_02_map.svg: line ") && found[0].contains(" was "));
         // Data that no figure makes, and data without a digest.
         let data = made[0].0.data.remove(0);
         let found = compare(&made, &folder, true).unwrap().differing;
