@@ -345,7 +345,7 @@ fn what_comes_before_a_limit_is_not_jumped_over() {
             for arc in execution.by_ref() {
                 let arc = arc.unwrap_or_else(|error| panic!("{before:e} {kick}: {error}"));
                 if let Some(event) = arc.event() {
-                    seen[usize::from(event.surface)] += 1;
+                    seen[event.surface] += 1;
                 }
             }
             assert_eq!(seen[2], 1, "{before:e} {kick}: {seen:?}");
