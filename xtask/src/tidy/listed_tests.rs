@@ -11,8 +11,8 @@ pub(super) fn check(sources: &[Source], breaches: &mut Vec<Breach>) {
         sources.iter().find(|source| source.name == name).map_or("", |source| &source.text)
     };
     for source in sources {
-        let manifest = text(format!("{}/Cargo.toml", source.package()));
         let Some(name) = test_file(source) else { continue };
+        let manifest = text(format!("{}/Cargo.toml", source.package()));
         if !manifest.contains("autotests = false") {
             continue;
         }

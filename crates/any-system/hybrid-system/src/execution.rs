@@ -3,7 +3,7 @@
 use crate::arc::{Arc, ArcEnd};
 use crate::chain::Chain;
 use crate::crossing::{
-    Certainty, EventKind, LeavingGuards, NextEvent, change_by_components, guard_rounding,
+    Certainty, EventKind, GuardedFlow, LeavingGuards, NextEvent, change_by_components,
 };
 use crate::error::Error;
 use crate::guard::{Guard, Role};
@@ -143,17 +143,18 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
 
     /// Whether a guard is clearly on its other side at a Zeno limit: then its event comes before the limit.
     fn crosses_before(&self, limit: &ZenoLimit<T::State>) -> bool {
+        let flow = self.flow();
         let crosses = |guard: &Guard<T::Surface>| {
-            let value = |state: &T::State| self.system.guard_value(guard.surface, state);
+            let value = |state: &T::State| flow.guard_value(guard.surface, state);
+            let rounding = |state| flow.rounding_at(guard.surface, state);
+            let error = || change_by_components(&limit.state, |_| limit.state_error, value);
             let [now, then] = [&self.at.state, &limit.state].map(value);
-            let rounding = |state: &T::State| guard_rounding(state, state, value);
-            let error = change_by_components(&limit.state, |_| limit.state_error, value);
             now * then < 0.0
                 && guard.direction.admits(now.signum(), then.signum())
                 && now.abs() > rounding(&self.at.state)
-                && then.abs() > error + rounding(&limit.state)
+                && then.abs() > error() + rounding(&limit.state)
         };
-        let guards = self.system.guards(self.at.mode).iter();
+        let guards = flow.guards().iter();
         guards.filter(|guard| guard.role != Role::Clock).any(crosses)
     }
 

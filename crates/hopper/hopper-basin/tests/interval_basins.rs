@@ -115,7 +115,7 @@ fn ranges_of_humps_that_never_end_are_errors() {
 /// that `f64` resolves.
 #[test]
 fn at_extreme_mass_ratios_the_traps_are_the_basins() {
-    let small = basins(&fates(1e-300), 100);
+    let small = basins(&fates(1e-300), 400);
     assert_eq!((small.ground, small.probes.wrong), (BranchGround::Proved, 0));
     assert_eq!(small.basins.stop_reason(), StopReason::Resolved);
     for n in 1..6 {
@@ -125,9 +125,11 @@ fn at_extreme_mass_ratios_the_traps_are_the_basins() {
                 < 1e-13
         );
     }
-    for m in [51.0, 1.0 / f64::MIN_POSITIVE] {
+    // Without optimization these are the two ends.
+    let all = [51.0, 1.0 / f64::MIN_POSITIVE, 1e3, 1e300];
+    for &m in if cfg!(debug_assertions) { &all[..2] } else { &all[..] } {
         let fates = fates(m);
-        let large = basins(&fates, 100);
+        let large = basins(&fates, 400);
         assert_eq!((large.ground, large.probes.wrong), (BranchGround::ContactParts, 0), "{m}");
         assert!(large.probes.compared > 400, "{m} {:?}", large.probes);
         for n in 1..6 {

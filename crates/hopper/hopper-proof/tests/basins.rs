@@ -202,6 +202,8 @@ fn what_is_no_question_is_refused() {
 /// 839 wrong labels here.
 #[test]
 fn basins_as_intervals_have_no_wrong_label_at_any_mass_ratio() {
+    // Without optimization a quarter of the probes is compared.
+    let count = if cfg!(debug_assertions) { 5_000 } else { 20_000 };
     for (m, undecided) in [(0.95, 0.5), (2.0, 2.0), (5.0, 5.0), (20.0, 8.0)] {
         let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
         let refinement = Refinement { undecided, ..Refinement::default() };
@@ -209,8 +211,8 @@ fn basins_as_intervals_have_no_wrong_label_at_any_mass_ratio() {
         assert_eq!(found.ground, BranchGround::Enclosures, "{m}");
         assert_eq!(found.basins.stop_reason(), StopReason::Resolved, "{m}");
         assert!(found.basins.undecided() <= undecided, "{m} {}", found.basins.undecided());
-        let probes = found.probe(&fates, 5_000, 7).unwrap();
-        assert!(probes.wrong == 0 && probes.compared > 2_000, "{m} {probes:?}");
+        let probes = found.probe(&fates, count, 7).unwrap();
+        assert!(probes.wrong == 0 && probes.compared > 2 * count / 5, "{m} {probes:?}");
     }
 }
 
