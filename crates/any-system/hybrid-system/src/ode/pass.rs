@@ -2,7 +2,7 @@
 
 use super::followed_guard::GuardOnStep;
 use super::integration::Integration;
-use super::polish::{Accuracy, CorrectedStep, rate};
+use super::polish::{Accuracy, CorrectedStep};
 use super::step::Step;
 use super::tolerances::Tolerances;
 use crate::crossing::{
@@ -170,13 +170,13 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         sides: &[(Guard<T::Surface>, f64)],
     ) -> Result<Option<(f64, T::Surface, f64)>, Error> {
         let mut first: Option<(f64, T::Surface, f64)> = None;
-        for &(guard, side) in sides.iter().filter(|(guard, _)| Some(guard.surface) != surface) {
+        for &(guard, side) in sides {
             let along = |at: f64| self.system.guard_value(guard.surface, &on_step.state(at));
             let before = time.next_down().max(on_step.from());
             let [at_end, at_before] = [along(time), along(before)];
             // At the same double as the event, it comes at the same instant: the next arc begins with it.
-            let is_past = at_end * side < 0.0 && at_before * side <= 0.0;
-            if !is_past || !guard.direction.admits(side, -side) {
+            let passes = Some(guard.surface) == surface || at_end * side < 0.0;
+            if !passes || at_before * side > 0.0 || !guard.direction.admits(side, -side) {
                 continue;
             }
             if let Some(at) = on_step.first_zero((before, at_before), side, along)?
@@ -282,9 +282,9 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         {
             let sides = sides_before(followed);
             let step = integration.last_step()?;
-            let on_step = CorrectedStep::uncorrected(&step);
+            let on_step = CorrectedStep::ending_at(&step, &state);
             let first = self.sooner_on(&on_step, (None, step.to), &sides)?;
-            // The polynomial of the step may end an ulp beside the state, still on the other side.
+            // The corrected step may end an ulp beside the state, still on the other side.
             let side = changed.search.known_side().unwrap_or(0.0);
             let (time, surface, side) = first.unwrap_or((step.to, changed.guard.surface, side));
             let event = (surface, EventKind::Crossing, Some(side));
@@ -293,29 +293,6 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 crossing.state = state;
             }
             return Ok(NextEvent::Crossing(crossing));
-        }
-        for Followed { guard, search, .. } in followed {
-            let Some(side) = search.known_side() else { continue };
-            let surface = guard.surface;
-            let value = |state: &T::State| self.system.guard_value(surface, state);
-            let time = integration.interval().1;
-            if !guard.direction.admits(side, -side)
-                || integration.at_rest()
-                || !self.approaches(surface, side, &integration)
-            {
-                continue;
-            }
-            // The rate before the horizon: a guard may jump or bend behind it.
-            let step = integration.last_step()?;
-            let rate = -side * rate(&step, time, value);
-            if !(value(&state).abs() <= rate * self.request.horizon_reach()) {
-                continue;
-            }
-            let on_step = CorrectedStep::uncorrected(&step);
-            let kind = EventKind::Crossing;
-            let crossing =
-                self.crossing(&on_step, (time, 0.0), (surface, kind, Some(side)), accuracy);
-            return Ok(NextEvent::Crossing(Crossing { state, ..crossing }));
         }
         Ok(NextEvent::None { state: Some(state), certainty })
     }

@@ -73,6 +73,13 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
         CorrectedStep { step, correction: None }
     }
 
+    /// The step, moved so that it ends at this state: its polynomial may end beside it.
+    pub(super) fn ending_at(step: &'a Step<V>, state: &V) -> Self {
+        let mut correction = state.clone();
+        correction.add_scaled(-1.0, &step.state(step.to));
+        CorrectedStep { step, correction: Some(correction) }
+    }
+
     /// The state at a time of the step.
     pub(super) fn state(&self, time: f64) -> V {
         let mut state = self.step.state(time);

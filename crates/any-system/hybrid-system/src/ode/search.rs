@@ -200,7 +200,10 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             }
             _ => (time, CorrectedStep::uncorrected(step)),
         };
-        let sides = sides_before(before);
+        let mut sides = sides_before(before);
+        if kind == EventKind::Touch {
+            sides.retain(|(guard, _)| guard.surface != surface);
+        }
         let found_first = (Some(surface), time);
         let (time, hidden, event) = match self.sooner_on(&corrected, found_first, &sides)? {
             Some((time, sooner, side)) => (time, 0.0, (sooner, EventKind::Crossing, Some(side))),
@@ -224,7 +227,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         for followed in followed.iter_mut() {
             let guard = followed.guard;
             let on_step = self.on_step(step, guard.surface, followed.stated);
-            let horizon = (until >= self.request.horizon).then(|| self.request.horizon_reach());
+            let horizon = (until >= self.request.horizon).then_some(0.0);
             let found = loop {
                 match followed.search.advance(&on_step, until, horizon, budget) {
                     Ok(Found::Touch { .. } | Found::Undecided { .. })
