@@ -2,7 +2,7 @@
 
 mod beyond_jump;
 
-use crate::crossing::{GuardedFlow, LeavingGuards, guard_rate, is_far};
+use crate::crossing::{GuardedFlow, LeavingGuards, as_searched, guard_rate};
 use crate::guard::{Direction, Guard, Role};
 use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem};
@@ -49,6 +49,17 @@ impl DurationOfArc {
     }
 }
 
+/// A surface that was reached at the instant of an event of another one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Reached<S> {
+    surface: S,
+    /// The side from which its guard came, ±1.
+    from: f64,
+    /// True as soon as it has had its own event.
+    has_passed: bool,
+}
+
 /// The end of the last arc, as long as no time has passed since.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -73,8 +84,8 @@ pub(crate) struct Arrival<M, S, X> {
     solved: bool,
     /// The guards on whose surfaces the arc started.
     leaving: LeavingGuards<S>,
-    /// Other surfaces that were reached at the same instant, with the sides from which the guards came.
-    reached: SmallVec<[(S, f64); FEW]>,
+    /// Other surfaces that were reached at the same instant.
+    reached: SmallVec<[Reached<S>; FEW]>,
 }
 
 impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
@@ -119,7 +130,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
                 arrival.side_before(arc, guard)
             };
             if let Some(from) = from.filter(|from| guard.direction.admits(*from, -from)) {
-                arrival.reached.push((guard.surface, from.signum()));
+                let (surface, from) = (guard.surface, from.signum());
+                arrival.reached.push(Reached { surface, from, has_passed: false });
             }
         }
         arrival
@@ -136,8 +148,24 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
 
     /// The side to which the guard of this surface has passed, ±1, if it was crossed.
     pub(crate) fn passed_to(&self, surface: S) -> Option<f64> {
-        let passed = Some(surface) == self.surface && !self.touched && self.from != 0.0;
-        passed.then_some(-self.from)
+        if Some(surface) == self.surface {
+            return (!self.touched && self.from != 0.0).then_some(-self.from);
+        }
+        let reached = self.reached.iter().find(|reached| reached.surface == surface);
+        reached.filter(|reached| reached.has_passed).map(|reached| -reached.from)
+    }
+
+    /// The side to which a guard was leaving its surface when the arc began, if its value `now`, at the end, still
+    /// hides whether it has: signs of rounding are no further zeros.
+    pub(crate) fn still_leaves<T>(&self, next: &FlowFrom<T>, surface: S, now: f64) -> Option<f64>
+    where
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
+    {
+        let left = self.leaving.iter().find(|left| left.surface == surface && !left.ahead)?;
+        let is_other = left.side != 0.0 && now * left.side <= 0.0;
+        let hidden = || now.abs() <= next.rounding_at(surface, next.start);
+        let arc = FlowFrom { system: next.system, mode: self.mode, start: &self.start };
+        (is_other && hidden() && self.has_stayed(&arc, surface)).then_some(left.side)
     }
 
     /// The side from which the crossed guard came, ±1; 0 if nothing was crossed.
@@ -162,12 +190,20 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         if side == 0.0 || start == 0.0 && left.is_none() {
             return None;
         }
+        // The bounds of a guard and its value round differently: what one of them shows counts.
+        let shows = |side: f64| {
+            let by_time = || self.earlier(arc.system, guard.surface).1;
+            let rounding = || arc.rounding_at(guard.surface, &self.before);
+            let near = || now.abs() <= rounding() + by_time();
+            let searched = || as_searched(arc, guard.surface, self.duration);
+            now * side >= 0.0 || near() && searched() * side >= 0.0
+        };
         if !guard.direction.admits(side, -side) {
             // From the far side it comes to an event after two zeros only, the second one at the end.
-            let came_back = now * side >= 0.0 && self.was_on_side_before(arc, guard.surface, -side);
+            let came_back = shows(side) && self.was_on_side_before(arc, guard.surface, -side);
             return came_back.then_some(-side);
         }
-        if now * side > 0.0 {
+        if !shows(-side) {
             return None;
         }
         // It may not have come to its side yet, if the arc is short.
@@ -182,10 +218,6 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let value = |state: &X| arc.guard_value(surface, state);
-        let size = self.before.largest();
-        if is_far(&self.before, size, value(&self.before), value) {
-            return false;
-        }
         let mut lookback = LOOKBACK * self.time_rounding.max(f64::EPSILON * self.duration);
         while lookback < self.duration {
             let state = self.state_before(arc.system, lookback);
@@ -307,7 +339,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
 
     /// The sign that the guard of this surface had before, if the surface was reached at the same instant.
     pub(crate) fn came_from(&self, surface: S) -> Option<f64> {
-        self.reached.iter().find(|reached| reached.0 == surface).map(|reached| reached.1)
+        let mut ahead = self.reached.iter().filter(|reached| !reached.has_passed);
+        ahead.find(|reached| reached.surface == surface).map(|reached| reached.from)
     }
 
     /// The error of a guard after the reset, at the start of `next`, by the error of the time of the crossing. The
@@ -334,7 +367,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     {
         let is_zero =
             |state: &X| arc.guard_value(surface, state).abs() <= arc.rounding_at(surface, state);
-        is_zero(arc.start) && is_zero(&arc.state(0.5 * self.duration))
+        is_zero(arc.start) && PLACES.iter().all(|part| is_zero(&arc.state(part * self.duration)))
     }
 
     /// The value of a guard before the rounding of the time of the crossing, and the change within it.
@@ -375,9 +408,11 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         system.flow(self.mode, &self.start, (self.duration - lookback).max(0.0))
     }
 
-    /// This surface is no longer one that was reached at the same instant: its event has happened.
+    /// A surface that was reached at the same instant has had its event.
     pub(crate) fn passed(&mut self, surface: S) {
-        self.reached.retain(|reached| reached.0 != surface);
+        for reached in self.reached.iter_mut().filter(|reached| reached.surface == surface) {
+            reached.has_passed = true;
+        }
     }
 }
 

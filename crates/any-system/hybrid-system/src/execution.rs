@@ -147,12 +147,19 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         let crosses = |guard: &Guard<T::Surface>| {
             let value = |state: &T::State| flow.guard_value(guard.surface, state);
             let rounding = |state| flow.rounding_at(guard.surface, state);
-            let error = || change_by_components(&limit.state, |_| limit.state_error, value);
-            let [now, then] = [&self.at.state, &limit.state].map(value);
-            now * then < 0.0
-                && guard.direction.admits(now.signum(), then.signum())
-                && now.abs() > rounding(&self.at.state)
-                && then.abs() > error() + rounding(&limit.state)
+            let now = value(&self.at.state);
+            let passes = |then: f64, error: f64| {
+                now * then < 0.0
+                    && guard.direction.admits(now.signum(), then.signum())
+                    && then.abs() > error
+            };
+            if now.abs() > rounding(&self.at.state) {
+                let error = || change_by_components(&limit.state, |_| limit.state_error, value);
+                return passes(value(&limit.state), error() + rounding(&limit.state));
+            }
+            // Next to its zero, which may be ahead.
+            let soon = flow.state(0.5 * limit.remainder);
+            !self.at.chain.contains(guard.surface) && passes(value(&soon), rounding(&soon))
         };
         let guards = flow.guards().iter();
         guards.filter(|guard| guard.role != Role::Clock).any(crosses)

@@ -110,6 +110,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             && !arrival.has_touched(flow, surface)
         {
             let passed = arrival.passed_to(surface).filter(|_| !switch);
+            let passed = passed.or_else(|| arrival.still_leaves(flow, surface, now));
             let at_rest = now != 0.0 && residue == 0.0 && !beyond && !crossed;
             if let Some(side) = passed.or(at_rest.then_some(now.signum())) {
                 leaving.push(Leaving { surface, side, ahead: now * side > 0.0 });

@@ -273,7 +273,7 @@ where
         for (_, time) in &whole {
             let stop = (0..ulps).fold(*time, |time, _| time.next_up());
             arcs.extend(execution.run_until(stop).map(Result::unwrap));
-            last = last.max(stop);
+            last = last.max(stop.next_up().next_up());
         }
         arcs.extend(execution.run_until(last).map(Result::unwrap));
         let found = events(arcs);

@@ -67,7 +67,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         if Some(surface) != self.surface || is_beyond(next.start)? {
             return None;
         }
-        let mut time = SHORTEST_LOOK * longest;
+        // The next flight may be as short as the last one.
+        let mut time = SHORTEST_LOOK * longest.min(self.duration);
         while time > 0.0 && time <= longest {
             let state = next.system.flow(next.mode, next.start, time);
             let has_returned = next.guard_value(surface, &state) * now < 0.0;

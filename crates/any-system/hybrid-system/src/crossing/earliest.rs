@@ -52,6 +52,7 @@ pub(crate) fn earliest_crossing<F: GuardedFlow>(
         };
         let found =
             Candidate { time, error: error + TIME_ULPS * f64::EPSILON * time, index, touch, from };
+        let found = found.or_same(earliest, flow);
         if earliest.is_none_or(|earliest| found.is_sooner_than(&earliest)) {
             // A guard that is searched later may come at the same instant: up to the sum of both errors later.
             until = until.min(time + 2.0 * found.error);
@@ -72,7 +73,7 @@ pub(crate) fn earliest_crossing<F: GuardedFlow>(
             (until, unfinished) = (time, true);
             earliest = earliest.filter(|earliest| earliest.time <= time);
         }
-        if let Some(found) = sampled.first
+        if let Some(found) = sampled.first.map(|found| found.or_same(earliest, flow))
             && earliest.is_none_or(|earliest| found.is_sooner_than(&earliest))
         {
             earliest = Some(found);

@@ -16,7 +16,7 @@ use super::first_crossing::FirstCrossing;
 use super::found::Found;
 use super::quasi_layers::{Layers, Size};
 use super::quasi_polynomial::QuasiPolynomial;
-use super::search_request::{MOST_INTERVALS, horizon_reach};
+use super::search_request::MOST_INTERVALS;
 use super::zero_search::ZeroSearch;
 use super::zero_test::ZeroTest;
 use crate::error::Error;
@@ -91,7 +91,7 @@ impl QuasiPolynomial {
         let start = (0.0, bounded.value(0.0));
         let mut search = ZeroSearch::new(direction, start, bounded.at(0.0)?, 0.0, None);
         let mut budget = intervals;
-        Ok(match search.advance(&bounded, horizon, Some(horizon_reach(horizon)), &mut budget)? {
+        Ok(match search.advance(&bounded, horizon, true, &mut budget)? {
             Found::Crossing { time, rising, .. } => FirstCrossing::At { time, rising },
             Found::Touch { time, .. } => FirstCrossing::Touch { time, value: self.value(time) },
             Found::Undecided { time, .. } => {

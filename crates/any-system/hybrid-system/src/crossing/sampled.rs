@@ -67,6 +67,7 @@ pub(crate) fn sampled_event<F: GuardedFlow>(
                 guard,
                 side: (!stays).then_some(side),
                 level,
+                leaves: known.filter(|side| *side != 0.0).map(|_| value.abs()),
                 since: 0.0,
                 zero: None,
             })
@@ -109,6 +110,7 @@ pub(crate) fn sampled_event<F: GuardedFlow>(
             for (guard, &index) in sampled.iter().zip(indices) {
                 if let (Some(side), Some((zero, _))) = (guard.side, guard.zero)
                     && zero > 0.0
+                    && guard.leaves.is_none()
                     && guard.guard.direction.admits(side, -side)
                 {
                     let error = 2.0 * f64::EPSILON * zero;
@@ -227,6 +229,9 @@ struct SampledGuard<S> {
     side: Option<f64>,
     /// The value that counts as zero as long as `side` is `None`.
     level: f64,
+    /// As long as no sample has shown that the guard has left its surface to this side: the size of its value at the
+    /// start, which counts as zero.
+    leaves: Option<f64>,
     /// The last sample at which the guard was on that side.
     since: f64,
     /// The first and the last of the samples since then, at all of which the guard is exactly zero.
@@ -240,6 +245,7 @@ impl<S: Copy + Debug> SampledGuard<S> {
     /// |---|---|---|
     /// | any | 0 | undecided until the next value that is not zero |
     /// | 0 since the start | 0 within rounding | the same |
+    /// | a side that it leaves to, not seen yet | 0 within rounding | the same |
     /// | 0 since the start | beyond the surface of a switch | error: crossed at once, or gone and come back between two samples |
     /// | 0 since the start | before the surface | left the start, no crossing |
     /// | one side, with zeros in between | the same side | touch |
@@ -259,6 +265,14 @@ impl<S: Copy + Debug> SampledGuard<S> {
             return Ok(Sample::Quiet);
         }
         let now = value.signum();
+        // Rounding of a sample just behind the start.
+        if let Some(start) = self.leaves
+            && self.side != Some(now)
+            && value.abs() <= start.max(rounding())
+        {
+            return Ok(Sample::Quiet);
+        }
+        self.leaves = None;
         let (zero, since) = (self.zero.take(), std::mem::replace(&mut self.since, time));
         let Guard { surface, direction, touch, role } = self.guard;
         match self.side.replace(now) {

@@ -6,16 +6,6 @@ use smallvec::SmallVec;
 /// takes too long. Every oscillation up to the horizon takes several intervals.
 pub(crate) const MOST_INTERVALS: usize = 1_000_000;
 
-/// A guard that comes to its surface so many ulps of time after the horizon has its event on it. The time of an
-/// event is accurate to about two, and the horizon may be such a time, rounded once more. With a smaller number a
-/// run to the time of an event could miss it; with a larger one events would be early.
-const HORIZON_ULPS: f64 = 4.0;
-
-/// How long after a horizon at this time a zero still counts as one on it.
-pub(super) fn horizon_reach(time: f64) -> f64 {
-    HORIZON_ULPS * f64::EPSILON * time
-}
-
 /// Guards of one mode that are handled without allocating. Most models have fewer.
 const FEW: usize = 8;
 
@@ -83,11 +73,6 @@ impl<S: Copy + PartialEq> Search<'_, S> {
     pub fn side(&self, surface: S) -> Option<f64> {
         let mut past = self.leaving.iter().filter(|leaving| !leaving.ahead);
         past.find(|leaving| leaving.surface == surface).map(|leaving| leaving.side)
-    }
-
-    /// How long after the horizon a zero still counts as one on it.
-    pub(crate) fn horizon_reach(&self) -> f64 {
-        horizon_reach(self.time.abs() + self.horizon)
     }
 
     /// The side on which the guard of this surface starts, if rounding alone would not tell: its zero is still ahead.

@@ -49,6 +49,17 @@ pub(crate) fn event_under_bounds<F: GuardedFlow>(
     first_event(flow, guard, search, &EnclosedGuard { value, enclosure }, until).map(Some)
 }
 
+/// A guard along a flow as its search sees it: its quasi-polynomial, if the model gives one, else its value.
+pub(crate) fn as_searched<F: GuardedFlow>(flow: &F, surface: F::Surface, time: f64) -> f64 {
+    match flow.quasi_polynomial(surface) {
+        Some(function) => match BoundedQuasiPolynomial::new(&function, time) {
+            Ok(bounded) => bounded.value(time),
+            Err(_) => f64::NAN,
+        },
+        None => flow.guard_at(surface, time),
+    }
+}
+
 /// The bounds at the start and the value of the guard there may differ by this part of the guard's size: a model
 /// may compute both in different ways. A larger number would let more wrong bounds pass; a smaller one would refuse
 /// models that lose digits.
@@ -111,8 +122,7 @@ fn first_event<F: GuardedFlow>(
     };
     let mut budget = search.intervals;
     loop {
-        let horizon = (until >= search.horizon).then(|| search.horizon_reach());
-        let found = zeros.advance(bounded, until, horizon, &mut budget)?;
+        let found = zeros.advance(bounded, until, until >= search.horizon, &mut budget)?;
         return Ok(match found {
             Found::Crossing { time, error, .. } => {
                 OneGuard::Crossing { time, error, from: found.from() }

@@ -58,8 +58,8 @@ impl Phase {
 pub(super) struct Stretch {
     pub(super) from: f64,
     pub(super) until: f64,
-    /// Time after the end within which a zero counts, if no later stretch follows.
-    pub(super) horizon: Option<f64>,
+    /// True if no later stretch follows.
+    pub(super) is_last: bool,
 }
 
 /// The state of a search for the zeros of a function of time.
@@ -112,21 +112,20 @@ impl ZeroSearch {
         self.left_hidden
     }
 
-    /// Searches up to `until`. At the horizon no later stretch follows: a zero that a function comes to within the time
-    /// `horizon` after it is a crossing there.
+    /// Searches up to `until`. At the horizon of the whole search no later stretch follows: this one `is_last`.
     ///
     /// `budget` is the number of intervals that may still be tested. After a touch a further call goes on behind it.
     pub(crate) fn advance(
         &mut self,
         function: &impl Bounded,
         until: f64,
-        horizon: Option<f64>,
+        is_last: bool,
         budget: &mut usize,
     ) -> Result<Found, Error> {
         if self.time >= until {
             return Ok(Found::Nothing);
         }
-        let stretch = Stretch { from: self.time, until, horizon };
+        let stretch = Stretch { from: self.time, until, is_last };
         if self.phase.is_at_start()
             && self.hidden.is_none()
             && let Some(found) = self.leave(function, stretch)?

@@ -7,19 +7,20 @@ use super::zero_search::{Phase, Stretch, ZeroSearch};
 use crate::error::Error;
 
 impl ZeroSearch {
-    /// The crossing at the horizon of a monotone function on its way to zero that is there, within rounding.
+    /// The crossing at the horizon of a monotone function whose computed value is zero or beyond it there, although
+    /// rounding hides the sign.
     pub(super) fn reaches_horizon(
         &self,
         function: &impl Bounded,
-        Stretch { from, until, horizon }: Stretch,
+        Stretch { from, until, is_last }: Stretch,
         slope: f64,
     ) -> Result<Option<Found>, Error> {
-        let Some(reach) = horizon else { return Ok(None) };
         let side = self.side.unwrap_or(slope);
-        let comes = slope * side < 0.0
+        let comes = is_last
+            && slope * side < 0.0
             && self.phase == Phase::OnSide
             && self.direction.admits(side, -side)
-            && self.is_there(function, from, (until, reach));
+            && (function.value(until) - self.level) * side <= 0.0;
         if !comes {
             return Ok(None);
         }
@@ -29,11 +30,11 @@ impl ZeroSearch {
 
     /// What is known of a hidden interval that reaches the end of a stretch.
     pub(super) fn hidden_at_end(&mut self, function: &impl Bounded, stretch: Stretch) -> Found {
-        let Stretch { from, until, horizon } = stretch;
+        let Stretch { from, until, is_last } = stretch;
         let Some(hidden) = &mut self.hidden else { return Found::Nothing };
         let closest = closest(function, self.level, hidden, from, until);
         hidden.closest = Some(closest);
-        if horizon.is_none() {
+        if !is_last {
             return Found::Nothing;
         }
         let last = function.value(until) - self.level;
@@ -45,15 +46,6 @@ impl ZeroSearch {
             true => Found::Nothing,
             false => Found::Undecided { time: closest.0, value: closest.1 },
         }
-    }
-
-    /// Whether a function on its way to its zero is there at the horizon, or within a time `reach` after it.
-    fn is_there(&self, function: &impl Bounded, from: f64, (horizon, reach): (f64, f64)) -> bool {
-        let from = self.clear.max(from);
-        let [first, last] = [from, horizon].map(|time| function.value(time) - self.level);
-        let rate = (last - first) / (horizon - from);
-        let side = self.side.unwrap_or(first.signum());
-        last * side <= 0.0 || last.abs() <= rate.abs() * reach
     }
 
     /// What a change of sign to `sign` on a hidden stretch that ends at the horizon is.

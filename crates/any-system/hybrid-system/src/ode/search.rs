@@ -227,9 +227,9 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         for followed in followed.iter_mut() {
             let guard = followed.guard;
             let on_step = self.on_step(step, guard.surface, followed.stated);
-            let horizon = (until >= self.request.horizon).then_some(0.0);
+            let is_last = until >= self.request.horizon;
             let found = loop {
-                match followed.search.advance(&on_step, until, horizon, budget) {
+                match followed.search.advance(&on_step, until, is_last, budget) {
                     Ok(Found::Touch { .. } | Found::Undecided { .. })
                         if guard.touch == Touch::Ignore => {}
                     // A crossing that leaves its surface has no event.
