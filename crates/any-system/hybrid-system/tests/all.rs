@@ -37,6 +37,7 @@ mod sliding_surfaces;
 mod sliding_undecided;
 mod spring_leg;
 mod stops_and_levels;
+mod stops_beside_events;
 mod time_limit;
 mod touches;
 mod touches_integrated;

@@ -194,8 +194,9 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
     /// True if the guard changes at `time` by much more than its rounding beside it.
     fn is_no_rounding(&self, time: f64, guard: impl Fn(&V) -> f64) -> bool {
         let jump = self.change_at(time, &guard);
+        let size = self.step.rounding_size();
         let beside = self.beside(time);
-        beside.iter().all(|state| jump > JUMP * rounding_of_state(state, state, &guard))
+        beside.iter().all(|state| jump > JUMP * rounding_of_state(state, &size, &guard))
     }
 
     /// True if the guard jumps at its zero: it changes between two neighbouring doubles much more than by its rate.

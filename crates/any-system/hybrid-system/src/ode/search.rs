@@ -161,10 +161,14 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
     {
         let Finding { ref found, time, ref followed, leaving } = *finding;
         let OnStep { step, until, steps, before } = *on_step;
-        let first_step = SHORTER_FIRST_STEP * time;
+        let shorter = |time: f64| {
+            let first_step = SHORTER_FIRST_STEP * time;
+            let is_shorter = step.from == 0.0 && first_step > 0.0 && first_step < SHORTER * step.to;
+            is_shorter.then_some(Outcome::Hidden { first_step })
+        };
         let hidden = leaving || matches!(found, Found::Touch { .. } | Found::Undecided { .. });
-        if hidden && step.from == 0.0 && first_step > 0.0 && first_step < SHORTER * step.to {
-            return Ok(Some(Outcome::Hidden { first_step }));
+        if hidden && let Some(outcome) = shorter(time) {
+            return Ok(Some(outcome));
         }
         let surface = followed.guard.surface;
         // Rounding hides the guard up to the end of the search, but it is still on its way to its zero.
@@ -210,6 +214,12 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             None => (time, hidden_time(found, time, step.from), (surface, kind, found.from())),
         };
         let crossing = self.crossing(&corrected, (time, hidden), event, accuracy);
+        // An event at the start itself: the rounding of a long first step hides a flight that is shorter.
+        if time == 0.0
+            && let Some(outcome) = shorter(crossing.time_rounding)
+        {
+            return Ok(Some(outcome));
+        }
         Ok(Some(Outcome::Finished(NextEvent::Crossing(crossing))))
     }
 
