@@ -14,6 +14,10 @@ use crate::system::{FlowFrom, HybridSystem, Reset};
 use crate::time_sum::TimeSum;
 use crate::zeno::ZenoLimit;
 
+/// The rate of a guard at its crossing is taken over this part of its flight, along the flow behind it. Over a shorter part
+/// rounding would show, over a longer one the bend.
+const NEXT_PART: f64 = 0.01;
+
 impl<T: HybridSystem> Execution<'_, T> {
     /// An arc that ends in an event.
     pub(crate) fn event_arc(
@@ -85,6 +89,10 @@ impl<T: HybridSystem> Execution<'_, T> {
             certainty,
         });
         let arc = self.new_arc(duration, end);
+        let by_division = match kind {
+            EventKind::Clock => 0.0,
+            _ => self.error_by_division(surface, &state, duration),
+        };
         let solved = certainty == Certainty::Exact;
         let length = DurationOfArc { duration, time_rounding, time_error, solved, from };
         self.remember((kind, surface), &state, (length, leaving), time_passes);
@@ -108,7 +116,8 @@ impl<T: HybridSystem> Execution<'_, T> {
                 if changes_nothing {
                     self.at.history.pass(duration);
                 } else {
-                    self.at.history.push(duration, time_error, time, state.clone());
+                    let error = time_error + by_division;
+                    self.at.history.push(duration, error, time, state.clone());
                 }
                 (self.at.mode, self.at.state) = (mode, state);
             }
@@ -118,6 +127,21 @@ impl<T: HybridSystem> Execution<'_, T> {
             }
         }
         Ok(arc)
+    }
+
+    /// The error of the time of an event by the rounding of the state at which a stop has divided its flight: near a
+    /// Zeno limit the velocity is small, and the height as rounded. Zero for a flight that is not divided.
+    fn error_by_division(&self, surface: T::Surface, before: &T::State, duration: f64) -> f64 {
+        let divided = self.at.history.since_event;
+        if divided == 0.0 {
+            return 0.0;
+        }
+        let flow = FlowFrom { system: self.system, mode: self.at.mode, start: before };
+        let (flight, value) = (divided + duration, flow.guard_value(surface, before));
+        let rate =
+            (flow.guard_at(surface, NEXT_PART * flight) - value).abs() / (NEXT_PART * flight);
+        // 0/0 for a guard that is zero all the time: `min` drops NaN.
+        (flow.rounding_at(surface, &self.at.state) / rate).min(flight)
     }
 
     /// Keeps what the start of the next arc must know about the event at the end of this one.

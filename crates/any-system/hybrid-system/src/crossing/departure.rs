@@ -44,6 +44,20 @@ const LARGEST_GROWTH: f64 = 256.0;
 /// would take a later crossing for that; a smaller one would miss a slow return.
 const MOST_LOOKS_BACK: f64 = 1024.0;
 
+/// The rounding of a guard along the flow as its values show it: of its own components, and the third difference of its
+/// values at the quarters of a time. A guard that has just left its zero is nearly a parabola.
+fn shown_error<F: GuardedFlow>(
+    flow: &F,
+    surface: F::Surface,
+    (time, value, state): (f64, f64, &F::State),
+) -> f64 {
+    let [first, second, third] = [0.25, 0.5, 0.75].map(|part| flow.guard_at(surface, part * time));
+    let scatter = (value - 3.0 * third + 3.0 * second - first).abs();
+    let start = flow.start().components();
+    let size = state.filled(|axis| state.components()[axis].abs().max(start[axis].abs()));
+    scatter + rounding_of_state(state, &size, |state| flow.guard_value(surface, state))
+}
+
 /// How a guard leaves its zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Departure {
@@ -118,7 +132,12 @@ pub(crate) fn departure<F: GuardedFlow>(
         let largest = state.largest().max(start.largest());
         let size = state.filled(|_| largest);
         let guard = |state: &F::State| flow.guard_value(surface, state);
-        let later_error = rounding_of_state(&state, &size, guard);
+        let largest_error = rounding_of_state(&state, &size, guard);
+        let later_error = match value.abs() > LEFT_SURFACE * (error + largest_error) {
+            true => largest_error,
+            // A large component may have no part in the guard: then its values show no rounding of that size.
+            false => largest_error.min(shown_error(flow, surface, (time, value, &state))),
+        };
         // The value at the start may be the height of a jump there, over which the reset of a contact turns back.
         let jumps = value * at_start < 0.0 && value.abs() > LEFT_SURFACE * (rounding + later_error);
         let hidden = LEFT_SURFACE * (error + later_error);
