@@ -131,8 +131,11 @@ impl HybridSystem for Scene {
     }
 }
 
-/// Surface, time and error of the events that are no ticks of a clock, up to each stop in turn.
-fn events(scene: &Scene, start: [f64; 2], stops: &[f64]) -> Result<Vec<(usize, f64, f64)>, Error> {
+/// Surface, time and error of an event.
+type Found = (usize, f64, f64);
+
+/// The events that are no ticks of a clock, up to each stop in turn.
+fn events(scene: &Scene, start: [f64; 2], stops: &[f64]) -> Result<Vec<Found>, Error> {
     let limits = Limits::sampled(stops[0], 400, 0.02);
     let mut execution = Execution::new(scene, 0, start.into(), limits);
     let mut found = Vec::new();
@@ -158,18 +161,18 @@ const END: f64 = 5.0;
 const CLOSE: f64 = 1e-4;
 
 /// The surfaces of the events before a time.
-fn surfaces(events: &[(usize, f64, f64)], until: f64) -> Vec<usize> {
+fn surfaces(events: &[Found], until: f64) -> Vec<usize> {
     events.iter().take_while(|event| event.1 < until).map(|event| event.0).collect()
 }
 
 /// The time up to which all runs have the same events: the end, or the first time with a large error.
-fn known_until(events: &[(usize, f64, f64)]) -> f64 {
+fn known_until(events: &[Found]) -> f64 {
     events.iter().find(|event| event.2 > 0.1 * CLOSE).map_or(END, |event| event.1) - CLOSE
 }
 
 /// A scene, its start, and its events without a stop; `None` where two different zeros are too close to be told apart by
 /// runs with different steps.
-fn random_scene(random: &mut Random) -> Option<(Scene, [f64; 2], Vec<(usize, f64, f64)>)> {
+fn random_scene(random: &mut Random) -> Option<(Scene, [f64; 2], Vec<Found>)> {
     let search =
         [Search::Integrated(1e-12), Search::Integrated(1e-8), Search::Sampled, Search::Signal];
     let search = search[random.below(4)];
