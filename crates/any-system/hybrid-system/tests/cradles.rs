@@ -70,7 +70,8 @@ fn balls_with_the_smallest_gaps_do_not_pass_through_each_other() {
     for by in WAYS {
         for mode in 0..MASSES.len() as u8 {
             for origin in [0.0, 1.0, -3.7, 1e-9] {
-                for exponent in (1..40).step_by(STEP) {
+                // The last two once had endless events at one instant.
+                for exponent in (1..40).step_by(STEP).chain([34, 38]) {
                     let gap = if exponent == 39 { 0.0 } else { 2.3f64.powi(-exponent) * 1e-3 };
                     let x = start(origin, gap);
                     let limits = Limits::sampled(4.0, 200, 0.01);
@@ -140,7 +141,8 @@ fn stacks_that_bounce_do_not_pass_through_each_other() {
     for scene in [stack::<100>(), stack::<70>(), stack::<30>()] {
         for by in WAYS {
             for mode in 0..STACK_MASSES.len() as u8 {
-                for exponent in (0..23).step_by(STACK_STEP) {
+                // At the last two a flight of 10⁻⁶ was once taken for a jump.
+                for exponent in (0..23).step_by(STACK_STEP).chain([9, 17]) {
                     let gap = if exponent == 22 { 0.0 } else { 7.3f64.powi(-exponent) };
                     let mut start = State::<{ 2 * STACK }>::zeros();
                     (0..STACK).for_each(|ball| start[ball] = 1.0 + ball as f64 * gap);

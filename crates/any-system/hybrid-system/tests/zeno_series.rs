@@ -298,3 +298,48 @@ fn periods_of_up_to_four_events_are_recognised() {
         assert!((limit.ratio - product).abs() < 1e-6, "{limit:?}");
     }
 }
+
+/// A ball on a floor that moves up at 1/4, e = 1/2: the limit is at 3. A stop among the last bounces rounds a height of the
+/// size of 1, although the ball is 10⁻¹⁶ above the floor.
+#[test]
+fn a_stop_in_a_late_flight_is_in_the_bound_of_the_limit() {
+    let ball =
+        Model::closed_form(|(), x: &State<3>, t| [x[0] + t * (x[1] - t / 2.0), x[1] - t, x[2] + t])
+            .falling((), |x| x[0] - 0.25 * x[2], |x| ((), [x[0], 0.25 - 0.5 * (x[1] - 0.25), x[2]]))
+            .contact()
+            .signal(0, |(), x| {
+                Some(QuasiPolynomial::polynomial(&[x[0] - 0.25 * x[2], x[1] - 0.25, -0.5]))
+            });
+    for k in 4..100 {
+        let stop = 3.0 - 1.37f64.powi(-k);
+        let mut execution = ball.run((), [0.5, 0.25, 0.0], stop);
+        execution.run_until(stop).for_each(|arc| assert!(arc.is_ok()));
+        let last = execution.run_until(5.0).last();
+        let Some(Ok(Arc { end: ArcEnd::Zeno { limit, .. }, .. })) = last else {
+            panic!("{k}: {last:?} {:?}", execution.stop())
+        };
+        let error = (limit.time - 3.0).abs();
+        assert!(error <= limit.time_error, "{k}: {error:e} {limit:?}");
+        assert!(limit.time_error < 1e-5, "{k}: {limit:?}");
+    }
+}
+
+/// The time as a component does not hide the last bounces, and nor does a component that is larger.
+#[test]
+fn a_large_component_hides_no_bounces() {
+    for large in [0.0, 3.0, 1e3, 1e6] {
+        let ball = Model::closed_form(|flies, x: &State<3>, t| match flies {
+            true => [x[0] + t * (x[1] - t / 2.0), x[1] - t, x[2] + t],
+            false => [0.0, 0.0, x[2] + t],
+        })
+        .falling(true, |x| x[0], |x| (true, [x[0], -0.5 * x[1], x[2]]))
+        .contact()
+        .sampled(0.02)
+        .rest(|_, x| Some((false, [0.0, 0.0, x[2]])));
+        for arc in ball.run(true, [0.5, 0.0, large], 5.0) {
+            if let ArcEnd::Zeno { limit, .. } = arc.unwrap().end {
+                assert!((limit.time - 3.0).abs() <= limit.time_error, "{large}: {limit:?}");
+            }
+        }
+    }
+}
