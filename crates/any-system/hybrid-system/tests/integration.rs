@@ -311,3 +311,26 @@ fn a_dimension_chosen_at_run_time_gives_the_same_bits() {
         assert_eq!(a.as_slice(), b.as_slice());
     }
 }
+
+/// The warning of the guide: u̇ = −|u| never changes its sign, and its numerical solution does. A guard at the border of the
+/// domain says so.
+#[test]
+fn a_loose_integration_leaves_its_domain_unless_a_guard_ends_it_there() {
+    let field = |(), u: &State<1>| [-u[0].abs()];
+    let model = || {
+        Model::integrated(field).tolerances(Tolerances {
+            relative: 1e-3,
+            absolute: 1e-6,
+            ..Tolerances::both(1e-3)
+        })
+    };
+    let free = model();
+    let mut free = free.run((), [1.0], 40.0);
+    free.by_ref().for_each(|arc| assert!(arc.is_ok()));
+    assert!((free.state()[0] + 2470.0).abs() < 5.0, "{}", free.state());
+    let bounded = model().terminal((), Guard::falling(0), |u| u[0]);
+    let mut bounded = bounded.run((), [1.0], 40.0);
+    bounded.by_ref().for_each(|arc| assert!(arc.is_ok()));
+    assert_eq!(bounded.stop(), Some(Stop::Terminal));
+    assert!(bounded.state()[0].abs() < 1e-6, "{}", bounded.state());
+}
