@@ -64,7 +64,7 @@ impl HybridSystem for Valve {
             Mode::Open => {
                 const {
                     &[
-                        Guard::falling(Surface::Seat),
+                        Guard::falling(Surface::Seat).contact(),
                         Guard::falling(Surface::TurningPoint).crossing(),
                     ]
                 }
