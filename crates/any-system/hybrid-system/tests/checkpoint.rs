@@ -156,22 +156,21 @@ fn a_dimension_chosen_at_run_time() {
     assert!(restored_at_every_arc(&decay, (), start, Limits::sampled(9.0, 100, 0.1)) > 5);
 }
 
-/// The oscillator's own solution, and an error at the end.
 /// A jump lands beyond the surface that it has crossed. As a crossing it is no event there, as a guard without a word it
 /// is an error, and both are so from every checkpoint.
 #[test]
 fn a_state_beyond_its_surface() {
-    let hopper =
+    let sinking =
         || {
             Model::closed_form(|(), x: &State<2>, t| [x[0] + t * (x[1] - t / 2.0), x[1] - t])
                 .falling((), |x| x[0], |_| ((), [-0.2, 1.0]))
         };
     let start = State::from([0.7, 0.1]);
     let limits = Limits::sampled(8.0, 100, 0.01);
-    assert!(restored_at_every_arc(&hopper().crossing(), (), start, limits) > 4);
-    let last = Execution::new(&hopper(), (), start, limits).last().unwrap();
+    assert!(restored_at_every_arc(&sinking().crossing(), (), start, limits) > 4);
+    let last = Execution::new(&sinking(), (), start, limits).last().unwrap();
     assert!(matches!(last, Err(Error::LandsBeyond(_))), "{last:?}");
-    assert_eq!(restored_at_every_arc(&hopper(), (), start, limits), 2);
+    assert_eq!(restored_at_every_arc(&sinking(), (), start, limits), 2);
 }
 
 #[test]
