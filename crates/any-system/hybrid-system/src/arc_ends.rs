@@ -2,6 +2,7 @@
 
 use crate::arc::{Arc, ArcEnd, Event};
 use crate::arrival::{Arrival, DurationOfArc, PLACES};
+use crate::before_limit::Passing;
 use crate::crossing::{Certainty, Crossing, EventKind, GuardedFlow, LeavingGuards};
 use crate::error::Error;
 use crate::execution::{AnArc, Execution};
@@ -89,6 +90,9 @@ impl<T: HybridSystem> Execution<'_, T> {
             certainty,
         });
         let arc = self.new_arc(duration, end);
+        if kind != EventKind::Clock {
+            self.at.history.event(surface, time.value());
+        }
         let by_division = match kind {
             EventKind::Clock => 0.0,
             _ => self.error_by_division(surface, &state, duration),
@@ -310,17 +314,27 @@ impl<T: HybridSystem> Execution<'_, T> {
 
     /// The arc that replaces infinitely many events up to their limit. The execution continues after it if the model
     /// gives a mode.
-    pub(crate) fn zeno_arc(&mut self, limit: ZenoLimit<T::State>) -> AnArc<T> {
+    pub(crate) fn zeno_arc(
+        &mut self,
+        limit: ZenoLimit<T::State>,
+        passing: &[Passing<T::Surface>],
+    ) -> AnArc<T> {
         let after = self.system.rest(self.at.mode, &limit.state);
         let (remainder, state) = (limit.remainder, limit.state.clone());
+        let passed = passing.iter().map(|guard| (guard.surface, guard.from)).collect();
+        let arrival = Arrival::at_limit(self.at.mode, &state, limit.time_error, passed);
         let end = ArcEnd::Zeno { limit, after: after.clone() };
         let arc = self.new_arc(remainder, end);
+        let before = self.at.time.value();
         self.at.time = self.at.time.plus(remainder);
         self.at.jump += 1;
         self.at.initial = false;
         self.at.history.clear();
-        self.at.chain.clear();
-        self.at.arrival = None;
+        // A clock that has ticked at the time of the limit does not tick again.
+        if self.at.time.value() > before {
+            self.at.chain.clear();
+        }
+        self.at.arrival = Some(arrival);
         self.at.residues.clear();
         match after {
             Some((mode, state)) => (self.at.mode, self.at.state) = (mode, state),

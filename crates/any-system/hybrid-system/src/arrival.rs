@@ -87,6 +87,8 @@ pub(crate) struct Arrival<M, S, X> {
     leaving: LeavingGuards<S>,
     /// Other surfaces that were reached at the same instant.
     reached: SmallVec<[Reached<S>; FEW]>,
+    /// True after a Zeno limit: no flow of one mode has led to it.
+    at_limit: bool,
 }
 
 impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
@@ -114,6 +116,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
             solved,
             leaving,
             reached: SmallVec::new(),
+            at_limit: false,
         };
         let crossed = arc.guards().iter().find(|guard| Some(guard.surface) == surface);
         arrival.from = match crossed.map(|guard| guard.direction) {
@@ -138,13 +141,33 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         arrival
     }
 
+    /// The arrival at a Zeno limit in this state. These surfaces have been passed within its error, each from a side.
+    pub(crate) fn at_limit(mode: M, state: &X, time_error: f64, passed: Vec<(S, f64)>) -> Self {
+        let reached = |(surface, from)| Reached { surface, from, has_passed: false };
+        Arrival {
+            surface: None,
+            touched: false,
+            from: 0.0,
+            before: state.clone(),
+            mode,
+            start: state.clone(),
+            duration: 0.0,
+            time_rounding: 0.0,
+            time_error,
+            solved: false,
+            leaving: LeavingGuards::new(),
+            reached: passed.into_iter().map(reached).collect(),
+            at_limit: true,
+        }
+    }
+
     /// True if the same flow goes on: the event has changed neither the mode nor the state.
     pub(crate) fn continues<T>(&self, next: &FlowFrom<T>) -> bool
     where
         M: PartialEq,
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
-        self.mode == next.mode && self.before == *next.start
+        !self.at_limit && self.mode == next.mode && self.before == *next.start
     }
 
     /// The side to which the guard of this surface has passed, ±1, if it was crossed.
@@ -187,6 +210,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     {
         let before = next.guard_value(surface, &self.before);
         if self.solved
+            || self.at_limit
             || Some(surface) == self.surface
             || !(before * now > 0.0)
             || (now - before).abs() > rounding

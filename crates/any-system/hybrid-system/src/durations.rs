@@ -196,7 +196,7 @@ impl Durations {
     }
 
     /// The duration `back` arcs before the newest; 0 before the record begins.
-    fn duration(&self, back: usize) -> f64 {
+    pub(crate) fn duration(&self, back: usize) -> f64 {
         if back < self.count { self.durations[(self.count - 1 - back) % KEPT] } else { 0.0 }
     }
 

@@ -2,19 +2,15 @@
 
 use crate::arc::{Arc, ArcEnd};
 use crate::chain::Chain;
-use crate::crossing::{
-    Certainty, EventKind, GuardedFlow, LeavingGuards, NextEvent, change_by_components,
-};
+use crate::crossing::{EventKind, NextEvent};
 use crate::error::Error;
-use crate::guard::{Guard, Role};
 use crate::limits::{Limits, Stop};
-use crate::next_event::flow_to;
 use crate::point::Point;
 use crate::residues::Residues;
 use crate::state::StateVector;
 use crate::system::HybridSystem;
 use crate::time_sum::TimeSum;
-use crate::zeno::{History, ZenoLimit};
+use crate::zeno::History;
 
 /// An execution of a hybrid system, as an iterator over its arcs.
 ///
@@ -64,17 +60,9 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         // Events before a limit on time, a clock or another event that comes before the Zeno limit are followed.
         if let Some(limit) = self.at.history.zeno_limit(false)
             && limit.remainder <= horizon
-            && !self.crosses_before(&limit)
+            && let Some(arc) = self.arc_to_limit(limit, horizon)?
         {
-            match self.next_clock(limit.remainder)? {
-                None => return Ok(self.zeno_arc(limit)),
-                // Within the error of the limit the order is not known. The clock has its event, at the limit's state.
-                Some(clock) if clock.until >= limit.remainder - limit.time_error => {
-                    let event = clock.crossing(limit.state, Certainty::Interpolated);
-                    return self.event_arc(event, horizon, LeavingGuards::new());
-                }
-                Some(_) => {}
-            }
+            return Ok(arc);
         }
         let (found, leaving) = match self.next_event(horizon) {
             // After many short bounces rounding hides the next one. If the durations form a geometric series, this is a
@@ -84,17 +72,9 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 | Error::UndecidedSign { .. }
                 | Error::Grazing { .. }),
             ) => {
-                let Some(limit) = self.at.history.zeno_limit(true) else { return Err(hidden) };
-                // Rounding hides the events up to a clock or to the limit on time, and with them how far they move the
-                // state.
-                let (leaving, certainty) = (LeavingGuards::new(), Certainty::Interpolated);
-                return match self.next_clock(limit.remainder.min(horizon))? {
-                    Some(clock) => {
-                        let state = flow_to(&self.flow(), clock.until);
-                        self.event_arc(clock.crossing(state, certainty), horizon, leaving)
-                    }
-                    None if limit.remainder <= horizon => Ok(self.zeno_arc(limit)),
-                    None => self.arc_without_event(horizon, None, certainty, leaving),
+                return match self.at.history.zeno_limit(true) {
+                    Some(limit) => self.hidden_arc(limit, horizon),
+                    None => Err(hidden),
                 };
             }
             found => found?,
@@ -139,30 +119,6 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 Ok(arc)
             }
         }
-    }
-
-    /// Whether a guard is clearly on its other side at a Zeno limit: then its event comes before the limit.
-    fn crosses_before(&self, limit: &ZenoLimit<T::State>) -> bool {
-        let flow = self.flow();
-        let crosses = |guard: &Guard<T::Surface>| {
-            let value = |state: &T::State| flow.guard_value(guard.surface, state);
-            let rounding = |state| flow.rounding_at(guard.surface, state);
-            let now = value(&self.at.state);
-            let passes = |then: f64, error: f64| {
-                now * then < 0.0
-                    && guard.direction.admits(now.signum(), then.signum())
-                    && then.abs() > error
-            };
-            if now.abs() > rounding(&self.at.state) {
-                let error = || change_by_components(&limit.state, |_| limit.state_error, value);
-                return passes(value(&limit.state), error() + rounding(&limit.state));
-            }
-            // Next to its zero, which may be ahead.
-            let soon = flow.state(0.5 * limit.remainder);
-            !self.at.chain.contains(guard.surface) && passes(value(&soon), rounding(&soon))
-        };
-        let guards = flow.guards().iter();
-        guards.filter(|guard| guard.role != Role::Clock).any(crosses)
     }
 
     fn check(&self) -> Result<(), Error> {

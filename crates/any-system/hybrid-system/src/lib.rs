@@ -88,6 +88,7 @@ mod advance;
 mod arc;
 mod arc_ends;
 mod arrival;
+mod before_limit;
 mod chain;
 mod checkpoint;
 #[cfg(feature = "serde")]

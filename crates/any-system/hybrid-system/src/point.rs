@@ -18,7 +18,7 @@ pub(crate) struct Point<M, S, X> {
     pub(crate) jump: usize,
     /// False after the first arc.
     pub(crate) initial: bool,
-    pub(crate) history: History<X>,
+    pub(crate) history: History<S, X>,
     /// The events since time has passed for the last time.
     pub(crate) chain: Chain<M, S>,
     /// The last crossing, if no time has passed since.

@@ -162,7 +162,10 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             // Both are short on the time scale of the model.
             let interval = interval.filter(|interval| *interval > 0.0).unwrap_or(f64::INFINITY);
             let short = arrival.map_or(f64::INFINITY, Arrival::duration).min(interval);
-            match departure(flow, surface, (error, rounding), (horizon, short), switch)? {
+            let bounced =
+                arrival.filter(|_| crossed && switch).map(|last| (direction, last.duration()));
+            match departure(flow, surface, (error, rounding), (horizon, short), (switch, bounced))?
+            {
                 Departure::To { side, certainty } => (side, certainty),
                 Departure::Stays => {
                     // On the side of the flow its value is the distance to the next event. Elsewhere it counts as zero.

@@ -6,6 +6,7 @@
 use crate::durations::{Durations, LONGEST_PERIOD, Remainder};
 use crate::state::StateVector;
 use crate::time_sum::TimeSum;
+use smallvec::SmallVec;
 
 /// The limit of infinitely many events in finite time.
 ///
@@ -63,11 +64,23 @@ impl<X> ZenoLimit<X> {
     }
 }
 
-/// The durations of the last arcs, and the last states after events.
+/// Surfaces that are kept without allocating.
+const FEW: usize = 4;
+
+/// A surface that has had an event within so many periods is one of those whose events lead to the limit. One period
+/// would do if its length had no error.
+const PERIODS: usize = 2;
+
+/// Rounding of the times that are compared.
+const TIME_ULPS: f64 = 4.0;
+
+/// The durations of the last arcs, the last states after events, and the last event of each surface.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct History<X> {
+pub(crate) struct History<S, X> {
     pub(crate) durations: Durations,
+    /// The time of the last event of each surface.
+    pub(crate) events: SmallVec<[(S, f64); FEW]>,
     /// A ring of states: those after the last events, one more than the longest period has.
     pub(crate) states: [Option<X>; LONGEST_PERIOD + 1],
     /// Place of the newest state.
@@ -89,10 +102,11 @@ fn read_place<'de, D: serde::Deserializer<'de>>(reader: D) -> Result<usize, D::E
     )))
 }
 
-impl<X: StateVector> History<X> {
+impl<S: Copy + PartialEq, X: StateVector> History<S, X> {
     pub(crate) fn new() -> Self {
         History {
             durations: Durations::new(),
+            events: SmallVec::new(),
             states: [const { None }; LONGEST_PERIOD + 1],
             newest: 0,
             since_event: 0.0,
@@ -116,6 +130,32 @@ impl<X: StateVector> History<X> {
         self.states[self.newest] = Some(after);
     }
 
+    /// An event of this surface.
+    pub(crate) fn event(&mut self, surface: S, time: f64) {
+        match self.events.iter_mut().find(|event| event.0 == surface) {
+            Some(event) => event.1 = time,
+            None => self.events.push((surface, time)),
+        }
+    }
+
+    /// Whether the events of this surface are among those that lead to a limit.
+    pub(crate) fn leads_to(&self, limit: &ZenoLimit<X>, surface: S) -> bool {
+        self.leading(limit).any(|leading| leading == surface)
+    }
+
+    /// Whether events of any surface lead to a limit, and not only those of clocks.
+    pub(crate) fn has_limit(&self, limit: &ZenoLimit<X>) -> bool {
+        self.leading(limit).next().is_some()
+    }
+
+    fn leading(&self, limit: &ZenoLimit<X>) -> impl Iterator<Item = S> {
+        let durations = &self.durations;
+        let length: f64 = (0..PERIODS * limit.period).map(|back| durations.duration(back)).sum();
+        let now = durations.now.value();
+        let since = now - length - TIME_ULPS * f64::EPSILON * now.abs();
+        self.events.iter().filter(move |event| event.1 >= since).map(|event| event.0)
+    }
+
     /// True if all components of its states are finite.
     #[cfg(feature = "serde")]
     pub(crate) fn is_finite(&self) -> bool {
@@ -124,6 +164,7 @@ impl<X: StateVector> History<X> {
 
     pub(crate) fn clear(&mut self) {
         self.durations.clear();
+        self.events.clear();
         self.states = [const { None }; LONGEST_PERIOD + 1];
         self.since_event = 0.0;
     }

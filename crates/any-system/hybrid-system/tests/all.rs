@@ -44,5 +44,6 @@ mod touches_integrated;
 mod trajectory;
 mod two_sided;
 mod zeno;
+mod zeno_beside_events;
 mod zeno_integrated;
 mod zeno_series;

@@ -334,3 +334,19 @@ fn a_loose_integration_leaves_its_domain_unless_a_guard_ends_it_there() {
     assert_eq!(bounded.stop(), Some(Stop::Terminal));
     assert!(bounded.state()[0].abs() < 1e-6, "{}", bounded.state());
 }
+
+/// The error of a time counts the size that a component has had on the arc: at its zero it has none.
+#[test]
+fn an_event_at_a_zero_of_a_large_component_knows_its_error() {
+    for tolerance in [1e-6, 1e-8, 1e-10] {
+        for amplitude in [1.0, 1e3, 1e6, 1e9] {
+            let oscillator = Model::integrated(|(), x: &State<2>| [x[1], -x[0]])
+                .observer(Guard::falling(0), |x| x[0])
+                .tolerance(tolerance);
+            let arc = oscillator.run((), [amplitude, 0.0], 3.0).next().unwrap().unwrap();
+            let event = arc.event().unwrap();
+            let error = (event.time - std::f64::consts::FRAC_PI_2).abs();
+            assert!(error <= event.time_error, "{tolerance} {amplitude}: {error} {event:?}");
+        }
+    }
+}

@@ -176,3 +176,134 @@ fn the_advice_at_an_undecided_start_is_that_of_its_search() {
     let sampled = error.to_string();
     assert!(sampled.contains("give the guard bounds"), "{sampled}");
 }
+
+/// Two observers with one zero, and a stop shortly behind: both have their event, by samples too.
+#[test]
+fn a_stop_behind_a_common_zero_loses_none() {
+    for slope in [1.0, 2.5, -1.0] {
+        for ulps in 0..60 {
+            let guard = |surface| match slope > 0.0 {
+                true => Guard::rising(surface),
+                false => Guard::falling(surface),
+            };
+            let ramp = Model::closed_form(|(), x: &State<1>, t| [x[0] + t])
+                .observer(guard(0), move |x| slope * (x[0] - 1.3))
+                .observer(guard(1), move |x| slope * (x[0] - 1.3))
+                .sampled(0.1);
+            let mut run = ramp.run((), [0.0], 0.0);
+            let mut seen = Vec::new();
+            for stop in [f64::from_bits(1.3_f64.to_bits() + ulps), 2.0] {
+                let arcs = run.run_until(stop).map(|arc| arc.unwrap());
+                seen.extend(arcs.filter_map(|arc| arc.event().map(|event| event.surface)));
+            }
+            assert_eq!(seen, [0, 1], "{slope} {ulps}");
+        }
+    }
+}
+
+/// Under bounds two zeros come in their order, at the doubles of the computed functions, also if the search ends
+/// some ulps behind them.
+#[test]
+fn a_stop_behind_two_zeros_does_not_exchange_them() {
+    let up = |ulps: u64| f64::from_bits(1.0_f64.to_bits() + ulps);
+    for (first, second) in [(1, 2), (1, 4), (3, 9)] {
+        let (late, early) = (up(second), up(first));
+        let signal = |zero: f64| {
+            move |(), x: &State<1>| Some(QuasiPolynomial::polynomial(&[x[0] - zero, 1.0]))
+        };
+        let ramp = Model::closed_form(|(), x: &State<1>, t| [x[0] + t])
+            .observer(Guard::rising(0), move |x| x[0] - late)
+            .observer(Guard::rising(1), move |x| x[0] - early)
+            .signal(0, signal(late))
+            .signal(1, signal(early));
+        for behind in 1..20 {
+            let mut run = ramp.run((), [0.0], 0.0);
+            let mut seen = Vec::new();
+            for stop in [up(second + behind), 2.0] {
+                let arcs = run.run_until(stop).map(|arc| arc.unwrap());
+                seen.extend(
+                    arcs.filter_map(|arc| arc.event().map(|event| (event.surface, event.time))),
+                );
+            }
+            assert_eq!(seen, [(1, early), (0, late)], "{behind}");
+        }
+    }
+}
+
+/// Zeros that differ by some ulps come in their order for every direction, with and without resets at them, and after a
+/// jump before them; in either order of the list.
+#[test]
+fn near_zeros_come_in_their_order_under_all_directions_and_after_resets() {
+    let guard = |direction, surface| match direction {
+        Direction::Rising => Guard::rising(surface),
+        Direction::Falling => Guard::falling(surface),
+        Direction::Either => Guard::either(surface),
+    };
+    for ulps in [3, 4, 7, 15, 80] {
+        for direction in [Direction::Rising, Direction::Falling, Direction::Either] {
+            let sign = if direction == Direction::Falling { -1.0 } else { 1.0 };
+            for (kick, swapped) in [(0.0, false), (0.0, true), (1.0, false), (1.0, true)] {
+                let places = [2.0, 2.0 + f64::from(ulps) * 2.0 * ULP];
+                let [a, b] = if swapped { [places[1], places[0]] } else { places };
+                // The jump at 0.5 leads to 1.5: the zeros come at about 1.
+                let reset = move |x: &State<2>| ((), [x[0], x[1] + kick]);
+                macro_rules! with_guards {
+                    ($model:expr) => {
+                        $model
+                            .guard(
+                                (),
+                                guard(direction, 0).crossing(),
+                                move |x| sign * (x[0] - a),
+                                reset,
+                            )
+                            .guard(
+                                (),
+                                guard(direction, 1).crossing(),
+                                move |x| sign * (x[0] - b),
+                                reset,
+                            )
+                            .guard(
+                                (),
+                                Guard::rising(2).crossing(),
+                                |x| x[0] + x[1] - 0.5,
+                                |x| ((), [x[0] + 1.0, x[1] + 100.0]),
+                            )
+                    };
+                }
+                let sampled =
+                    with_guards!(Model::closed_form(|(), x: &State<2>, t| [x[0] + t, x[1]]))
+                        .sampled(0.03);
+                let integrated = with_guards!(Model::integrated(|(), _: &State<2>| [1.0, 0.0]));
+                let order = |arcs: Vec<Result<_, Error>>| -> Vec<usize> {
+                    let arcs = arcs
+                        .into_iter()
+                        .map(|arc: Result<Arc<(), usize, State<2>>, _>| arc.unwrap());
+                    arcs.filter_map(|arc| arc.event().map(|event| event.surface)).collect()
+                };
+                let expected = if swapped { [2, 1, 0] } else { [2, 0, 1] };
+                let start = [0.0, 0.0];
+                let scene = format!("{ulps} {direction:?} {kick} {swapped}");
+                assert_eq!(order(sampled.run((), start, 3.0).collect()), expected, "{scene}");
+                assert_eq!(order(integrated.run((), start, 3.0).collect()), expected, "{scene}");
+            }
+        }
+    }
+}
+
+/// A guard need not be defined behind the event that ends the run.
+#[test]
+fn a_guard_without_a_value_behind_an_event_does_not_hide_it() {
+    for interval in [0.01, 0.3] {
+        let root = Model::closed_form(|(), x: &State<1>, t| [x[0] + t])
+            .observer(Guard::falling(1), |x| (1.02 - x[0]).sqrt() - 0.05)
+            .terminal((), Guard::rising(0), |x| x[0] - 1.0)
+            .sampled(interval);
+        let last = root.run((), [0.0], 3.0).last().unwrap().unwrap();
+        assert_eq!(last.event().map(|event| (event.surface, event.time)), Some((0, 1.0)));
+        let without_end = Model::closed_form(|(), x: &State<1>, t| [x[0] + t])
+            .observer(Guard::falling(1), |x| (1.02 - x[0]).sqrt() - 0.05)
+            .sampled(interval);
+        let mut run = without_end.run((), [0.0], 3.0);
+        assert!(run.any(|arc| matches!(arc, Err(Error::NotFinite { .. }))));
+    }
+}

@@ -125,7 +125,7 @@ fn a_landing_at_the_end_is_flagged_by_all_means() {
             // run that goes on until the stated error has passed has it. Its last step is another one.
             let (events, end) = match means {
                 Means::Integrated(_) if events.len() + 1 == count => {
-                    let (events, _) = landings(means, end + 1e-3);
+                    let (events, _) = landings(means, end + 0.05);
                     let late = events[count - 1];
                     let error = 10.0 * count as f64 * late.time_error;
                     assert!((late.time - end).abs() <= error, "{means:?} {late:?}");

@@ -17,6 +17,7 @@ use super::guard_rate::guard_rate;
 use super::guard_rounding::rounding_of_state;
 use super::guarded_flow::GuardedFlow;
 use crate::error::Error;
+use crate::guard::Direction;
 use crate::looked::Looked;
 use crate::state::StateVector;
 
@@ -27,8 +28,7 @@ use crate::state::StateVector;
 /// side.
 const SHORTEST_LOOK: f64 = 1.0 / 549_755_813_888.0;
 
-/// The longest of these times, unless the limit on time comes earlier: one unit of time, because the scale of the model
-/// is not known.
+/// The longest of these times: one unit of time, because the scale of the model is not known.
 pub(crate) const LONGEST_LOOK: f64 = 1.0;
 
 /// A guard has left its surface when its value is this many times its error. A margin of a factor 4 over the error
@@ -43,6 +43,14 @@ const LARGEST_GROWTH: f64 = 256.0;
 /// A contact that jumps at its surface turns back over it within so many times the shortest look. A larger number
 /// would take a later crossing for that; a smaller one would miss a slow return.
 const MOST_LOOKS_BACK: f64 = 1024.0;
+
+/// A look behind so much of the last arc may be behind the next bounce. A larger number would miss the return of a
+/// bounce whose speed is a small part of the one before; a smaller one would refuse a slow departure.
+const NEXT_BOUNCE: f64 = 1.0 / 1024.0;
+
+/// A guard that leaves straight has half of its value at half of the time. One that has bounced has less than a quarter
+/// there, or another sign.
+const STRAIGHT: f64 = 3.0;
 
 /// The rounding of a guard along the flow as its values show it: of its own components, and the third difference of its
 /// values at the quarters of a time. A guard that has just left its zero is nearly a parabola.
@@ -72,6 +80,9 @@ pub(crate) enum Departure {
 /// is the same for states next to each other, and hides no rate. `short` is the duration of the arc before or the
 /// sampling interval, or infinite. The guard `bounds_flow` if it is a contact or a switch.
 ///
+/// `bounced` is the duration of the arc that has ended in an event of this contact. Then the guard may be beyond its
+/// surface again at the first look that is clear of rounding, behind a bounce that is hidden.
+///
 /// # Errors
 /// [`Error::UndecidedSign`], [`Error::UndecidedStart`] for a guard that stays at zero for a while, and
 /// [`Error::NotFinite`].
@@ -80,7 +91,7 @@ pub(crate) fn departure<F: GuardedFlow>(
     surface: F::Surface,
     (error, rounding): (f64, f64),
     (horizon, short): (f64, f64),
-    bounds_flow: bool,
+    (bounds_flow, bounced): (bool, Option<(Direction, f64)>),
 ) -> Result<Departure, Error> {
     let to = |side: f64, certainty| Departure::To { side: side.signum(), certainty };
     if let Some(side) = flow.leaving_side(surface) {
@@ -122,10 +133,15 @@ pub(crate) fn departure<F: GuardedFlow>(
     }
     let shortest = time;
     let (mut first, at_start) = (true, flow.guard_value(surface, start));
+    // The limit on time may be some ulps ahead, and changes nothing. The flow goes on behind it, if it is defined there.
+    let longest = if longest > 0.0 { LONGEST_LOOK } else { longest };
     while time > 0.0 && time <= longest {
         let state = flow.state(time);
         let value = flow.guard_value(surface, &state);
         if !value.is_finite() {
+            if time > horizon {
+                break;
+            }
             return Err(Error::NotFinite { at: time, value });
         }
         // The flow adds numbers as large as the largest component, and rounds by as much in each.
@@ -145,8 +161,14 @@ pub(crate) fn departure<F: GuardedFlow>(
             return Ok(to(value, Certainty::Sampled { interval: time }));
         }
         if value.abs() > hidden {
-            // A guard that was zero up to here does not leave at the start. When it leaves is not known.
-            if !first && value.abs() > LARGEST_GROWTH * hidden {
+            // A guard that was zero up to here does not leave at the start. When it leaves is not known. Nor is it known
+            // of one that may have bounced.
+            let returns = |(direction, before): (Direction, f64)| {
+                let ratio = || value / flow.guard_at(surface, 0.5 * time);
+                let late = time > NEXT_BOUNCE * before;
+                direction.is_beyond(value) && late && !(0.0..STRAIGHT).contains(&ratio())
+            };
+            if !first && value.abs() > LARGEST_GROWTH * hidden || bounced.is_some_and(returns) {
                 return Err(Error::UndecidedStart {
                     surface: format!("{surface:?}"),
                     interval: time,

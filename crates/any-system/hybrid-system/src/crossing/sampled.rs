@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::guard::{Guard, Touch};
 use crate::looked::Looked;
 use interval_arithmetic::root_beyond;
+use smallvec::SmallVec;
 use std::fmt::Debug;
 
 /// Most samples of one search, unless the budget of steps is smaller: a limit for a search that would take days. At
@@ -19,6 +20,9 @@ const MOST_SAMPLES: u64 = 1_000_000_000;
 /// The rounding of a guard's own arithmetic is measured this far from a zero, in units of the sampling interval:
 /// far enough that a jump at the zero does not count, and near enough that the guard has terms of the same size.
 const BESIDE: f64 = 1e-4;
+
+/// Guards without a value that are kept without allocating.
+const FEW: usize = 4;
 
 /// Most halvings of the first sampling interval, down to 2⁻⁵² of it. They look for a time in a flight that starts
 /// on the surface and ends before the first sample. A larger number would find shorter flights. A guard of ordinary
@@ -37,7 +41,7 @@ pub(crate) struct SampledEvent {
 ///
 /// # Errors
 /// [`Error::BadSamplingInterval`] if the samples would not advance to the end; [`Error::NotFinite`] for a guard that is
-/// not finite at a sample; [`Error::UndecidedStart`] as for [`SampledGuard::advance`], and for a flight before the
+/// not finite at a sample, unless another one has its event before; [`Error::UndecidedStart`] as for [`SampledGuard::advance`], and for a flight before the
 /// first sample that rounding hides.
 pub(crate) fn sampled_event<F: GuardedFlow>(
     flow: &F,
@@ -80,11 +84,13 @@ pub(crate) fn sampled_event<F: GuardedFlow>(
         time = (sample as f64 * interval).min(until);
         let state = flow.state(time);
         let mut first: Option<Candidate> = None;
+        let mut undefined = SmallVec::<[(F::Surface, f64, f64); FEW]>::new();
         for (guard, &index) in sampled.iter_mut().zip(indices) {
             let surface = guard.guard.surface;
             let value = flow.guard_value(surface, &state);
             if !value.is_finite() {
-                return Err(Error::NotFinite { at: time, value });
+                undefined.push((surface, value, guard.side.unwrap_or(0.0)));
+                continue;
             }
             let rounding = || flow.rounding_at(surface, &state);
             let found = match guard.advance(time, value, rounding, interval)? {
@@ -104,6 +110,15 @@ pub(crate) fn sampled_event<F: GuardedFlow>(
             if first.is_none_or(|first| found.is_sooner_than(&first)) {
                 first = Some(found);
             }
+        }
+        // A guard need not be defined behind an event.
+        let is_defined_before = |surface, side| {
+            first.is_some_and(|first| flow.guard_at(surface, first.time) * side > 0.0)
+        };
+        let without =
+            undefined.iter().find(|(surface, _, side)| !is_defined_before(*surface, *side));
+        if let Some((_, value, _)) = without {
+            return Err(Error::NotFinite { at: time, value: *value });
         }
         // A guard that is zero at the end has no later sample. It has reached its surface there.
         if time >= until && first.is_none() {

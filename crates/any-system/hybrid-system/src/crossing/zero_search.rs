@@ -339,7 +339,7 @@ impl ZeroSearch {
 
     /// The first time at which the computed function has left `side`, between `after` and `right`. By the bounds it has
     /// left it at `right`, and it is monotone, hidden or without zero after `left`.
-    fn root(
+    pub(super) fn root(
         &self,
         function: &impl Bounded,
         side: f64,

@@ -24,8 +24,10 @@ impl ZeroSearch {
         if !comes {
             return Ok(None);
         }
-        let error = function.root_error(until, self.clear.max(from), until)?;
-        Ok(Some(Found::Crossing { time: until, error, hidden: false, rising: side < 0.0 }))
+        let after = self.clear.max(from);
+        let time = self.root(function, side, after, until, until)?;
+        let error = function.root_error(time, after, until)?;
+        Ok(Some(Found::Crossing { time, error, hidden: false, rising: side < 0.0 }))
     }
 
     /// What is known of a hidden interval that reaches the end of a stretch.

@@ -30,6 +30,13 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         self.argument.with_components(self.vectors.row(STATE, self.n()))
     }
 
+    /// Makes each component of `sizes` at least as large as that of the state.
+    pub(super) fn enlarge(&self, sizes: &mut V) {
+        for (axis, component) in self.vectors.row(STATE, self.n()).iter().enumerate() {
+            sizes.set_component(axis, sizes.component(axis).max(component.abs()));
+        }
+    }
+
     /// The field there.
     pub(super) fn slope(&self) -> V {
         self.argument.with_components(self.vectors.row(SLOPE, self.n()))

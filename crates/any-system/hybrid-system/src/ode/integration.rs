@@ -93,6 +93,11 @@ impl<F: Fn(f64, &V) -> V, V: StateVector> Integration<F, V> {
         self.inner.state()
     }
 
+    /// Makes each component of `sizes` at least as large as that of the state at the end of the last step.
+    pub(super) fn enlarge(&self, sizes: &mut V) {
+        self.inner.enlarge(sizes);
+    }
+
     /// The field at the end of the last step.
     pub(super) fn slope(&self) -> V {
         self.inner.slope()

@@ -217,7 +217,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         on_step: &CorrectedStep<T::State>,
         (time, hidden): (f64, f64),
         (surface, kind, from): (T::Surface, EventKind, Option<f64>),
-        accuracy: Accuracy,
+        accuracy: Accuracy<T::State>,
     ) -> Crossing<T::Surface, T::State> {
         let value = |state: &T::State| self.system.guard_value(surface, state);
         let stated = self.system.guard_error(surface, &on_step.state(time));
@@ -262,14 +262,14 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         &self,
         followed: &[Followed<T::Surface>],
         mut integration: Integration<F, T::State>,
-        steps: usize,
+        (steps, sizes): (usize, &T::State),
     ) -> Result<NextEvent<T::Surface, T::State>, Error>
     where
         F: Fn(f64, &T::State) -> T::State,
     {
         let state = integration.state();
         let certainty = Certainty::Interpolated;
-        let accuracy = Accuracy { tolerances: self.tolerances, steps };
+        let accuracy = Accuracy { tolerances: self.tolerances, steps, sizes };
         // A guard that has changed its sign so near to the horizon that rounding hid it on the step.
         let changed = |followed: &&Followed<T::Surface>| {
             let value = self.system.guard_value(followed.guard.surface, &state);

@@ -44,18 +44,21 @@ const AGREEING: u32 = 8;
 /// At a shorter one several values would be those of one and the same rounded state.
 const STATE_ULPS: f64 = 16.0;
 
-/// How accurate a flow is: its tolerances, and the number of steps from the start.
+/// How accurate a flow is: its tolerances, and what they act on.
 #[derive(Clone, Copy)]
-pub(super) struct Accuracy {
+pub(super) struct Accuracy<'a, V> {
     pub(super) tolerances: Tolerances,
+    /// The number of steps from the start.
     pub(super) steps: usize,
+    /// The largest absolute value of each component at their ends: a component may be zero at the event.
+    pub(super) sizes: &'a V,
 }
 
-impl Accuracy {
+impl<V: StateVector> Accuracy<'_, V> {
     /// An estimate of the error of a guard by the error of the flow: the change of the guard if each component
     /// changes by its tolerance on every step. Growth or decay of these errors along the flow is not known here.
-    pub(super) fn guard_error<V: StateVector>(&self, state: &V, guard: impl Fn(&V) -> f64) -> f64 {
-        let unit = |axis: usize| self.tolerances.of(axis, state.components()[axis].abs());
+    pub(super) fn guard_error(&self, state: &V, guard: impl Fn(&V) -> f64) -> f64 {
+        let unit = |axis: usize| self.tolerances.of(axis, self.sizes.components()[axis]);
         change_by_components(state, |axis| self.steps as f64 * unit(axis), guard)
     }
 }
@@ -248,7 +251,7 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
         &self,
         (time, time_rounding): (f64, f64),
         guard: impl Fn(&V) -> f64,
-        accuracy: Accuracy,
+        accuracy: Accuracy<V>,
     ) -> f64 {
         let error = |state: &V| accuracy.guard_error(state, &guard);
         let first = match self.jumps(time, &guard) {

@@ -9,6 +9,7 @@ use crate::crossing::{Certainty, EventKind, Found, NextEvent, Search};
 use crate::error::Error;
 use crate::guard::{Guard, Role, Touch};
 use crate::looked::Looked;
+use crate::state::StateVector;
 use crate::system::HybridSystem;
 use smallvec::SmallVec;
 
@@ -35,8 +36,9 @@ struct OnStep<'a, S, X> {
     step: &'a Step<X>,
     /// The search ends here.
     until: f64,
-    /// The number of steps from the start.
+    /// The number of steps from the start, and the largest components at their ends.
     steps: usize,
+    sizes: &'a X,
     /// The guards as they are where the step begins.
     before: &'a [Followed<S>],
 }
@@ -114,6 +116,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             followed.push(self.follow(*guard, start, rate)?);
         }
         let mut steps = 0;
+        let mut sizes = start.filled(|axis| start.components()[axis].abs());
         while !integration.ended() && !integration.at_rest() {
             if steps >= self.request.steps || integration.steps_left() == 0 || budget == 0 {
                 let (time, state) = (integration.interval().1, integration.state());
@@ -121,6 +124,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 return Ok(Outcome::Finished(NextEvent::Unfinished { time, state, certainty }));
             }
             integration.step()?;
+            integration.enlarge(&mut sizes);
             steps += 1;
             // In the common case neither the stages of the interpolant nor the polynomial of a guard are computed.
             let until = integration.interval().1.min(horizon);
@@ -132,7 +136,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             while let Some(finding) =
                 self.first_on_step(&mut followed, &step, until, &mut budget)?
             {
-                let on_step = OnStep { step: &step, until, steps, before: &before };
+                let on_step = OnStep { step: &step, until, steps, sizes: &sizes, before: &before };
                 if let Some(outcome) = self.event(&finding, &mut integration, &on_step)? {
                     return Ok(outcome);
                 }
@@ -145,7 +149,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 }
             }
         }
-        self.at_horizon(&followed, integration, steps).map(Outcome::Finished)
+        self.at_horizon(&followed, integration, (steps, &sizes)).map(Outcome::Finished)
     }
 
     /// What is found first on a step, on the step as it is corrected there; `None` if it is no event: the guard
@@ -160,7 +164,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         F: Fn(f64, &T::State) -> T::State,
     {
         let Finding { ref found, time, ref followed, leaving } = *finding;
-        let OnStep { step, until, steps, before } = *on_step;
+        let OnStep { step, until, steps, sizes, before } = *on_step;
         let shorter = |time: f64| {
             let first_step = SHORTER_FIRST_STEP * time;
             let is_shorter = step.from == 0.0 && first_step > 0.0 && first_step < SHORTER * step.to;
@@ -180,7 +184,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         }
         let name = || format!("{surface:?}");
         let value = |state: &T::State| self.system.guard_value(surface, state);
-        let accuracy = Accuracy { tolerances: self.tolerances, steps };
+        let accuracy = Accuracy { tolerances: self.tolerances, steps, sizes };
         let kind = match *found {
             _ if leaving => {
                 let (surface, looked) = (name(), Looked::OnSteps);

@@ -1,0 +1,151 @@
+//! Zeno limits with other events shortly before them, and limits at which rounding hides the last bounces.
+
+use hybrid_system::*;
+
+type Ball = State<2>;
+
+/// A ball over a floor at this height, gravity 1: the height and the velocity after a time.
+fn flight(x: &Ball, t: f64) -> [f64; 2] {
+    [x[0] + t * (x[1] - t / 2.0), x[1] - t]
+}
+
+/// Every bounce is a landing from above, at a floor whose height hides the last ones. A bounce that rounding hides is no
+/// event at once.
+#[test]
+fn a_floor_at_any_height_is_landed_on_from_above() {
+    for (floor, exactly) in
+        [(0.0, true), (0.3, false), (1.0, true), (1.0, false), (-7.7, true), (1000.0, false)]
+    {
+        for (restitution, height) in [(0.3, 0.5), (0.5, 0.37), (0.5, 0.5), (0.8, 1.9)] {
+            let ball = Model::closed_form(|(), x: &Ball, t| flight(x, t))
+                .falling(
+                    (),
+                    move |x| x[0] - floor,
+                    move |x| ((), [if exactly { floor } else { x[0] }, -restitution * x[1]]),
+                )
+                .contact()
+                .sampled(0.02);
+            let exact = (2.0_f64 * height).sqrt() * (1.0 + restitution) / (1.0 - restitution);
+            let mut limit = None;
+            for arc in ball.run((), [floor + height, 0.0], 60.0) {
+                match arc.unwrap().end {
+                    ArcEnd::Event(event) => assert!(event.before[1] < 0.0, "{floor} {event:?}"),
+                    ArcEnd::Zeno { limit: found, .. } => limit = Some(found),
+                    _ => {}
+                }
+            }
+            let limit = limit.unwrap_or_else(|| panic!("{floor} {restitution} {height}"));
+            let error = (limit.time - exact).abs();
+            assert!(error <= limit.time_error && limit.time_error < 1e-5, "{floor} {limit:?}");
+        }
+    }
+}
+
+/// A clock at the time of the limit ticks once, whatever the order of the two.
+#[test]
+fn a_clock_at_a_limit_ticks_once() {
+    for late in [-2, -1, 0, 1, 2] {
+        let tick = f64::from_bits(3.0_f64.to_bits().wrapping_add_signed(late));
+        let ball = Model::closed_form(|flies: bool, x: &Ball, t| match flies {
+            true => flight(x, t),
+            false => [0.0, 0.0],
+        })
+        .falling(true, |x| x[0], |x| (true, [x[0], -0.5 * x[1]]))
+        .contact()
+        .sampled(0.013)
+        .rest(|_, _| Some((false, [0.0, 0.0])))
+        .clock_everywhere(
+            9,
+            move |now| (now < tick).then_some(tick),
+            |mode, x: &Ball| (mode, *x),
+        );
+        let arcs = ball.run(true, [0.5, 0.0], 4.0).map(|arc| arc.unwrap());
+        let ticks: Vec<_> = arcs
+            .filter_map(|arc| arc.event().map(|event| (event.surface, event.time)))
+            .filter(|event| event.0 == 9)
+            .collect();
+        assert_eq!(ticks, [(9, tick)], "{late}");
+    }
+}
+
+/// The times of a clock are known: a series of them has no limit.
+#[test]
+fn clocks_alone_have_no_limit() {
+    let mut times: Vec<f64> = (1..=45).map(|k| 1.0 - 0.5_f64.powi(k)).collect();
+    times.extend([2.0, 3.0]);
+    let clock = PresetTimes::new(times.clone()).unwrap();
+    let counter = Model::closed_form(|(), x: &State<1>, t| [x[0] + t])
+        .clock((), 9, move |now| clock.next_after(now), |(), x| ((), [x[0] + 1.0]))
+        .sampled(0.1);
+    let mut run = counter.run((), [0.0], 4.0);
+    let seen: Vec<_> =
+        run.by_ref().filter_map(|arc| arc.unwrap().event().map(|event| event.time)).collect();
+    assert_eq!(seen, times);
+    assert_eq!(run.stop(), Some(Stop::TimeLimit));
+}
+
+#[cfg(feature = "ode")]
+type Timed = State<3>;
+
+/// A ball whose third component is the time, with a limit at 3.
+#[cfg(feature = "ode")]
+macro_rules! timed_ball {
+    () => {
+        Model::integrated(|flies: bool, x: &Timed| match flies {
+            true => [x[1], -1.0, 1.0],
+            false => [0.0, 0.0, 1.0],
+        })
+        .guard(
+            true,
+            Guard::falling("floor").contact(),
+            |x| x[0],
+            |x| (true, [x[0], -0.5 * x[1], x[2]]),
+        )
+        .rest(|_, x| Some((false, [0.0, 0.0, x[2]])))
+    };
+}
+
+/// An observer before the limit has its one event within its stated error, also where the bounces are lost in the errors
+/// of an integration.
+#[cfg(feature = "ode")]
+#[test]
+fn an_observer_before_a_limit_is_not_lost() {
+    for tolerance in [1e-6, 1e-9, 1e-12] {
+        for k in 0..60 {
+            let before = 1e-3 * 0.7_f64.powi(k);
+            let tick = 3.0 - before;
+            let ball = timed_ball!()
+                .tolerance(tolerance)
+                .observer(Guard::rising("time"), move |x| x[2] - tick);
+            let arcs = ball.run(true, [0.5, 0.0, 0.0], 4.0).map(|arc| arc.unwrap());
+            let events = arcs.filter_map(|arc| arc.event().cloned());
+            let ticks: Vec<_> = events.filter(|event| event.surface == "time").collect();
+            let [event] = &ticks[..] else { panic!("{tolerance} {before} {ticks:?}") };
+            let error = (event.time - tick).abs();
+            assert!(error <= event.time_error + 1e-13, "{tolerance} {before} {event:?}");
+        }
+    }
+}
+
+/// The same for guards that end the run, of all roles.
+#[cfg(feature = "ode")]
+#[test]
+fn a_terminal_guard_before_a_limit_ends_the_run() {
+    for before in [1e-4, 1.4e-5, 3e-6] {
+        for role in 0..3 {
+            let tick = 3.0 - before;
+            let guard = Guard::rising("time");
+            let guard = [guard.contact(), guard, guard.crossing()][role];
+            let ball = timed_ball!().terminal(true, guard, move |x| x[2] - tick).terminal(
+                false,
+                guard,
+                move |x| x[2] - tick,
+            );
+            let mut run = ball.run(true, [0.5, 0.0, 0.0], 4.0);
+            let last = run.by_ref().last().unwrap().unwrap();
+            let event = last.event().unwrap();
+            assert_eq!((event.surface, run.stop()), ("time", Some(Stop::Terminal)), "{before}");
+            assert!((event.time - tick).abs() <= event.time_error, "{before} {role} {event:?}");
+        }
+    }
+}
