@@ -236,6 +236,11 @@ def everything_hops(lines):
         at_wide(line) for line in changed(lines, 1, mass_ratio=wide)[1:]
     ], [0], None
     yield "the crisis widened a little", changed(lines, 1, mass_ratio=[lines[1]["mass_ratio"][0] - 1e-9, lines[1]["mass_ratio"][1]]), [0], None
+    (low, high), tenth = lines[1]["mass_ratio"], 0.05 * (lines[1]["mass_ratio"][1] - lines[1]["mass_ratio"][0])
+    for what, pair in (("lower", [high - tenth, high]), ("upper", [low, low + tenth])):
+        at_pair = lambda line: {**line, "mass_ratio": pair[1]} if line["kind"] != "crisis" else line
+        shrunk = [changed(lines, 0, statement=of_crisis(lines, pair))[0]] + [at_pair(line) for line in changed(lines, 1, mass_ratio=pair)[1:]]
+        yield f"the crisis shrunk to a twentieth at its {what} end", shrunk, [0], "or"
     low, high = moved(lines[1]["mass_ratio"], 1e-6)
     at_moved = lambda line: {**line, "mass_ratio": high} if line["kind"] != "crisis" else line
     yield "the crisis moved upwards", [changed(lines, 0, statement=of_crisis(lines, [low, high]))[0]] + [
@@ -253,6 +258,8 @@ def everything_hops(lines):
     yield "a part at another mass ratio", changed(lines, part, mass_ratio=0.05), claims, None
     yield "the bound on losses too low", changed(lines, losses, losses=0.9 * lines[losses]["losses"]), claims_of(lines, losses), None
     yield "the square too large", changed(lines, losses, square=1.1 * lines[losses]["square"]), claims_of(lines, losses), None
+    yield "losses above the square", changed(lines, losses, losses=1.1 * lines[losses]["square"]), claims_of(lines, losses), None
+    yield "a square below the losses", changed(lines, losses, square=0.9 * lines[losses]["losses"]), claims_of(lines, losses), None
     yield "losses from elsewhere on", changed(lines, losses, multiple_of_pi=10), claims_of(lines, losses), None
     yield "the last hump left out", counted([line for line in lines if line.get("n") != 8]), [], None
 
@@ -277,6 +284,9 @@ def rising(lines):
     tiny = [{**line, "largest_mass_ratio": 1e-9} if line.get("kind") == "rising-window" else line for line in lines]
     yield "all windows for M up to 1e-9", tiny, [], None
     yield "a window that begins late", changed(lines, window, speeds=[4.0, lines[window]["speeds"][1]]), [], None
+    begin, end = lines[window]["speeds"]
+    yield "a window that begins early", changed(lines, window, speeds=[begin - 1e-3, end]), [], None
+    yield "a window that ends late", changed(lines, window, speeds=[begin, end + 1e-3]), [], None
     yield "a window that ends early", changed(lines, window, speeds=[lines[window]["speeds"][0], 4.0]), [], None
     last_window = [at for at, line in enumerate(lines) if line.get("kind") == "rising-window"][-1]
     yield "nine of ten windows", counted(lines[:last_window]), [], None
@@ -293,6 +303,8 @@ def measures(lines):
     yield "a gap counted twice", changed_to(gaps[at], gaps[at]), [], None
     yield "an interval as a gap", changed(lines, 2, gaps=[[*lines[1]["intervals"][5][:2], [0, 1e-9]]]), [], None
     widest = max(range(len(gaps)), key=lambda own: sum(least for _, least in gaps[own][2:]))
+    none = [[*gap[:2], *([fate, 0.0] for fate, _ in gap[2:])] for gap in gaps]
+    yield "no lengths in any gap", changed(lines, 2, gaps=none), [], None
     yield "a gap left out", changed(lines, 2, gaps=without(gaps, widest)), [], None
     intervals = lines[1]["intervals"]
     place = max(range(1, len(intervals) - 1), key=lambda own: intervals[own][1] - intervals[own][0])
@@ -301,6 +313,9 @@ def measures(lines):
     yield "an interval too long", changed(lines, 1, intervals=wider), [place], None
     swapped = copy.deepcopy(intervals)
     swapped[place][2] = 0 if swapped[place][2] != 0 else 1
+    shorter = copy.deepcopy(intervals)
+    shorter[place][1] = 0.5 * sum(shorter[place][:2])
+    yield "an interval too short", changed(lines, 1, intervals=shorter), [place], None
     yield "a fate of an interval exchanged", changed(lines, 1, intervals=swapped), [place], None
     yield "an interval left out", changed(lines, 1, intervals=without(intervals, place)), [], None
     yield "another mass ratio", changed(lines, 1, mass_ratios=[0.3, 0.3]), [], None
@@ -325,6 +340,9 @@ def points(lines):
     longer_run = copy.deepcopy(lines[at]["fates"])
     longer_run[0][1] += 1
     yield "one row too many", changed(lines, at, fates=longer_run), claims, None
+    shorter_run = copy.deepcopy(lines[at]["fates"])
+    shorter_run[0][1] -= 1
+    yield "a row too few", changed(lines, at, fates=shorter_run), claims, None
     own = copy.deepcopy(lines[at]["traps"])
     own[1][1] = own[1][0] + 1.01 * (own[1][1] - own[1][0])
     yield "a trap a hundredth too long", changed(lines, at, traps=own), claims, None
@@ -338,6 +356,7 @@ def points(lines):
     yield "the window of another figure", changed(lines, 1, mass_ratios=[0.1, 0.2]), [], None
     yield "speeds of another window", changed(lines, 1, speeds=moved(lines[1]["speeds"], 1.0)), [], None
     yield "a grid of fewer columns", changed(lines, 1, columns=lines[1]["columns"] - 1), [], None
+    yield "a grid of more columns", changed(lines, 1, columns=lines[1]["columns"] + 1), [], None
 
 
 def cells(lines):
@@ -360,6 +379,9 @@ def cells(lines):
     wider = copy.deepcopy(own)
     wider[place][1] = 0.5 * (wider[place][1] + wider[place + 1][0])
     yield "an interval too long", changed(lines, at, intervals=wider), claim, None
+    shorter = copy.deepcopy(own)
+    shorter[place][1] = 0.5 * sum(shorter[place][:2])
+    yield "an interval too short", changed(lines, at, intervals=shorter), claim, None
     yield "an interval left out", changed(lines, at, intervals=without(own, place)), [], None
     low, high = lines[-1]["share"]
     yield "an area shrunk from above", changed(lines, len(lines) - 1, share=[low, 0.5 * (low + high)]), [], None
@@ -374,6 +396,7 @@ def cells(lines):
     parts = [{**lines[at], "mass_ratios": list(pair)} for pair in zip(cuts, cuts[1:])]
     yield "columns of another width", counted(lines[:at] + parts + lines[at + 1 :]), [], None
     yield "a cell too many", changed(lines, 2, of_one_basin=lines[2]["of_one_basin"] + 1), [], None
+    yield "a cell too few", changed(lines, 2, of_one_basin=lines[2]["of_one_basin"] - 1), [], None
     yield "the window of another figure", changed(lines, 1, mass_ratios=[0.1, 0.2]), [], None
 
 

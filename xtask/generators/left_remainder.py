@@ -32,10 +32,14 @@ ORDER = 2
 NEAR = acb(3) + acb(arb(0, 0.4), arb(0, 0.4))
 # Newton steps to sigma in the middle of an arc.
 STEPS = 3
-# Cells of the disc in each direction, and the first parts of kappa there and on the circle.
-CELLS, PARTS = 24, 4
+# The first parts of kappa, on the disc and on the circle.
+PARTS = 4
+# Most cells of the disc for one n; 1142 are needed for n = 1.
+MOST_CELLS = 20000
+# Parts of the real line on the disc, for the least P.
+REAL_PARTS = 64
 # First arcs of the circle, and how much more the rest bends with the angle than with kappa.
-ARCS, STEEPER = 128, 8
+ARCS, STEEPER = 64, 8
 # Most arcs for one n: 3054 are needed for n = 1, and 1282 for n = 100.
 MOST_ARCS = 20000
 # The first three coefficients at u = 0 vanish to this many binary digits less than all.
@@ -43,7 +47,6 @@ DIGITS = 40
 UNIT = acb(arb(0, 1))
 
 Arc = namedtuple("Arc", "low high kappa_low kappa_high")
-Loss = namedtuple("Loss", "rest p")
 
 
 class Singular(Exception):
@@ -89,7 +92,7 @@ def height(x, v, u, sigma):
 
 
 def loss(a, beta, u, kappa, sigma_of):
-    """The rest and P, from power series in u and kappa. `sigma_of` solves the second flight from its X, V and u."""
+    """The rest, from power series in u and kappa. `sigma_of` solves the second flight from its X, V and u."""
     tau = 2 * a - u
     sine, cosine = tau.sin(), tau.cos()
     q = tau - sine
@@ -109,7 +112,7 @@ def loss(a, beta, u, kappa, sigma_of):
     root = (positive(p).log() / 3).exp()
     third, square = root * u, 31 / (80 * a * a) - 9 * kappa / 10 + acb(arb(34) / 25)
     g = divided(4 * squares, 5 * a * beta**4 * p * root * positive(alpha + f))
-    return Loss(g - 1 + beta / a * third + beta**2 * square * third * third, p)
+    return g - 1 + beta / a * third + beta**2 * square * third * third
 
 
 def newton(place, ball):
@@ -119,9 +122,10 @@ def newton(place, ball):
         order, ctx.cap = ctx.cap, 2
         constant = lambda series: acb_series([series[0]])
         at = lambda sigma: height(constant(x), constant(v), constant(u), sigma)
-        down = at(acb_series([ball, 1]))[1]
-        value = at(acb_series([place]))[0]
-        ctx.cap = order
+        try:
+            down, value = at(acb_series([ball, 1]))[1], at(acb_series([place]))[0]
+        finally:
+            ctx.cap = order
         if not down.real < 0:
             raise Singular
         return place - value / down
@@ -163,7 +167,7 @@ def on_arc(a, beta, radius, arc):
         u = radius * (acb_series(angle) * acb(0, 1)).exp()
         found = []
         keep = lambda *start: found.append(sigma_of(*start)) or found[0]
-        return loss(a, beta, u, acb_series(kappa), keep).rest, found[0]
+        return loss(a, beta, u, acb_series(kappa), keep), found[0]
 
     by_angle, sigma_by_angle = at([angle, angle_reach], [kappa], sigma_series)
     by_kappa, sigma_by_kappa = at([angle], [kappa, kappa_reach], sigma_series)
@@ -184,10 +188,9 @@ def holds(a, bound):
     ctx.cap = ORDER + 1
     beta = (12 * a * a / (1 + a * a)).root(3)
     radius = radius_of(a)
-    least = regular(a, beta, radius)
-    if least is None or not vanishes(a, beta):
+    if not is_regular(a, beta, radius) or not vanishes(a, beta):
         return None
-    largest = arb(bound) * least * radius**3
+    largest = arb(bound) * least_p(a, radius) * radius**3
     ends = [arb(k) / PARTS for k in range(PARTS + 1)]
     angles = [arb.pi() * k / ARCS for k in range(ARCS + 1)]
     work, done = [Arc(*arc, *part) for arc in zip(angles, angles[1:]) for part in zip(ends, ends[1:])], 0
@@ -205,38 +208,45 @@ def holds(a, bound):
     return done
 
 
-def regular(a, beta, radius):
-    """The least P for real u, if nothing is singular on the disc; else None. The half below the real line is the other's mirror image."""
-    sides = [radius * arb(k) / CELLS for k in range(-CELLS, CELLS + 1)]
+def is_regular(a, beta, radius):
+    """Whether nothing is singular on the disc. The half below the real line is the other's mirror image."""
     ends = [arb(k) / PARTS for k in range(PARTS + 1)]
-    least = None
-    for low, high in zip(sides, sides[1:]):
-        for below, above in zip(sides[CELLS:], sides[CELLS + 1 :]):
-            for kappas in zip(ends, ends[1:]):
-                cell = acb(low.union(high), below.union(above))
-                if abs(cell) > radius:
-                    continue
-                try:
-                    p = cell_of(a, beta, cell, kappas[0].union(kappas[1]))
-                except Singular:
-                    return None
-                if below == 0:
-                    least = p if least is None else min(least, p)
-    return least
+    work = [(-radius, radius, arb(0), radius, *kappas) for kappas in zip(ends, ends[1:])]
+    for _ in range(MOST_CELLS):
+        if not work:
+            return True
+        low, high, below, above, first, last = work.pop()
+        cell = acb(low.union(high), below.union(above))
+        if abs(cell) > radius:
+            continue
+        try:
+            on_cell(a, beta, cell, first.union(last))
+        except Singular:
+            middle, half = (low + high) / 2, (below + above) / 2
+            sides = [(low, middle), (middle, high)], [(below, half), (half, above)]
+            work += [(*across, *up, first, last) for across in sides[0] for up in sides[1]]
+    return False
 
 
-def cell_of(a, beta, u, kappa):
+def on_cell(a, beta, u, kappa):
     order, ctx.cap = ctx.cap, 1
-    found = loss(a, beta, acb_series([u]), acb_series([acb(kappa)]), lambda x, v, u: acb_series([sigma_near(x, v, u)]))
-    ctx.cap = order
-    return found.p[0].real.lower()
+    try:
+        loss(a, beta, acb_series([u]), acb_series([acb(kappa)]), lambda x, v, u: acb_series([sigma_near(x, v, u)]))
+    finally:
+        ctx.cap = order
+
+
+def least_p(a, radius):
+    """The least P for real u on the disc."""
+    ends = [radius * k / REAL_PARTS for k in range(REAL_PARTS + 1)]
+    return min((drop(a, low.union(high)) for low, high in zip(ends, ends[1:])), key=lambda p: p.lower()).lower()
 
 
 def vanishes(a, beta):
     """The first three coefficients at u = 0 are zero to all digits of a ball without width, at five kappa; they are of the first degree in it."""
     tiny = arb(2) ** (DIGITS - ctx.prec)
     for k in range(5):
-        rest = loss(a, beta, acb_series([0, 1]), acb_series([acb(k) / 4]), sigma_series).rest
+        rest = loss(a, beta, acb_series([0, 1]), acb_series([acb(k) / 4]), sigma_series)
         if not all(abs(rest[j]) < tiny for j in range(3)):
             return False
     return True
@@ -254,14 +264,15 @@ def halves(arc):
 def radius_of(a):
     """A real u whose speed is more than the range below a."""
     u = FIRST_TIME
-    while not drop(a, u) > REACH:
+    while not u**3 * drop(a, u) > REACH:
         u = (u * LONGER).mid()
     return u
 
 
 def drop(a, u):
+    """P = |delta|/u^3 for real u."""
     tau = 2 * a - u
-    return u**3 * (a * e(3, acb(u)) - u * e(4, acb(u))).real / (tau - tau.sin())
+    return (a * e(3, acb(u)) - u * e(4, acb(u))).real / (tau - tau.sin())
 
 
 def star(n):

@@ -55,6 +55,9 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     let falsifier = "false_certificates.py";
     passes(falsifier, script(falsifier).arg(&folder))?;
     passes(falsifier, script(falsifier).args(["--random", CHANGES]).arg(&folder))?;
+    // Theorem 68, which no certificate rests on, with a bound that takes seconds.
+    let remainder = "left_remainder.py";
+    passes(remainder, script(remainder).args(["1", "--bound", "40"]))?;
     // Sines and cosines, which both programs and all lemmas rest on.
     let mut enclosures = Command::new(&cargo);
     enclosures.args(["run", "--quiet", "--release", "--package", "interval-arithmetic"]);

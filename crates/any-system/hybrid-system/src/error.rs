@@ -76,7 +76,8 @@ pub enum Error {
     },
     /// A guard under bounds starts at zero, and rounding hides to which side it leaves.
     #[error(
-        "rounding hides to which side the guard leaves its zero at the start: derivative {order} is {value}",
+        "rounding hides to which side the guard leaves its zero at the start: derivative {order} is {value}; move the state \
+         off the surface in the reset, or decide in `HybridSystem::leaving_side`",
         value = Number(*.value)
     )]
     UndecidedSign {

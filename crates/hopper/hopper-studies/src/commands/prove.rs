@@ -15,6 +15,7 @@ use hopper_proof::{
     one_sudden, points_theorem, proved_points, rising, trap_edges,
 };
 use journal_figures::Svg;
+use std::io::ErrorKind;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -153,7 +154,11 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
         if let Some(gate) = theorem.gate.filter(|_| options.gate) {
             gate(&mut own);
         }
-        if !theorem.prove(&own, &folder)? {
+        let proved = theorem.prove(&own, &folder);
+        if !matches!(proved, Ok(true)) {
+            remove_certificate(theorem.name, &folder)?;
+        }
+        if !proved? {
             open.push(theorem.name);
         }
     }
@@ -161,6 +166,15 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
         return Ok(());
     }
     Err(Error::CheckFailed(format!("not proved: {}", open.join(", "))))
+}
+
+/// Removes the certificate of an earlier run, which would pass for one of this run.
+fn remove_certificate(name: &str, folder: &Folder) -> Result<(), Error> {
+    let path = folder.path().join(format!("{name}.jsonl"));
+    match std::fs::remove_file(&path) {
+        Err(source) if source.kind() != ErrorKind::NotFound => Err(Error::File { path, source }),
+        _ => Ok(()),
+    }
 }
 
 /// The theorem of a name.
@@ -202,8 +216,6 @@ fn report(
     }
     if !theorem.is_proved() {
         say(format_args!("{:8} no certificate: the statement is open", ""))?;
-        // One of an earlier run would pass for this one's.
-        drop(std::fs::remove_file(folder.path().join(format!("{}.jsonl", theorem.name))));
         return Ok(false);
     }
     let (path, bytes) = write_certificate(theorem, strips, folder)?;
@@ -289,6 +301,37 @@ fn write(name: &'static str, svg: Svg, folder: &Folder) -> Result<(), Error> {
 mod tests {
     use super::*;
     use std::collections::BTreeSet;
+
+    #[derive(clap::Parser)]
+    struct Command {
+        #[command(flatten)]
+        options: Options,
+    }
+
+    /// A run whose statement stays open, and one that ends in an error, leave no certificate, whatever was there.
+    #[test]
+    fn a_run_that_does_not_prove_leaves_no_certificate() {
+        let folder = std::env::temp_dir().join(format!("prove_{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let prove = |arguments: &[&str]| {
+            let name = arguments[0];
+            let path = folder.join(format!("{name}.jsonl"));
+            std::fs::write(&path, "of an earlier run").unwrap();
+            let out = ["prove", "--out", folder.to_str().unwrap()];
+            let words = out.iter().chain(arguments);
+            let ended = run(&<Command as clap::Parser>::parse_from(words).options);
+            (ended, std::fs::read_to_string(path).ok())
+        };
+        let (ended, file) = prove(&["fig6-cells", "--size", "1", "--open", "0"]);
+        assert!(matches!(ended, Err(Error::CheckFailed(_))), "{ended:?}");
+        assert_eq!(file, None);
+        let (ended, file) = prove(&["measures", "-M=-1", "--width", "0.1"]);
+        assert!(ended.is_err() && !matches!(ended, Err(Error::CheckFailed(_))), "{ended:?}");
+        assert_eq!(file, None);
+        let (ended, file) = prove(&["one-sudden"]);
+        assert!(ended.is_ok() && file.unwrap().contains("one-sudden"));
+        std::fs::remove_dir_all(folder).unwrap();
+    }
 
     /// The second program compares what a certificate proves with this list, and makes false certificates of each
     /// theorem in it.
