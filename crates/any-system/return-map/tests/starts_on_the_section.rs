@@ -3,8 +3,8 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use hybrid_system::*;
-use nalgebra::{SVector, Vector2};
-use return_map::{Error, ReturnMap, Section};
+use nalgebra::{SMatrix, SVector, Vector2, matrix};
+use return_map::{Error, ReturnMap, Section, SmoothSection};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Surface {
@@ -63,6 +63,42 @@ fn a_return_takes_time_unless_asked_for() {
     map.counts_at_once = true;
     let found = map.next(&start).unwrap();
     assert_eq!((found.time, found.coordinates[0], found.events), (0.0, 0.5, 1));
+}
+
+impl Differentiable<2> for Ball {
+    fn flow_jacobian(&self, (): (), _: &State<2>, time: f64) -> SMatrix<f64, 2, 2> {
+        matrix![1.0, time; 0.0, 1.0]
+    }
+    fn guard_gradient(&self, _: Surface, _: &State<2>) -> State<2> {
+        Vector2::new(1.0, 0.0)
+    }
+    fn reset_jacobian(&self, (): (), _: Surface, _: &State<2>) -> SMatrix<f64, 2, 2> {
+        matrix![0.0, 0.0; 0.0, -0.5]
+    }
+}
+
+impl SmoothSection<Ball, 2, 1> for Bounce {
+    fn point_jacobian(&self, _: &SVector<f64, 1>) -> SMatrix<f64, 2, 1> {
+        matrix![0.0; -1.0]
+    }
+    fn coordinates_jacobian(&self, _: &Event<(), Surface, State<2>>) -> SMatrix<f64, 1, 2> {
+        matrix![0.0, 1.0]
+    }
+}
+
+/// The return after the event at the start keeps a quarter of the speed, and takes it as its time.
+#[test]
+fn the_derivative_is_that_of_the_return_that_takes_time() {
+    let mut map = ReturnMap::new(&Ball, &Bounce, Limits::sampled(10.0, 10, 0.01));
+    let start = SVector::<f64, 1>::new(1.0);
+    let found = map.next_with_derivative(&start).unwrap();
+    assert!((found.to.time - 1.0).abs() < 1e-14 && found.to.events == 2);
+    assert!((found.derivative[0] - 0.25).abs() < 1e-12, "{}", found.derivative);
+    assert!((found.time_derivative[0] - 1.0).abs() < 1e-12, "{}", found.time_derivative);
+    map.counts_at_once = true;
+    let found = map.next_with_derivative(&start).unwrap();
+    assert_eq!((found.to.time, found.to.events), (0.0, 1));
+    assert!((found.derivative[0] - 0.5).abs() < 1e-12, "{}", found.derivative);
 }
 
 #[test]

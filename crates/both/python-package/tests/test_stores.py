@@ -307,6 +307,32 @@ def test_a_full_disk_leaves_nothing_that_reads_as_finished(tmp_path):
         subprocess.run(["umount", "-l", str(disk)], check=True)
 
 
+def test_a_store_on_a_read_only_disk_opens_if_it_is_finished(tmp_path):
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=4m", "tmpfs", str(disk)]
+    if not sys.platform.startswith("linux") or os.geteuid() != 0 or subprocess.run(mount, capture_output=True).returncode != 0:
+        pytest.skip("SKIPPED the read-only disk: a tmpfs needs Linux and root")
+    store = disk / "basins.zarr"
+    remounted = lambda how: subprocess.run([*mount[:4], f"remount,{how}", *mount[5:]], check=True)
+    try:
+        finished = hopper.basins(**JOB, store=store)
+        remounted("ro")
+        xarray.testing.assert_identical(hopper.basins(**JOB, store=store).load(), finished.load())
+        # What is not there has to be written.
+        for lost in (store / "label" / "c" / "1" / "0", store / "alpha" / "c" / "0"):
+            remounted("rw")
+            kept = lost.read_bytes()
+            lost.unlink()
+            remounted("ro")
+            with pytest.raises(OSError, match="Read-only file system"):
+                hopper.basins(**JOB, store=store)
+            remounted("rw")
+            lost.write_bytes(kept)
+    finally:
+        subprocess.run(["umount", "-l", str(disk)], check=True)
+
+
 def hopper_program():
     """The program `hopper` of the repository: HOPPER_PROGRAM, or one that cargo has built in the folder target."""
     target = Path(__file__).parents[4] / "target"

@@ -190,7 +190,7 @@ pub(crate) fn is_within(ulps: usize, time: f64, exact: f64) -> bool {
 
 #[track_caller]
 pub(crate) fn assert_events(found: &[(usize, f64)], expected: &[(usize, f64)], searched: Searched) {
-    // Two ulps for each arc.
+    // Two ulps for each arc: the time of an event is a sum of durations, each of them rounded.
     let right = found.len() == expected.len()
         && found
             .iter()
