@@ -6,6 +6,7 @@ use crate::before_limit::Passing;
 use crate::crossing::{Certainty, Crossing, EventKind, GuardedFlow, LeavingGuards};
 use crate::error::Error;
 use crate::execution::{AnArc, Execution};
+use crate::guard::Role;
 use crate::limits::Stop;
 use crate::missed::check_missed;
 use crate::next_event::flow_to;
@@ -98,7 +99,9 @@ impl<T: HybridSystem> Execution<'_, T> {
             _ => self.error_by_division(surface, &state, duration),
         };
         let solved = certainty == Certainty::Exact;
-        let length = DurationOfArc { duration, time_rounding, time_error, solved, from };
+        let since_event = self.at.history.since_event;
+        let length =
+            DurationOfArc { duration, since_event, time_rounding, time_error, solved, from };
         self.remember((kind, surface), &state, (length, leaving), time_passes);
         if let Some((_, after)) = &after {
             // A reset that moves a guard off its surface leaves no residue.
@@ -177,7 +180,10 @@ impl<T: HybridSystem> Execution<'_, T> {
             // A guard that is on its surface at the preset time, before it has passed through it, must not lose its
             // event.
             EventKind::Clock if duration > 0.0 => {
-                self.at.arrival = Some(arrival(None, DurationOfArc::given(duration)));
+                self.at.arrival = Some(arrival(
+                    None,
+                    DurationOfArc::given(duration, self.at.history.since_event),
+                ));
             }
             EventKind::AtStart | EventKind::Clock => match &mut self.at.arrival {
                 Some(arrival) if !time_passes => {
@@ -229,7 +235,8 @@ impl<T: HybridSystem> Execution<'_, T> {
         if duration > 0.0 {
             // A guard that reaches its surface just here, and passes through it after the limit, must not lose its
             // event.
-            let (flow, length) = (self.flow(), DurationOfArc::given(duration));
+            let (flow, length) =
+                (self.flow(), DurationOfArc::given(duration, self.at.history.since_event));
             self.at.arrival = Some(Arrival::new(&flow, None, &state, (length, leaving)));
             self.forget_residues(None, &state, duration);
             self.at.history.pass(duration);
@@ -289,7 +296,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             state: &self.at.state,
             time: self.at.time.value(),
             last,
-            before: self.at.arrival.as_ref().filter(of_last).map(Arrival::before),
+            before: self.at.arrival.as_ref().filter(of_last).and_then(Arrival::before),
         };
         sliding_point(self.system, &at)
     }
@@ -322,7 +329,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         let after = self.system.rest(self.at.mode, &limit.state);
         let (remainder, state) = (limit.remainder, limit.state.clone());
         let passed = passing.iter().map(|guard| (guard.surface, guard.from)).collect();
-        let arrival = Arrival::at_limit(self.at.mode, &state, limit.time_error, passed);
+        let arrival = Arrival::at_zeno(self.at.mode, &state, limit.time_error, passed);
         let end = ArcEnd::Zeno { limit, after: after.clone() };
         let arc = self.new_arc(remainder, end);
         let before = self.at.time.value();
@@ -330,9 +337,14 @@ impl<T: HybridSystem> Execution<'_, T> {
         self.at.jump += 1;
         self.at.initial = false;
         self.at.history.clear();
+        let guards = self.system.guards(self.at.mode).iter();
+        let clocks = guards.filter(|guard| guard.role == Role::Clock);
         // A clock that has ticked at the time of the limit does not tick again.
-        if self.at.time.value() > before {
-            self.at.chain.clear();
+        match self.at.time.value() > before {
+            true => self.at.chain.clear(),
+            false => {
+                self.at.chain.keep(|surface| clocks.clone().any(|clock| clock.surface == surface))
+            }
         }
         self.at.arrival = Some(arrival);
         self.at.residues.clear();

@@ -33,6 +33,8 @@ const NEAR: f64 = 1e-6;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DurationOfArc {
     pub(crate) duration: f64,
+    /// Time from the last event to the start of the arc, if stops are in between.
+    pub(crate) since_event: f64,
     /// By rounding.
     pub(crate) time_rounding: f64,
     /// From the true duration.
@@ -45,8 +47,15 @@ pub(crate) struct DurationOfArc {
 
 impl DurationOfArc {
     /// A duration that a clock or a limit gives.
-    pub(crate) fn given(duration: f64) -> Self {
-        DurationOfArc { duration, time_rounding: 0.0, time_error: 0.0, solved: false, from: None }
+    pub(crate) fn given(duration: f64, since_event: f64) -> Self {
+        DurationOfArc {
+            duration,
+            since_event,
+            time_rounding: 0.0,
+            time_error: 0.0,
+            solved: false,
+            from: None,
+        }
     }
 }
 
@@ -77,6 +86,8 @@ pub(crate) struct Arrival<M, S, X> {
     mode: M,
     start: X,
     duration: f64,
+    /// Time from the last event to the start of the arc.
+    since_event: f64,
     /// The error of the duration by rounding.
     time_rounding: f64,
     /// The distance of the duration from that of the true trajectory.
@@ -88,7 +99,7 @@ pub(crate) struct Arrival<M, S, X> {
     /// Other surfaces that were reached at the same instant.
     reached: SmallVec<[Reached<S>; FEW]>,
     /// True after a Zeno limit: no flow of one mode has led to it.
-    at_limit: bool,
+    after_zeno: bool,
 }
 
 impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
@@ -102,7 +113,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
-        let DurationOfArc { duration, time_rounding, time_error, solved, from } = length;
+        let DurationOfArc { duration, since_event, time_rounding, time_error, solved, from } =
+            length;
         let mut arrival = Arrival {
             surface,
             touched: false,
@@ -111,12 +123,13 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
             mode: arc.mode,
             start: arc.start.clone(),
             duration,
+            since_event,
             time_rounding,
             time_error,
             solved,
             leaving,
             reached: SmallVec::new(),
-            at_limit: false,
+            after_zeno: false,
         };
         let crossed = arc.guards().iter().find(|guard| Some(guard.surface) == surface);
         arrival.from = match crossed.map(|guard| guard.direction) {
@@ -142,7 +155,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     }
 
     /// The arrival at a Zeno limit in this state. These surfaces have been passed within its error, each from a side.
-    pub(crate) fn at_limit(mode: M, state: &X, time_error: f64, passed: Vec<(S, f64)>) -> Self {
+    pub(crate) fn at_zeno(mode: M, state: &X, time_error: f64, passed: Vec<(S, f64)>) -> Self {
         let reached = |(surface, from)| Reached { surface, from, has_passed: false };
         Arrival {
             surface: None,
@@ -152,12 +165,13 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
             mode,
             start: state.clone(),
             duration: 0.0,
+            since_event: 0.0,
             time_rounding: 0.0,
             time_error,
             solved: false,
             leaving: LeavingGuards::new(),
             reached: passed.into_iter().map(reached).collect(),
-            at_limit: true,
+            after_zeno: true,
         }
     }
 
@@ -167,7 +181,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         M: PartialEq,
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
-        !self.at_limit && self.mode == next.mode && self.before == *next.start
+        !self.after_zeno && self.mode == next.mode && self.before == *next.start
     }
 
     /// The side to which the guard of this surface has passed, ±1, if it was crossed.
@@ -210,7 +224,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     {
         let before = next.guard_value(surface, &self.before);
         if self.solved
-            || self.at_limit
+            || self.after_zeno
             || Some(surface) == self.surface
             || !(before * now > 0.0)
             || (now - before).abs() > rounding
@@ -252,9 +266,14 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         self.surface
     }
 
-    /// The duration of the arc.
+    /// The duration of the arc; infinite after a Zeno limit, whose arcs are shorter than any.
     pub(crate) fn duration(&self) -> f64 {
-        self.duration
+        if self.after_zeno { f64::INFINITY } else { self.duration }
+    }
+
+    /// The time since the event before, stops in between included.
+    pub(crate) fn flight(&self) -> f64 {
+        self.since_event + self.duration
     }
 
     /// The largest component at the start of the arc. On this scale the error of the arrival is small: an arc that
@@ -263,9 +282,14 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         self.start.largest()
     }
 
-    /// The state before the reset.
-    pub(crate) fn before(&self) -> &X {
-        &self.before
+    /// The state before the reset; `None` after a Zeno limit.
+    pub(crate) fn before(&self) -> Option<&X> {
+        (!self.after_zeno).then_some(&self.before)
+    }
+
+    /// True if a surface was reached at the same instant, and has not had its event.
+    pub(crate) fn has_pending(&self) -> bool {
+        self.reached.iter().any(|reached| !reached.has_passed)
     }
 
     /// The sign that the guard of this surface had before, if the surface was reached at the same instant.

@@ -5,14 +5,20 @@
 //!
 //! | the event comes | the flow can be followed | rounding hides the next event |
 //! |---|---|---|
-//! | clearly before the limit | the flow is followed on | the event is on the straight path to the limit, with the remaining time as its error |
-//! | at the limit, within its error | the clock: at the limit's state; the guard: at the start of the next arc | the same |
+//! | clearly before the limit | the flow is followed on | on the straight path to the limit; a guard has the remaining time as its error |
+//! | within the error of the limit, a guard | at the start of the next arc, if that has the guard | the same |
+//! | within the error of the limit, a clock | at the limit's state, behind such guards | on the straight path |
+//!
+//! A guard belongs to the events that lead to the limit if it has had two within three periods. It is looked at now and at
+//! the limit: two zeros on the way, after the last event that can be followed, are not seen.
 
-use crate::crossing::{Certainty, Crossing, EventKind, GuardedFlow, LeavingGuards};
+use crate::arrival::Arrival;
+use crate::crossing::{
+    Certainty, Crossing, EventKind, GuardedFlow, LeavingGuards, change_by_components,
+};
 use crate::error::Error;
 use crate::execution::{AnArc, Execution};
 use crate::guard::{Guard, Role};
-use crate::next_event::{ClockEvent, flow_to};
 use crate::state::StateVector;
 use crate::system::HybridSystem;
 use crate::zeno::ZenoLimit;
@@ -39,8 +45,8 @@ type MaybeArc<T> = Result<Option<AnArc<T>>, Error>;
 impl<T: HybridSystem> Execution<'_, T> {
     /// The arc up to a Zeno limit, or to a clock within the error of the limit; `None` if the flow has to be followed.
     pub(crate) fn arc_to_limit(&mut self, limit: Limit<T>, horizon: f64) -> MaybeArc<T> {
-        // The times of clocks are known: they have no limit, whatever their series so far.
-        if !self.at.history.has_limit(&limit) {
+        // What has come to its surface at the instant of the last event has its event first.
+        if self.at.arrival.as_ref().is_some_and(Arrival::has_pending) {
             return Ok(None);
         }
         let passing = self.passing(&limit);
@@ -51,16 +57,16 @@ impl<T: HybridSystem> Execution<'_, T> {
             None => Ok(Some(self.zeno_arc(limit, &passing))),
             Some(clock) if clock.until < limit.remainder - limit.time_error => Ok(None),
             // Within the error of the limit the order is not known. A guard must not be lost at the state of the clock.
-            Some(clock) => match self.first_on_path(&limit, &passing)? {
-                Some(mut event) => {
-                    event.time = event.time.min(clock.until);
-                    self.event_arc(event, horizon, LeavingGuards::new()).map(Some)
-                }
-                None => {
-                    let event = clock.crossing(limit.state, Certainty::Interpolated);
-                    self.event_arc(event, horizon, LeavingGuards::new()).map(Some)
-                }
-            },
+            Some(clock) => {
+                let event = match self.first_on_path(&limit, &passing)? {
+                    Some(mut event) => {
+                        event.time = event.time.min(clock.until);
+                        event
+                    }
+                    None => clock.crossing(limit.state, Certainty::Interpolated),
+                };
+                self.event_arc(event, horizon, LeavingGuards::new()).map(Some)
+            }
         }
     }
 
@@ -68,24 +74,25 @@ impl<T: HybridSystem> Execution<'_, T> {
     /// a clock, a guard or the limit on time move the state.
     pub(crate) fn hidden_arc(&mut self, limit: Limit<T>, horizon: f64) -> Result<AnArc<T>, Error> {
         let (leaving, certainty) = (LeavingGuards::new(), Certainty::Interpolated);
-        let mut passing = self.passing(&limit);
+        let passing = self.passing(&limit);
         let clock = self.next_clock(limit.remainder.min(horizon))?;
-        let latest = clock.map_or(horizon, |clock: ClockEvent<T::Surface>| clock.until);
-        passing.retain(|guard| guard.clearly);
-        let first = self.first_on_path(&limit, &passing)?;
-        if let Some(event) = first.filter(|event| event.time <= latest) {
+        let ends_at_limit = clock.is_none() && limit.remainder <= horizon;
+        let latest = clock.map_or(horizon, |clock| clock.until);
+        // Those that pass within the error of the limit pass at it, if nothing else moves the state there before.
+        let before = passing.iter().filter(|guard| guard.clearly || !ends_at_limit);
+        if let Some(event) = self.first_on_path(&limit, before)?
+            && event.time <= latest
+        {
             return self.event_arc(event, horizon, leaving);
         }
+        if ends_at_limit {
+            return Ok(self.zeno_arc(limit, &passing));
+        }
+        let part = if limit.remainder > 0.0 { latest / limit.remainder } else { 1.0 };
+        let state = self.path_to(&limit)(part);
         match clock {
-            Some(clock) => {
-                let state = flow_to(&self.flow(), clock.until);
-                self.event_arc(clock.crossing(state, certainty), horizon, leaving)
-            }
-            None if limit.remainder <= horizon => {
-                let passing = self.passing(&limit);
-                Ok(self.zeno_arc(limit, &passing))
-            }
-            None => self.arc_without_event(horizon, None, certainty, leaving),
+            Some(clock) => self.event_arc(clock.crossing(state, certainty), horizon, leaving),
+            None => self.arc_without_event(horizon, Some(state), certainty, leaving),
         }
     }
 
@@ -95,43 +102,66 @@ impl<T: HybridSystem> Execution<'_, T> {
         let flow = self.flow();
         // The state at the limit is extrapolated as far as the time.
         let error = limit.time_error / limit.remainder;
+        let error_of_state = self.at.history.error_of_state(limit);
+        let arrival = self.at.arrival.as_ref();
         let passes = |guard: &Guard<T::Surface>| {
             let surface = guard.surface;
-            let [now, then] =
-                [&self.at.state, &limit.state].map(|state| flow.guard_value(surface, state));
-            let other = now * then < 0.0 && guard.direction.admits(now.signum(), then.signum());
-            if !other || self.at.history.leads_to(limit, surface) {
+            let value = |state: &T::State| flow.guard_value(surface, state);
+            let [now, then] = [&self.at.state, &limit.state].map(value);
+            let pending = arrival.and_then(|arrival| arrival.came_from(surface));
+            let from = pending.unwrap_or(now.signum());
+            let other = now * then < 0.0 || pending.is_some() && from * then < 0.0;
+            if !other
+                || !guard.direction.admits(from, -from)
+                || pending.is_none() && self.at.history.leads_to_limit(limit.period, surface)
+            {
                 return None;
             }
-            let hidden = flow.rounding_at(surface, &limit.state) + error * (then - now).abs();
-            Some(Passing { surface, from: now.signum(), clearly: then.abs() > hidden })
+            let by_state = error_of_state.as_ref().map_or(f64::INFINITY, |error| {
+                change_by_components(&limit.state, |axis| error.components()[axis], value)
+            });
+            let rounding = flow.rounding_at(surface, &limit.state);
+            let hidden = rounding + by_state + error * (then - now).abs();
+            Some(Passing { surface, from, clearly: then.abs() > hidden })
         };
         let guards = flow.guards().iter().filter(|guard| guard.role != Role::Clock);
         guards.filter_map(passes).collect()
     }
 
-    /// The first event of these guards on the straight path to a limit.
-    fn first_on_path(
-        &self,
-        limit: &Limit<T>,
-        passing: &PassingGuards<T::Surface>,
-    ) -> Result<Option<Crossing<T::Surface, T::State>>, Error> {
-        let flow = self.flow();
+    /// The straight path from the present state to that of a limit, by the part of the time to it.
+    fn path_to(&self, limit: &Limit<T>) -> impl Fn(f64) -> T::State {
+        let from = self.at.state.clone();
         let mut step = limit.state.clone();
-        step.add_scaled(-1.0, &self.at.state);
-        let state_at = |part: f64| {
-            let mut state = self.at.state.clone();
+        step.add_scaled(-1.0, &from);
+        move |part| {
+            let mut state = from.clone();
             state.add_scaled(part, &step);
             state
-        };
+        }
+    }
+
+    /// The first event of these guards on the straight path to a limit.
+    fn first_on_path<'a>(
+        &self,
+        limit: &Limit<T>,
+        passing: impl IntoIterator<Item = &'a Passing<T::Surface>>,
+    ) -> Result<Option<Crossing<T::Surface, T::State>>, Error>
+    where
+        T::Surface: 'a,
+    {
+        let (flow, path) = (self.flow(), self.path_to(limit));
         let mut first: Option<(f64, &Passing<T::Surface>)> = None;
         for guard in passing {
-            let along = |part: f64| flow.guard_value(guard.surface, &state_at(part));
+            let along = |part: f64| flow.guard_value(guard.surface, &path(part));
             let [now, then] = [0.0, 1.0].map(along);
-            // The sum of the state and the step rounds: the limit itself is on the other side.
-            let part = match now * then < 0.0 {
-                true => root_beyond(along, (0.0, now), (1.0, then))?,
-                false => 1.0,
+            let part = if now * guard.from <= 0.0 {
+                // It has come to its surface at the last event.
+                0.0
+            } else if now * then < 0.0 {
+                root_beyond(along, (0.0, now), (1.0, then))?
+            } else {
+                // The sum of the state and the step rounds: the limit itself is on the other side.
+                1.0
             };
             if first.is_none_or(|(earlier, _)| part < earlier) {
                 first = Some((part, guard));
@@ -140,9 +170,10 @@ impl<T: HybridSystem> Execution<'_, T> {
         let crossing = |(part, guard): (f64, &Passing<T::Surface>)| Crossing {
             surface: guard.surface,
             time: part * limit.remainder,
+            // A point of the path has no rounding by a search.
             time_rounding: 0.0,
             time_error: limit.remainder + limit.time_error,
-            state: state_at(part),
+            state: path(part),
             kind: EventKind::Crossing,
             from: Some(guard.from),
             certainty: Certainty::Interpolated,

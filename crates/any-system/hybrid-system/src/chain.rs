@@ -35,6 +35,12 @@ impl<M: Copy + PartialEq + Debug, S: Copy + PartialEq + Debug> Chain<M, S> {
         self.timeless = 0;
     }
 
+    /// Keeps the events of some surfaces.
+    pub(crate) fn keep(&mut self, is_kept: impl Fn(S) -> bool) {
+        self.events.retain(|event| is_kept(event.1));
+        self.timeless = 0;
+    }
+
     /// Time has passed, but less than the rounding of a double.
     pub(crate) fn moves_on(&mut self) {
         self.timeless = 0;

@@ -39,8 +39,14 @@ pub(crate) fn check_missed<T: HybridSystem>(
         let time_rounding = time_rounding.max(TIME_ULPS * f64::EPSILON * duration);
         let arrival = {
             let time_error = time_rounding;
-            let length =
-                DurationOfArc { duration, time_rounding, time_error, solved: true, from: None };
+            let length = DurationOfArc {
+                duration,
+                since_event: 0.0,
+                time_rounding,
+                time_error,
+                solved: true,
+                from: None,
+            };
             Arrival::new(arc, None, end, (length, LeavingGuards::new()))
         };
         let next = FlowFrom { system: arc.system, mode: arc.mode, start: end };

@@ -31,7 +31,8 @@
 
 use crate::arrival::Arrival;
 use crate::crossing::{
-    Certainty, Departure, GuardedFlow, LONGEST_LOOK, Leaving, LeavingGuards, departure, is_far,
+    Certainty, Departure, GuardedFlow, LONGEST_LOOK, Leaving, LeavingGuards, StartsAs, departure,
+    is_far,
 };
 use crate::error::Error;
 use crate::guard::{Direction, Guard, Role};
@@ -162,10 +163,12 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             // Both are short on the time scale of the model.
             let interval = interval.filter(|interval| *interval > 0.0).unwrap_or(f64::INFINITY);
             let short = arrival.map_or(f64::INFINITY, Arrival::duration).min(interval);
-            let bounced =
-                arrival.filter(|_| crossed && switch).map(|last| (direction, last.duration()));
-            match departure(flow, surface, (error, rounding), (horizon, short), (switch, bounced))?
-            {
+            let starts_as = match arrival.filter(|_| crossed) {
+                Some(last) if switch => StartsAs::Bounced { direction, flight: last.flight() },
+                _ if switch => StartsAs::Bound,
+                _ => StartsAs::Crossing,
+            };
+            match departure(flow, surface, (error, rounding), (horizon, short), starts_as)? {
                 Departure::To { side, certainty } => (side, certainty),
                 Departure::Stays => {
                     // On the side of the flow its value is the distance to the next event. Elsewhere it counts as zero.
@@ -191,7 +194,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             // A surface that the flow has reached is crossed. A jump through it, or beyond it, may mean two things.
             // A reset that only changes the mode is no jump on the surface: the flow has brought the state there.
             let moved = || {
-                let before = arrival.map(Arrival::before);
+                let before = arrival.and_then(Arrival::before);
                 before.is_some_and(|before| !is_unchanged(before, flow.start))
             };
             let jumped = !initial && !passes && (!on_surface || moved());

@@ -67,22 +67,38 @@ impl<X> ZenoLimit<X> {
 /// Surfaces that are kept without allocating.
 const FEW: usize = 4;
 
-/// A surface that has had an event within so many periods is one of those whose events lead to the limit. One period
-/// would do if its length had no error.
-const PERIODS: usize = 2;
+/// A surface that has had two events within so many periods is one of those whose events lead to the limit: one event in a
+/// period, and room for the error of its length. An observer of something else may have had one event.
+const PERIODS: usize = 3;
 
 /// Rounding of the times that are compared.
 const TIME_ULPS: f64 = 4.0;
+
+/// The largest factor by which the time to a limit shrinks in one period, for the error of the state. At a factor nearer to 1 the
+/// estimate has no digits.
+const LARGEST_RATIO: f64 = 1.0 - 1e-9;
+
+/// States that are kept: those of two of the longest periods.
+const STATES: usize = 2 * LONGEST_PERIOD + 1;
+
+/// The last events of a surface.
+#[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct LastEvents<S> {
+    surface: S,
+    last: f64,
+    before: Option<f64>,
+}
 
 /// The durations of the last arcs, the last states after events, and the last event of each surface.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct History<S, X> {
     pub(crate) durations: Durations,
-    /// The time of the last event of each surface.
-    pub(crate) events: SmallVec<[(S, f64); FEW]>,
-    /// A ring of states: those after the last events, one more than the longest period has.
-    pub(crate) states: [Option<X>; LONGEST_PERIOD + 1],
+    /// The times of the last events of each surface.
+    pub(crate) events: SmallVec<[LastEvents<S>; FEW]>,
+    /// A ring of states: those after the last events.
+    pub(crate) states: [Option<X>; STATES],
     /// Place of the newest state.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "read_place"))]
     pub(crate) newest: usize,
@@ -94,7 +110,7 @@ pub(crate) struct History<S, X> {
 #[cfg(feature = "serde")]
 fn read_place<'de, D: serde::Deserializer<'de>>(reader: D) -> Result<usize, D::Error> {
     let place = crate::count::read_count(reader)?;
-    if place <= LONGEST_PERIOD {
+    if place < STATES {
         return Ok(place);
     }
     Err(serde::de::Error::custom(format!(
@@ -107,7 +123,7 @@ impl<S: Copy + PartialEq, X: StateVector> History<S, X> {
         History {
             durations: Durations::new(),
             events: SmallVec::new(),
-            states: [const { None }; LONGEST_PERIOD + 1],
+            states: [const { None }; STATES],
             newest: 0,
             since_event: 0.0,
         }
@@ -132,28 +148,50 @@ impl<S: Copy + PartialEq, X: StateVector> History<S, X> {
 
     /// An event of this surface.
     pub(crate) fn event(&mut self, surface: S, time: f64) {
-        match self.events.iter_mut().find(|event| event.0 == surface) {
-            Some(event) => event.1 = time,
-            None => self.events.push((surface, time)),
+        match self.events.iter_mut().find(|events| events.surface == surface) {
+            Some(events) => (events.last, events.before) = (time, Some(events.last)),
+            None => self.events.push(LastEvents { surface, last: time, before: None }),
         }
     }
 
-    /// Whether the events of this surface are among those that lead to a limit.
-    pub(crate) fn leads_to(&self, limit: &ZenoLimit<X>, surface: S) -> bool {
-        self.leading(limit).any(|leading| leading == surface)
+    /// Whether the events of this surface are among those that lead to a limit of this period.
+    pub(crate) fn leads_to_limit(&self, period: usize, surface: S) -> bool {
+        self.leading(period).any(|leading| leading == surface)
     }
 
-    /// Whether events of any surface lead to a limit, and not only those of clocks.
-    pub(crate) fn has_limit(&self, limit: &ZenoLimit<X>) -> bool {
-        self.leading(limit).next().is_some()
-    }
-
-    fn leading(&self, limit: &ZenoLimit<X>) -> impl Iterator<Item = S> {
-        let durations = &self.durations;
-        let length: f64 = (0..PERIODS * limit.period).map(|back| durations.duration(back)).sum();
-        let now = durations.now.value();
+    fn leading(&self, period: usize) -> impl Iterator<Item = S> {
+        let now = self.durations.now.value();
+        let length = self.length(0..PERIODS * period);
         let since = now - length - TIME_ULPS * f64::EPSILON * now.abs();
-        self.events.iter().filter(move |event| event.1 >= since).map(|event| event.0)
+        let leads = move |events: &&LastEvents<S>| events.before.is_some_and(|time| time >= since);
+        self.events.iter().filter(leads).map(|events| events.surface)
+    }
+
+    /// The sum of some of the last durations.
+    fn length(&self, back: std::ops::Range<usize>) -> f64 {
+        back.map(|back| self.durations.duration(back)).sum()
+    }
+
+    /// An estimate of the error of each component of the state at a limit: its steps over the last two periods should be in
+    /// the ratio of the periods. Without a state so early it is the last step.
+    pub(crate) fn error_of_state(&self, limit: &ZenoLimit<X>) -> Option<X> {
+        let period = limit.period;
+        let now = self.state(0)?;
+        let mut error = now.clone();
+        error.add_scaled(-1.0, self.state(period)?);
+        if let Some(before) = self.state(2 * period) {
+            let ratio = self.length(0..period) / self.length(period..2 * period);
+            error.add_scaled(-ratio, self.state(period)?);
+            error.add_scaled(ratio, before);
+        }
+        // 1 − ratio is the last period as a part of the time to the limit at its begin.
+        let steps = 1.0 / (1.0 - limit.ratio.clamp(0.0, LARGEST_RATIO));
+        Some(error.filled(|axis| steps * error.components()[axis].abs()))
+    }
+
+    /// The state so many events before the newest.
+    fn state(&self, back: usize) -> Option<&X> {
+        self.states[(self.newest + STATES - back) % STATES].as_ref()
     }
 
     /// True if all components of its states are finite.
@@ -165,7 +203,7 @@ impl<S: Copy + PartialEq, X: StateVector> History<S, X> {
     pub(crate) fn clear(&mut self) {
         self.durations.clear();
         self.events.clear();
-        self.states = [const { None }; LONGEST_PERIOD + 1];
+        self.states = [const { None }; STATES];
         self.since_event = 0.0;
     }
 
@@ -179,16 +217,18 @@ impl<S: Copy + PartialEq, X: StateVector> History<S, X> {
         } else {
             self.durations.remainder()
         };
-        self.limit(remainder?)
+        let remainder = remainder?;
+        // The times of clocks are known: they have no limit, whatever their series so far.
+        self.leading(remainder.period).next()?;
+        self.limit(remainder)
     }
 
     #[cold]
     fn limit(&self, remainder: Remainder) -> Option<ZenoLimit<X>> {
         let Remainder { time, error, period, length, order } = remainder;
-        let count = self.states.len();
-        let now = self.states[self.newest].as_ref()?;
+        let now = self.state(0)?;
         let mut step = now.clone();
-        step.add_scaled(-1.0, self.states[(self.newest + count - period) % count].as_ref()?);
+        step.add_scaled(-1.0, self.state(period)?);
         // A speed is proportional to the duration, D = c (t∞ − t)^μ. Over one period D changes by −D′ times the
         // period, and it vanishes if it changes by D = −D′ (t∞ − t)/μ: a multiple (t∞ − t)/(μ · period) of the
         // step.

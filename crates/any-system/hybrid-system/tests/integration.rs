@@ -346,7 +346,8 @@ fn an_event_at_a_zero_of_a_large_component_knows_its_error() {
             let arc = oscillator.run((), [amplitude, 0.0], 3.0).next().unwrap().unwrap();
             let event = arc.event().unwrap();
             let error = (event.time - std::f64::consts::FRAC_PI_2).abs();
-            assert!(error <= event.time_error, "{tolerance} {amplitude}: {error} {event:?}");
+            let is_bound = error <= event.time_error && event.time_error < 100.0 * tolerance;
+            assert!(is_bound, "{tolerance} {amplitude}: {error} {event:?}");
         }
     }
 }

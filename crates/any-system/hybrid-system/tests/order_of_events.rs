@@ -290,6 +290,16 @@ fn near_zeros_come_in_their_order_under_all_directions_and_after_resets() {
     }
 }
 
+/// A guard that leaves its zero behind the limit on time stays at it up to there.
+#[test]
+fn what_a_guard_does_behind_the_limit_on_time_is_no_error() {
+    let ramp = Model::closed_form(|(), x: &State<1>, t| [x[0] + t])
+        .guard((), Guard::rising(0).contact(), |x| (x[0] - 0.5).max(0.0), |x| ((), *x))
+        .sampled(0.01);
+    let arcs: Result<Vec<_>, _> = ramp.run((), [0.0], 0.3).collect();
+    assert!(matches!(arcs.unwrap().last().unwrap().end, ArcEnd::TimeLimit { .. }));
+}
+
 /// A guard need not be defined behind the event that ends the run.
 #[test]
 fn a_guard_without_a_value_behind_an_event_does_not_hide_it() {

@@ -129,6 +129,7 @@ fn a_landing_at_the_end_is_flagged_by_all_means() {
                     let late = events[count - 1];
                     let error = 10.0 * count as f64 * late.time_error;
                     assert!((late.time - end).abs() <= error, "{means:?} {late:?}");
+                    assert!(late.time_error < 0.01, "{means:?} {late:?}");
                     (events, f64::NAN)
                 }
                 _ => (events, end),

@@ -3,7 +3,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use hybrid_system::*;
-use nalgebra::{SMatrix, SVector, Vector2, matrix};
+use nalgebra::{Matrix2, RowVector2, SMatrix, SVector, Vector2};
 use return_map::{Error, ReturnMap, Section, SmoothSection};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,6 +21,9 @@ impl HybridSystem for Ball {
     type Surface = Surface;
     fn flow(&self, (): (), x: &State<2>, t: f64) -> State<2> {
         Vector2::new(x[0] + t * (x[1] - t / 2.0), x[1] - t)
+    }
+    fn vector_field(&self, (): (), x: &State<2>) -> Option<State<2>> {
+        Some(Vector2::new(x[1], -1.0))
     }
     fn guards(&self, (): ()) -> &[Guard<Surface>] {
         const { &[Guard::falling(Surface::Floor).contact(), Guard::rising(Surface::Roof).contact()] }
@@ -67,22 +70,22 @@ fn a_return_takes_time_unless_asked_for() {
 
 impl Differentiable<2> for Ball {
     fn flow_jacobian(&self, (): (), _: &State<2>, time: f64) -> SMatrix<f64, 2, 2> {
-        matrix![1.0, time; 0.0, 1.0]
+        Matrix2::new(1.0, time, 0.0, 1.0)
     }
     fn guard_gradient(&self, _: Surface, _: &State<2>) -> State<2> {
         Vector2::new(1.0, 0.0)
     }
     fn reset_jacobian(&self, (): (), _: Surface, _: &State<2>) -> SMatrix<f64, 2, 2> {
-        matrix![0.0, 0.0; 0.0, -0.5]
+        Matrix2::new(0.0, 0.0, 0.0, -0.5)
     }
 }
 
 impl SmoothSection<Ball, 2, 1> for Bounce {
     fn point_jacobian(&self, _: &SVector<f64, 1>) -> SMatrix<f64, 2, 1> {
-        matrix![0.0; -1.0]
+        Vector2::new(0.0, -1.0)
     }
     fn coordinates_jacobian(&self, _: &Event<(), Surface, State<2>>) -> SMatrix<f64, 1, 2> {
-        matrix![0.0, 1.0]
+        RowVector2::new(0.0, 1.0)
     }
 }
 

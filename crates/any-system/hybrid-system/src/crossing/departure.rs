@@ -75,13 +75,22 @@ pub(crate) enum Departure {
     Stays,
 }
 
+/// What a guard is at the start of a flow.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum StartsAs {
+    /// A crossing: both sides are allowed.
+    Crossing,
+    /// A contact or a switch: it bounds the flow.
+    Bound,
+    /// A bound that has just had its event, after a flight of this duration. At the first look that is clear of
+    /// rounding it may be beyond its surface again, behind a bounce that is hidden.
+    Bounced { direction: Direction, flight: f64 },
+}
+
 /// How the guard of `surface` leaves its zero at the start of a flow. Its value there is zero with this `error`.
 /// The part `rounding` of the error differs from state to state. The rest, by the error of the time of a crossing,
 /// is the same for states next to each other, and hides no rate. `short` is the duration of the arc before or the
-/// sampling interval, or infinite. The guard `bounds_flow` if it is a contact or a switch.
-///
-/// `bounced` is the duration of the arc that has ended in an event of this contact. Then the guard may be beyond its
-/// surface again at the first look that is clear of rounding, behind a bounce that is hidden.
+/// sampling interval, or infinite.
 ///
 /// # Errors
 /// [`Error::UndecidedSign`], [`Error::UndecidedStart`] for a guard that stays at zero for a while, and
@@ -91,7 +100,7 @@ pub(crate) fn departure<F: GuardedFlow>(
     surface: F::Surface,
     (error, rounding): (f64, f64),
     (horizon, short): (f64, f64),
-    (bounds_flow, bounced): (bool, Option<(Direction, f64)>),
+    starts_as: StartsAs,
 ) -> Result<Departure, Error> {
     let to = |side: f64, certainty| Departure::To { side: side.signum(), certainty };
     if let Some(side) = flow.leaving_side(surface) {
@@ -126,59 +135,96 @@ pub(crate) fn departure<F: GuardedFlow>(
             return Ok(to(rate, Certainty::Interpolated));
         }
     }
-    let mut time = SHORTEST_LOOK * longest.min(short);
+    by_looks(flow, surface, Looks { error, rounding, horizon, short, looked, starts_as })
+}
+
+/// A guard that is looked at along the flow.
+struct Looks {
+    error: f64,
+    rounding: f64,
+    horizon: f64,
+    short: f64,
+    looked: Looked,
+    starts_as: StartsAs,
+}
+
+/// The side on which the guard is at the first look that is clear of rounding. The looks do not depend on the horizon,
+/// which may be some ulps ahead: the flow goes on behind it, if it is defined there.
+fn by_looks<F: GuardedFlow>(
+    flow: &F,
+    surface: F::Surface,
+    looks: Looks,
+) -> Result<Departure, Error> {
+    let Looks { error, rounding, horizon, short, looked, starts_as } = looks;
+    let start = flow.start();
+    let shortest = SHORTEST_LOOK * LONGEST_LOOK.min(short);
     // An arc of subnormal duration gives no time to begin with.
-    if !(time > 0.0) {
-        time = SHORTEST_LOOK * longest;
-    }
-    let shortest = time;
-    let (mut first, at_start) = (true, flow.guard_value(surface, start));
-    // The limit on time may be some ulps ahead, and changes nothing. The flow goes on behind it, if it is defined there.
-    let longest = if longest > 0.0 { LONGEST_LOOK } else { longest };
-    while time > 0.0 && time <= longest {
+    let shortest = if shortest > 0.0 { shortest } else { SHORTEST_LOOK * LONGEST_LOOK };
+    let (mut time, mut first) = (shortest, true);
+    let at_start = flow.guard_value(surface, start);
+    while horizon > 0.0 && time <= LONGEST_LOOK {
         let state = flow.state(time);
         let value = flow.guard_value(surface, &state);
-        if !value.is_finite() {
-            if time > horizon {
-                break;
-            }
+        if !value.is_finite() && time <= horizon {
             return Err(Error::NotFinite { at: time, value });
         }
-        // The flow adds numbers as large as the largest component, and rounds by as much in each.
-        let largest = state.largest().max(start.largest());
-        let size = state.filled(|_| largest);
-        let guard = |state: &F::State| flow.guard_value(surface, state);
-        let largest_error = rounding_of_state(&state, &size, guard);
-        let later_error = match value.abs() > LEFT_SURFACE * (error + largest_error) {
-            true => largest_error,
-            // A large component may have no part in the guard: then its values show no rounding of that size.
-            false => largest_error.min(shown_error(flow, surface, (time, value, &state))),
+        if !value.is_finite() {
+            break;
+        }
+        let later_error = rounding_at_look(flow, surface, (time, value, &state), error);
+        let to = || {
+            let certainty = Certainty::Sampled { interval: time };
+            Ok(Departure::To { side: value.signum(), certainty })
         };
         // The value at the start may be the height of a jump there, over which the reset of a contact turns back.
         let jumps = value * at_start < 0.0 && value.abs() > LEFT_SURFACE * (rounding + later_error);
-        let hidden = LEFT_SURFACE * (error + later_error);
-        if jumps && bounds_flow && time <= MOST_LOOKS_BACK * shortest {
-            return Ok(to(value, Certainty::Sampled { interval: time }));
+        if jumps && starts_as != StartsAs::Crossing && time <= MOST_LOOKS_BACK * shortest {
+            return to();
         }
+        let hidden = LEFT_SURFACE * (error + later_error);
         if value.abs() > hidden {
-            // A guard that was zero up to here does not leave at the start. When it leaves is not known. Nor is it known
-            // of one that may have bounced.
-            let returns = |(direction, before): (Direction, f64)| {
-                let ratio = || value / flow.guard_at(surface, 0.5 * time);
-                let late = time > NEXT_BOUNCE * before;
-                direction.is_beyond(value) && late && !(0.0..STRAIGHT).contains(&ratio())
-            };
-            if !first && value.abs() > LARGEST_GROWTH * hidden || bounced.is_some_and(returns) {
-                return Err(Error::UndecidedStart {
-                    surface: format!("{surface:?}"),
-                    interval: time,
-                    looked,
-                });
+            // A guard that was zero up to here does not leave at the start. When it leaves is not known.
+            let stayed = !first && value.abs() > LARGEST_GROWTH * hidden;
+            if stayed && time > horizon {
+                break;
             }
-            return Ok(to(value, Certainty::Sampled { interval: time }));
+            if stayed || may_have_bounced(flow, surface, (time, value), starts_as) {
+                let surface = format!("{surface:?}");
+                return Err(Error::UndecidedStart { surface, interval: time, looked });
+            }
+            return to();
         }
         // A look so short that the state has not moved tells nothing.
         (time, first) = (2.0 * time, first && state == *start);
     }
     Ok(Departure::Stays)
+}
+
+/// The rounding of a guard at a look: its flow adds numbers as large as the largest component, and rounds by as much in
+/// each. A large component may have no part in the guard: then its values show no rounding of that size.
+fn rounding_at_look<F: GuardedFlow>(
+    flow: &F,
+    surface: F::Surface,
+    (time, value, state): (f64, f64, &F::State),
+    error: f64,
+) -> f64 {
+    let largest = state.largest().max(flow.start().largest());
+    let size = state.filled(|_| largest);
+    let rounding = rounding_of_state(state, &size, |state| flow.guard_value(surface, state));
+    match value.abs() > LEFT_SURFACE * (error + rounding) {
+        true => rounding,
+        false => rounding.min(shown_error(flow, surface, (time, value, state))),
+    }
+}
+
+/// Whether a guard that is beyond its surface at a look may have had a bounce before, which rounding hides.
+fn may_have_bounced<F: GuardedFlow>(
+    flow: &F,
+    surface: F::Surface,
+    (time, value): (f64, f64),
+    starts_as: StartsAs,
+) -> bool {
+    let StartsAs::Bounced { direction, flight } = starts_as else { return false };
+    let ratio = || value / flow.guard_at(surface, 0.5 * time);
+    direction.is_beyond(value) && time > NEXT_BOUNCE * flight && !(0.0..STRAIGHT).contains(&ratio())
 }

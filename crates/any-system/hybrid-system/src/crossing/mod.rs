@@ -48,7 +48,7 @@ pub(crate) use bounded::{Bounded, Leave};
 pub use certainty::Certainty;
 #[cfg(feature = "ode")]
 pub(crate) use clear_distance::clear_distance;
-pub(crate) use departure::{Departure, LONGEST_LOOK, departure};
+pub(crate) use departure::{Departure, LONGEST_LOOK, StartsAs, departure};
 pub(crate) use earliest::earliest_crossing;
 pub use first_crossing::FirstCrossing;
 #[cfg(feature = "ode")]
