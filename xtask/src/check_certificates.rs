@@ -55,7 +55,7 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     let falsifier = "false_certificates.py";
     passes(falsifier, script(falsifier).arg(&folder))?;
     passes(falsifier, script(falsifier).args(["--random", CHANGES]).arg(&folder))?;
-    // Theorem 68, which no certificate rests on, with a bound that takes seconds.
+    // The bound of Theorem 68, which no certificate rests on: a larger one, which takes seconds.
     let remainder = "left_remainder.py";
     passes(remainder, script(remainder).args(["1", "--bound", "40"]))?;
     // Sines and cosines, which both programs and all lemmas rest on.

@@ -6,7 +6,7 @@
 //!   magic (8) │ digest of the job (16) │ number of the piece (8) │ payload │ digest of all before (16)
 //! ```
 
-use crate::atomic_file::{make_folder, remove_leftovers, write_atomically};
+use crate::atomic_file::{AtomicFile, make_folder, remove_leftovers};
 use crate::digest::digest;
 use crate::error::{Error, UnusablePiece};
 use crate::regular_file::{Contents, read_regular};
@@ -145,6 +145,18 @@ impl Pieces {
 
     /// Stores a finished piece.
     pub fn write(&self, piece: usize, payload: &[u8]) -> Result<(), Error> {
+        self.write_if(piece, payload, || Ok(()))
+    }
+
+    /// Stores a finished piece if `check` has no objection: before anything is written, and just before the file gets
+    /// its name. It is mostly [`Lock::confirm`](crate::Lock::confirm).
+    pub fn write_if<E: From<Error>>(
+        &self,
+        piece: usize,
+        payload: &[u8],
+        check: impl Fn() -> Result<(), E>,
+    ) -> Result<(), E> {
+        check()?;
         let mut bytes = Vec::with_capacity(HEAD + payload.len() + DIGEST);
         bytes.extend_from_slice(MAGIC);
         bytes.extend_from_slice(&self.job);
@@ -152,7 +164,9 @@ impl Pieces {
         bytes.extend_from_slice(payload);
         let sum = digest(&bytes);
         bytes.extend_from_slice(sum.as_bytes());
-        write_atomically(&self.path(piece), &bytes)
+        let mut file = AtomicFile::create(&self.path(piece))?;
+        file.append(&bytes)?;
+        file.finish_if(|_| check())
     }
 
     /// Notes that the job is done in so many parts, so that [`numbers_of_parts`](Self::numbers_of_parts) can tell

@@ -69,8 +69,7 @@ impl Job {
             StoredPiece::Missing | StoredPiece::Unusable(_) => {
                 let bytes: Vec<u8> = row()?.iter().flat_map(|x| x.to_le_bytes()).collect();
                 // Without its lock this run would write among the rows of another run.
-                self.lock.confirm()?;
-                kept.write(k, &bytes)?;
+                kept.write_if(k, &bytes, || self.lock.confirm())?;
                 bytes
             }
         };

@@ -17,7 +17,8 @@ use hopper_asymptotics::{
     Decay, FIXED_POINT_REMAINDER, LEFT_RANGE, LeftExpansion, RIGHT_RANGE, RightExpansion,
     SMALL_ALPHA_RANGE, SMALL_HOP_REMAINDER, SMALLEST_LAMBDA, TRAP_LENGTH_REMAINDER,
 };
-use interval::Interval;
+use interval::split;
+use interval_arithmetic::Enclosure;
 use left::Left;
 use passive_hopper::alpha_star;
 use right::Right;
@@ -29,12 +30,12 @@ const SINGLE: u64 = 40;
 const PARTS_OF_THE_REST: u32 = 8;
 
 /// 1/α*_n for all n ≥ 1, in intervals.
-fn inverse_speeds() -> Vec<Interval> {
+fn inverse_speeds() -> Vec<Enclosure> {
     let inverse = |n: u64| {
         let a = alpha_star(n);
-        Interval::from(1.0) / Interval::new(a.next_down(), a.next_up())
+        Enclosure::from(1.0) / Enclosure::new(a.next_down(), a.next_up())
     };
-    let rest = Interval::split(0.0, inverse(SINGLE + 1).high, PARTS_OF_THE_REST);
+    let rest = split(0.0, inverse(SINGLE + 1).high, PARTS_OF_THE_REST);
     (1..=SINGLE).map(inverse).chain(rest).collect()
 }
 
@@ -45,10 +46,10 @@ fn right_remainders_are_below_their_bounds() {
     for (index, p) in inverse_speeds().into_iter().enumerate() {
         // The higher coefficients are largest at n = 1.
         let parts = if index == 0 { 64 } else { 8 };
-        for mu in Interval::split(0.0, 0.25, parts) {
+        for mu in split(0.0, 0.25, parts) {
             let right = Right::new(p, mu);
-            assert!(right.remainder.size() <= 0.445, "{p:?} {mu:?} {:?}", right.remainder);
-            assert!(right.trap_remainder.size() <= 6.155, "{p:?} {mu:?}");
+            assert!(right.remainder.magnitude() <= 0.445, "{p:?} {mu:?} {:?}", right.remainder);
+            assert!(right.trap_remainder.magnitude() <= 6.155, "{p:?} {mu:?}");
             assert!(
                 right.loss.low >= right::SMALLEST_LOSS && right.loss.high <= 1.15,
                 "{p:?} {:?}",
@@ -66,13 +67,14 @@ fn the_left_remainder_is_below_its_bound() {
     /// Parts of 0 ≤ κ ≤ 1, an even number, so that κ = ½ is an end.
     const PARTS: u32 = 32;
     for p in inverse_speeds() {
-        for kappa in Interval::split(0.0, 1.0, PARTS) {
+        for kappa in split(0.0, 1.0, PARTS) {
             // μ = κ (1 − κ) is monotone on each part.
-            let mu =
-                |kappa: f64| Interval::from(kappa) * (Interval::from(1.0) - Interval::from(kappa));
-            let mu = mu(kappa.low).hull(mu(kappa.high));
+            let mu = |kappa: f64| {
+                Enclosure::from(kappa) * (Enclosure::from(1.0) - Enclosure::from(kappa))
+            };
+            let mu = mu(kappa.low).hull(&mu(kappa.high));
             let left = Left::new(p, kappa, mu);
-            assert!(left.remainder.size() <= 8.79, "{p:?} {kappa:?} {:?}", left.remainder);
+            assert!(left.remainder.magnitude() <= 8.79, "{p:?} {kappa:?} {:?}", left.remainder);
             assert!(left.second_excess.high < 0.0 && left.velocity.high < 0.0, "{p:?} {kappa:?}");
         }
     }
@@ -82,14 +84,14 @@ fn the_left_remainder_is_below_its_bound() {
 /// Theorem 69: one hop on the right changes K by 1, to (0.55 + 0.3 λ³) u⁻³.
 #[test]
 fn one_hop_changes_the_number_of_hops_by_one() {
-    let mu = Interval::new(0.0, 0.25);
+    let mu = Enclosure::new(0.0, 0.25);
     let [constant, cubic] = Decay::ONE_HOP;
     for p in inverse_speeds() {
-        for z in Interval::split(0.0, 1.0, 256) {
+        for z in split(0.0, 1.0, 256) {
             let found = right::hop_remainder(p, mu, z, RightExpansion::REMAINDER);
             // (0.55 + 0.3 λ³) v³ over (v + s)³, s = λv, at the corner where it is smallest.
             let bound = constant * (1.0 - z.high).powi(3) + cubic * z.low.powi(3);
-            assert!(found.size() < bound, "{p:?} {z:?}: {found:?} {bound}");
+            assert!(found.magnitude() < bound, "{p:?} {z:?}: {found:?} {bound}");
         }
     }
     // Σ u_j⁻³ ≤ u₀⁻³ + u₀⁻²/(2 r min G), and r/u₀ ≤ 1/30.
@@ -100,11 +102,11 @@ fn one_hop_changes_the_number_of_hops_by_one() {
 /// Theorem 69: the slope of rK.
 #[test]
 fn the_slope_of_the_number_of_hops_is_near_one() {
-    let mut range = Interval::from(1.0);
+    let mut range = Enclosure::from(1.0);
     for p in inverse_speeds() {
-        for v in Interval::split(0.0, right::LARGEST_ROOT, 16) {
-            for s in Interval::split(0.0, 0.1, 8) {
-                range = range.hull(right::slope(p, v, s));
+        for v in split(0.0, right::LARGEST_ROOT, 16) {
+            for s in split(0.0, 0.1, 8) {
+                range = range.hull(&right::slope(p, v, s));
             }
         }
     }
@@ -115,9 +117,9 @@ fn the_slope_of_the_number_of_hops_is_near_one() {
 #[test]
 fn remainders_of_small_hops_and_fixed_points_are_below_their_bounds() {
     const { assert!(SMALL_ALPHA_RANGE <= 0.3) };
-    for mu in Interval::split(0.0, 0.25, 8) {
+    for mu in split(0.0, 0.25, 8) {
         let found = others::small_hop_remainder(mu);
-        assert!(found.size() <= 2.365, "{mu:?} {found:?}");
+        assert!(found.magnitude() <= 2.365, "{mu:?} {found:?}");
     }
     let found = others::fixed_point_remainder();
     assert!(found.low > 4.7 && found.high < 5.177, "{found:?}");
@@ -133,8 +135,8 @@ fn enclosures_are_near_values_of_the_map() {
         let ratio = MassRatio::new(m).unwrap();
         let map = LiftOffMap::new(ratio);
         let a = alpha_star(n);
-        let p = Interval::from(1.0) / Interval::new(a.next_down(), a.next_up());
-        let around = |x: f64| Interval::new(x * (1.0 - 1e-9), (x * (1.0 + 1e-9)).min(1.0));
+        let p = Enclosure::from(1.0) / Enclosure::new(a.next_down(), a.next_up());
+        let around = |x: f64| Enclosure::new(x * (1.0 - 1e-9), (x * (1.0 + 1e-9)).min(1.0));
         let (right, left) = (
             Right::new(p, around(ratio.mu())),
             Left::new(p, around(ratio.kappa()), around(ratio.mu())),

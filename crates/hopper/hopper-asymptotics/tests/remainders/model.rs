@@ -1,6 +1,6 @@
 //! Taylor models: a polynomial with a bound on the rest.
 
-use crate::interval::Interval;
+use interval_arithmetic::Enclosure;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// A function of t on [0, W]: f(t) = Σ_{k<K} c_k t^k + (t/W)^K φ(t) with |φ| ≤ `rest`.
@@ -10,7 +10,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 #[derive(Debug, Clone)]
 pub(crate) struct Model {
     /// c_0, …, c_{K−1}.
-    pub(crate) terms: Vec<Interval>,
+    pub(crate) terms: Vec<Enclosure>,
     /// The bound on φ.
     pub(crate) rest: f64,
     /// W.
@@ -23,21 +23,21 @@ const ROUNDING: f64 = 1.0 + 1e-11;
 
 impl Model {
     /// A constant.
-    pub(crate) fn constant(value: Interval, order: usize, width: f64) -> Self {
-        let mut terms = vec![Interval::from(0.0); order];
+    pub(crate) fn constant(value: Enclosure, order: usize, width: f64) -> Self {
+        let mut terms = vec![Enclosure::from(0.0); order];
         terms[0] = value;
         Model { terms, rest: 0.0, width }
     }
 
     /// `slope` · t.
-    pub(crate) fn linear(slope: Interval, order: usize, width: f64) -> Self {
-        let mut model = Model::constant(Interval::from(0.0), order, width);
+    pub(crate) fn linear(slope: Enclosure, order: usize, width: f64) -> Self {
+        let mut model = Model::constant(Enclosure::from(0.0), order, width);
         model.terms[1] = slope;
         model
     }
 
     /// Σ c_k t^k for all k, with c_k from `term`, |c_k| ≤ 1/k!, and W ≤ 2.
-    pub(crate) fn entire(term: impl Fn(usize) -> Interval, order: usize, width: f64) -> Self {
+    pub(crate) fn entire(term: impl Fn(usize) -> Enclosure, order: usize, width: f64) -> Self {
         assert!(width <= 2.0 && order >= 4);
         let terms: Vec<_> = (0..order).map(&term).collect();
         // Σ_{k≥K} W^k/k! ≤ 2 W^K/K!, as W/(K+1) ≤ ½.
@@ -47,53 +47,53 @@ impl Model {
 
     /// Σ |c_k| W^k + rest ≥ |f|.
     pub(crate) fn norm(&self) -> f64 {
-        let sum = self.terms.iter().rev().fold(0.0, |sum, c| sum * self.width + c.size());
+        let sum = self.terms.iter().rev().fold(0.0, |sum, c| sum * self.width + c.magnitude());
         (sum + self.rest) * ROUNDING
     }
 
     /// f/t^m for a function whose first m coefficients are zero by a proof.
     pub(crate) fn without(&self, m: usize) -> Self {
         for c in &self.terms[..m] {
-            assert!(c.contains_zero(), "{c:?} is not zero");
+            assert!(c.contains(0.0), "{c:?} is not zero");
         }
         let mut terms = self.terms[m..].to_vec();
         // The first m terms are lost at the other end: the order falls by m.
         let scale = self.width.powi(m as i32);
         if terms.is_empty() {
-            terms.push(Interval::from(0.0));
+            terms.push(Enclosure::from(0.0));
         }
         Model { terms, rest: self.rest / scale * ROUNDING, width: self.width }
     }
 
     /// t f.
     pub(crate) fn shifted(&self) -> Self {
-        let mut terms = vec![Interval::from(0.0)];
+        let mut terms = vec![Enclosure::from(0.0)];
         terms.extend(&self.terms);
         let last = terms.pop().unwrap();
         let order = terms.len();
-        let rest = self.rest * self.width + last.size() * self.width.powi(order as i32);
+        let rest = self.rest * self.width + last.magnitude() * self.width.powi(order as i32);
         Model { terms, rest: rest * ROUNDING, width: self.width }
     }
 
-    pub(crate) fn scaled(&self, factor: Interval) -> Self {
+    pub(crate) fn scaled(&self, factor: Enclosure) -> Self {
         let terms = self.terms.iter().map(|&c| c * factor).collect();
-        Model { terms, rest: self.rest * factor.size() * ROUNDING, width: self.width }
+        Model { terms, rest: self.rest * factor.magnitude() * ROUNDING, width: self.width }
     }
 
     /// self^s for |s| ≤ 1 and a model whose constant term is positive.
-    pub(crate) fn power(&self, s: f64, root_of_constant: Interval) -> Self {
+    pub(crate) fn power(&self, s: f64, root_of_constant: Enclosure) -> Self {
         let order = self.terms.len();
         let constant = self.terms[0];
         assert!(constant.low > 0.0);
-        let mut w = self.scaled(Interval::from(1.0) / constant);
-        w.terms[0] = Interval::from(0.0);
+        let mut w = self.scaled(Enclosure::from(1.0) / constant);
+        w.terms[0] = Enclosure::from(0.0);
         let norm = w.norm();
         assert!(norm < 1.0, "no convergence: {norm}");
         // (1 + w)^s = Σ binom(s, k) w^k. The |binom(s, k)| do not grow, and are at most 1.
-        let mut binomials = vec![Interval::from(1.0)];
+        let mut binomials = vec![Enclosure::from(1.0)];
         for k in 1..order {
             let factor =
-                (Interval::from(s) - Interval::from((k - 1) as f64)) / Interval::from(k as f64);
+                (Enclosure::from(s) - Enclosure::from((k - 1) as f64)) / Enclosure::from(k as f64);
             binomials.push(binomials[k - 1] * factor);
         }
         let mut sum = Model::constant(binomials[order - 1], order, self.width);
@@ -107,7 +107,7 @@ impl Model {
     }
 
     pub(crate) fn reciprocal(&self) -> Self {
-        self.power(-1.0, Interval::from(1.0) / self.terms[0])
+        self.power(-1.0, Enclosure::from(1.0) / self.terms[0])
     }
 
     pub(crate) fn squared(&self) -> Self {
@@ -115,9 +115,9 @@ impl Model {
     }
 
     /// The range over `t` in [0, W].
-    pub(crate) fn range(&self, t: Interval) -> Interval {
-        let sum = self.terms.iter().rev().fold(Interval::from(0.0), |sum, &c| sum * t + c);
-        sum + Interval::new(-self.rest, self.rest)
+    pub(crate) fn range(&self, t: Enclosure) -> Enclosure {
+        let sum = self.terms.iter().rev().fold(Enclosure::from(0.0), |sum, &c| sum * t + c);
+        sum + Enclosure::new(-self.rest, self.rest)
     }
 }
 
@@ -133,7 +133,7 @@ impl Add for &Model {
 impl Neg for &Model {
     type Output = Model;
     fn neg(self) -> Model {
-        self.scaled(Interval::from(-1.0))
+        self.scaled(Enclosure::from(-1.0))
     }
 }
 
@@ -149,19 +149,19 @@ impl Mul for &Model {
     fn mul(self, other: &Model) -> Model {
         let order = self.terms.len();
         assert!(order == other.terms.len() && self.width == other.width);
-        let mut terms = vec![Interval::from(0.0); order];
+        let mut terms = vec![Enclosure::from(0.0); order];
         // Terms of order K and more, at t = W.
         let mut beyond = 0.0;
         let powers: Vec<f64> = (0..2 * order).map(|k| self.width.powi(k as i32)).collect();
         for (i, &a) in self.terms.iter().enumerate() {
-            if a.size() == 0.0 {
+            if a.magnitude() == 0.0 {
                 continue;
             }
             for (j, &b) in other.terms.iter().enumerate() {
                 if i + j < order {
                     terms[i + j] = terms[i + j] + a * b;
                 } else {
-                    beyond += a.size() * b.size() * powers[i + j];
+                    beyond += a.magnitude() * b.magnitude() * powers[i + j];
                 }
             }
         }

@@ -156,7 +156,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
         }
         let proved = theorem.prove(&own, &folder);
         if !matches!(proved, Ok(true)) {
-            remove_certificate(theorem.name, &folder)?;
+            set_certificate_aside(theorem.name, &folder)?;
         }
         if !proved? {
             open.push(theorem.name);
@@ -168,12 +168,14 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
     Err(Error::CheckFailed(format!("not proved: {}", open.join(", "))))
 }
 
-/// Removes the certificate of an earlier run, which would pass for one of this run.
-fn remove_certificate(name: &str, folder: &Folder) -> Result<(), Error> {
+/// Renames the certificate of an earlier run: it would pass for one of this run, and may be the work of hours.
+fn set_certificate_aside(name: &str, folder: &Folder) -> Result<(), Error> {
     let path = folder.path().join(format!("{name}.jsonl"));
-    match std::fs::remove_file(&path) {
-        Err(source) if source.kind() != ErrorKind::NotFound => Err(Error::File { path, source }),
-        _ => Ok(()),
+    let aside = folder.path().join(format!("{name}.jsonl.earlier"));
+    match std::fs::rename(&path, &aside) {
+        Ok(()) => say(format_args!("{:8} that of an earlier run: {}", "", aside.display())),
+        Err(source) if source.kind() == ErrorKind::NotFound => Ok(()),
+        Err(source) => Err(Error::File { path, source }),
     }
 }
 
@@ -325,6 +327,8 @@ mod tests {
         let (ended, file) = prove(&["fig6-cells", "--size", "1", "--open", "0"]);
         assert!(matches!(ended, Err(Error::CheckFailed(_))), "{ended:?}");
         assert_eq!(file, None);
+        let aside = std::fs::read_to_string(folder.join("fig6-cells.jsonl.earlier"));
+        assert_eq!(aside.unwrap(), "of an earlier run");
         let (ended, file) = prove(&["measures", "-M=-1", "--width", "0.1"]);
         assert!(ended.is_err() && !matches!(ended, Err(Error::CheckFailed(_))), "{ended:?}");
         assert_eq!(file, None);

@@ -73,8 +73,7 @@ pub(crate) fn compute(
                 interrupt.check()?;
                 let bytes = piece(at)?;
                 // Without its lock this call would write among the pieces of another one.
-                job.confirm()?;
-                kept.write(at, &bytes)?;
+                kept.write_if(at, &bytes, || job.confirm())?;
                 // The receiver ends after all senders.
                 let _ = finished.send(());
                 Ok(())
