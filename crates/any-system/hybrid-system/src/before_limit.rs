@@ -41,6 +41,8 @@ pub(crate) type PassingGuards<S> = SmallVec<[Passing<S>; FEW]>;
 
 type Limit<T> = ZenoLimit<<T as HybridSystem>::State>;
 type MaybeArc<T> = Result<Option<AnArc<T>>, Error>;
+type CrossingOf<T> = Crossing<<T as HybridSystem>::Surface, <T as HybridSystem>::State>;
+type MaybeCrossing<T> = Result<Option<CrossingOf<T>>, Error>;
 
 impl<T: HybridSystem> Execution<'_, T> {
     /// The arc up to a Zeno limit, or to a clock within the error of the limit; `None` if the flow has to be followed.
@@ -145,7 +147,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         &self,
         limit: &Limit<T>,
         passing: impl IntoIterator<Item = &'a Passing<T::Surface>>,
-    ) -> Result<Option<Crossing<T::Surface, T::State>>, Error>
+    ) -> MaybeCrossing<T>
     where
         T::Surface: 'a,
     {

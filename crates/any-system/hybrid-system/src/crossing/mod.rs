@@ -67,8 +67,8 @@ pub use quasi_polynomial::{QuasiPolynomial, QuasiPolynomialPart};
 pub(crate) use search_request::LeavingGuards;
 pub(crate) use search_request::MOST_INTERVALS;
 pub use search_request::{Leaving, Search};
-#[cfg(feature = "ode")]
 pub(crate) use under_bounds::as_searched;
+#[cfg(feature = "ode")]
 pub(crate) use zero_search::ZeroSearch;
 #[cfg(feature = "ode")]
 pub(crate) use zero_test::ZeroTest;
