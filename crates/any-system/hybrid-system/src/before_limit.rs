@@ -19,6 +19,7 @@ use crate::crossing::{
 use crate::error::Error;
 use crate::execution::{AnArc, Execution};
 use crate::guard::{Guard, Role};
+use crate::start_rule::ArcStart;
 use crate::state::StateVector;
 use crate::system::HybridSystem;
 use crate::zeno::ZenoLimit;
@@ -48,7 +49,8 @@ impl<T: HybridSystem> Execution<'_, T> {
     /// The arc up to a Zeno limit, or to a clock within the error of the limit; `None` if the flow has to be followed.
     pub(crate) fn arc_to_limit(&mut self, limit: Limit<T>, horizon: f64) -> MaybeArc<T> {
         // What has come to its surface at the instant of the last event has its event first.
-        if self.at.arrival.as_ref().is_some_and(Arrival::has_pending) {
+        let pending = self.at.arrival.as_ref().is_some_and(Arrival::has_pending);
+        if pending && !matches!(self.start_of_arc(horizon).0, Ok(ArcStart::Flows)) {
             return Ok(None);
         }
         let passing = self.passing(&limit);

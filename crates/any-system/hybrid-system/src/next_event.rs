@@ -16,21 +16,24 @@ type NextAndLeaving<T> = (
     LeavingGuards<<T as HybridSystem>::Surface>,
 );
 
+type StartAndLeaving<T> = (
+    Result<ArcStart<<T as HybridSystem>::Surface>, Error>,
+    LeavingGuards<<T as HybridSystem>::Surface>,
+);
+
 impl<T: HybridSystem> Execution<'_, T> {
     /// The next event: at once, at a preset time, or the first crossing; and the guards on whose surfaces the arc
     /// starts.
     pub(crate) fn next_event(&self, horizon: f64) -> Result<NextAndLeaving<T>, Error> {
-        let Point { mode, ref state, ref time, ref arrival, ref residues, initial, .. } = self.at;
-        let flow = FlowFrom { system: self.system, mode, start: state };
-        let mut leaving = LeavingGuards::new();
-        let times = (horizon, self.limits.sampling_interval);
-        let start = start_of_arc(&flow, arrival.as_ref(), residues, initial, times, &mut leaving)?;
+        let Point { mode, ref state, ref time, .. } = self.at;
+        let flow = self.flow();
+        let (start, leaving) = self.start_of_arc(horizon);
         if let ArcStart::Event {
             surface,
             certainty,
             errors: (time_rounding, time_error),
             undeclared,
-        } = start
+        } = start?
         {
             if let Some(Undeclared { value, rounding, on_surface }) = undeclared
                 && self.sliding(surface).is_none()
@@ -78,6 +81,16 @@ impl<T: HybridSystem> Execution<'_, T> {
             (found, _) => found,
         };
         Ok((found, leaving))
+    }
+
+    /// How the next arc starts, and the guards on whose surfaces it does.
+    pub(crate) fn start_of_arc(&self, horizon: f64) -> StartAndLeaving<T> {
+        let Point { ref arrival, ref residues, initial, .. } = self.at;
+        let mut leaving = LeavingGuards::new();
+        let times = (horizon, self.limits.sampling_interval);
+        let start =
+            start_of_arc(&self.flow(), arrival.as_ref(), residues, initial, times, &mut leaving);
+        (start, leaving)
     }
 
     /// The clock with the earliest preset time, if that is within `horizon`.

@@ -96,6 +96,24 @@ fn a_guard_reached_with_a_bounce_is_not_lost_at_the_limit() {
     }
 }
 
+/// Two contacts of one floor: the second is reached with each bounce, and the first one's reset turns it back.
+#[test]
+fn two_contacts_of_one_floor_have_one_limit() {
+    let ball = Model::closed_form(|flies: bool, x: &Ball, t| match flies {
+        true => flight(x, t),
+        false => [0.0, 0.0],
+    })
+    .falling(true, |x| x[0], |x| (true, [0.0, -0.5 * x[1]]))
+    .contact()
+    .falling(true, |x| 2.0 * x[0], |x| (true, [0.0, -0.5 * x[1]]))
+    .contact()
+    .sampled(0.013)
+    .rest(|_, _| Some((false, [0.0, 0.0])));
+    let arcs: Vec<_> = ball.run(true, [0.5, 0.0], 4.0).map(|arc| arc.unwrap()).collect();
+    let ArcEnd::Zeno { limit, .. } = &arcs[arcs.len() - 2].end else { panic!("{arcs:?}") };
+    assert!((limit.time - 3.0).abs() <= limit.time_error, "{limit:?}");
+}
+
 /// The times of a clock are known: a series of them has no limit.
 #[test]
 fn clocks_alone_have_no_limit() {
