@@ -114,7 +114,8 @@ impl<T: HybridSystem> Execution<'_, T> {
             let [now, then] = [&self.at.state, &limit.state].map(value);
             let pending = arrival.and_then(|arrival| arrival.came_from(surface));
             let from = pending.unwrap_or(now.signum());
-            let other = now * then < 0.0 || pending.is_some() && from * then < 0.0;
+            // At zero it passes in the next arc, or not at all.
+            let other = now != 0.0 && now * then <= 0.0 || pending.is_some() && from * then < 0.0;
             if !other
                 || !guard.direction.admits(from, -from)
                 || pending.is_none() && self.at.history.leads_to_limit(limit.period, surface)

@@ -163,7 +163,8 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             // Both are short on the time scale of the model.
             let interval = interval.filter(|interval| *interval > 0.0).unwrap_or(f64::INFINITY);
             let short = arrival.map_or(f64::INFINITY, Arrival::duration).min(interval);
-            let starts_as = match arrival.filter(|_| crossed) {
+            // A stop or another event may have divided the flight.
+            let starts_as = match arrival {
                 Some(last) if switch => StartsAs::Bounced { direction, flight: last.flight() },
                 _ if switch => StartsAs::Bound,
                 _ => StartsAs::Crossing,
