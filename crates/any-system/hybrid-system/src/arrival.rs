@@ -223,8 +223,12 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let before = next.guard_value(surface, &self.before);
+        // A contact at which the bounces have ended is no event that is still to come.
+        let has_led = || {
+            next.guards().iter().any(|guard| guard.surface == surface && guard.role.bounds_flow())
+        };
         if self.solved
-            || self.after_zeno
+            || self.after_zeno && has_led()
             || Some(surface) == self.surface
             || !(before * now > 0.0)
             || (now - before).abs() > rounding

@@ -114,6 +114,49 @@ fn two_contacts_of_one_floor_have_one_limit() {
     assert!((limit.time - 3.0).abs() <= limit.time_error, "{limit:?}");
 }
 
+/// Stops and observers among bounces that rounding hides are no landings from below, and lose nothing.
+#[test]
+fn stops_among_hidden_bounces_change_nothing() {
+    for (floor, restitution, height) in [
+        (1.0, 0.27, 1.87),
+        (-3.7, 0.65, 1.96),
+        (25.0, 0.2, 1.53),
+        (1.0, 0.9, 0.6),
+        (0.0, 0.95, 1.9),
+    ] {
+        let limit = (2.0_f64 * height).sqrt() * (1.0 + restitution) / (1.0 - restitution);
+        for k in 0..24 {
+            let (stop, tick) = (limit - 1e-5 * 0.5_f64.powi(k), limit - 1.3e-5 * 0.45_f64.powi(k));
+            let ball = Model::closed_form(|flies: bool, x: &State<3>, t| match flies {
+                true => [x[0] + t * (x[1] - t / 2.0), x[1] - t, x[2] + t],
+                false => [x[0], 0.0, x[2] + t],
+            })
+            .guard(
+                true,
+                Guard::falling("floor").contact(),
+                move |x| x[0] - floor,
+                move |x| (true, [x[0], -restitution * x[1], x[2]]),
+            )
+            .observer(Guard::rising("tick"), move |x| x[2] - tick)
+            .sampled(0.02)
+            .rest(move |_, x| Some((false, [floor, 0.0, x[2]])));
+            let mut run = ball.run(true, [floor + height, 0.0, 0.0], 0.0);
+            let (mut ticks, mut limits) = (0, 0);
+            for until in [stop, limit + 1.0] {
+                for arc in run.run_until(until) {
+                    match arc.unwrap().end {
+                        ArcEnd::Event(event) if event.surface == "tick" => ticks += 1,
+                        ArcEnd::Event(event) => assert!(event.before[1] < 0.0, "{floor} {event:?}"),
+                        ArcEnd::Zeno { .. } => limits += 1,
+                        _ => {}
+                    }
+                }
+            }
+            assert_eq!((ticks, limits), (1, 1), "{floor} {restitution} {height} {k}");
+        }
+    }
+}
+
 /// The times of a clock are known: a series of them has no limit.
 #[test]
 fn clocks_alone_have_no_limit() {
