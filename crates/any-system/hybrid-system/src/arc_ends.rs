@@ -20,6 +20,10 @@ use crate::zeno::ZenoLimit;
 /// rounding would show, over a longer one the bend.
 const NEXT_PART: f64 = 0.01;
 
+/// A flight whose duration is wrong by so much of itself is lost. A larger number would take the next flights for what
+/// they were without the error; a smaller one would give up a limit that is still known.
+const LARGEST_PART: f64 = 0.25;
+
 impl<T: HybridSystem> Execution<'_, T> {
     /// An arc that ends in an event.
     pub(crate) fn event_arc(
@@ -136,8 +140,9 @@ impl<T: HybridSystem> Execution<'_, T> {
         Ok(arc)
     }
 
-    /// The error of the time of an event by the rounding of the state at which a stop has divided its flight: near a
-    /// Zeno limit the velocity is small, and the height as rounded. Zero for a flight that is not divided.
+    /// The error of the time of an event by the rounding of the state at which a stop or an observer has divided its
+    /// flight: near a Zeno limit the velocity is small, and the height as rounded. Zero for a flight that is not divided.
+    /// A flight of which rounding hides a part that counts is lost, with all that would have come behind it.
     fn error_by_division(&self, surface: T::Surface, before: &T::State, duration: f64) -> f64 {
         let divided = self.at.history.since_event;
         if divided == 0.0 {
@@ -147,8 +152,12 @@ impl<T: HybridSystem> Execution<'_, T> {
         let (flight, value) = (divided + duration, flow.guard_value(surface, before));
         let rate =
             (flow.guard_at(surface, NEXT_PART * flight) - value).abs() / (NEXT_PART * flight);
-        // 0/0 for a guard that is zero all the time: `min` drops NaN.
-        (flow.rounding_at(surface, &self.at.state) / rate).min(flight)
+        // 0/0 for a guard that is zero all the time: the comparison drops NaN.
+        let error = flow.rounding_at(surface, &self.at.state) / rate;
+        if error < LARGEST_PART * flight {
+            return error;
+        }
+        flight.max(self.at.history.durations.expected())
     }
 
     /// Keeps what the start of the next arc must know about the event at the end of this one.

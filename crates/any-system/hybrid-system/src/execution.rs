@@ -58,7 +58,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         self.check()?;
         let horizon = self.at.time.up_to(self.limits.time);
         // Events before a limit on time, a clock or another event that comes before the Zeno limit are followed.
-        if let Some(limit) = self.at.history.zeno_limit(false)
+        if let Some(limit) = self.at.history.zeno_limit(false, &self.at.state)
             && limit.remainder <= horizon
             && let Some(arc) = self.arc_to_limit(limit, horizon)?
         {
@@ -72,7 +72,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 | Error::UndecidedSign { .. }
                 | Error::Grazing { .. }),
             ) => {
-                return match self.at.history.zeno_limit(true) {
+                return match self.at.history.zeno_limit(true, &self.at.state) {
                     Some(limit) => self.hidden_arc(limit, horizon),
                     None => Err(hidden),
                 };

@@ -32,7 +32,7 @@ pub struct ZenoLimit<X> {
     /// of the periods changes by no more than it has changed over the fitted periods, or predictions from a power
     /// law go on to converge. And the errors of the single events, which the bound contains, act on later durations
     /// as in a bounce: an error δ of an event after the duration T changes the later durations by 2δ/T of their
-    /// size.
+    /// size, and moves the limit by (1 + 1/q) δ or more if they fall by the factor q there.
     pub time_error: f64,
     /// Time from the start of the arc to the limit, with all its digits. The arc starts at the last event, or at a
     /// limit on time at which the execution had stopped since.
@@ -210,8 +210,8 @@ impl<S: Copy + PartialEq, X: StateVector> History<S, X> {
     /// The Zeno limit of the last arcs; `None` if their durations are not recognised as a convergent series.
     ///
     /// `next_event_hidden` is true if rounding hides the next event. The search may also go on to find events
-    /// although their times are lost in their errors: that is the same case.
-    pub(crate) fn zeno_limit(&self, next_event_hidden: bool) -> Option<ZenoLimit<X>> {
+    /// although their times are lost in their errors: that is the same case. `at` is the present state.
+    pub(crate) fn zeno_limit(&self, next_event_hidden: bool, at: &X) -> Option<ZenoLimit<X>> {
         let remainder = if next_event_hidden || self.durations.is_lost() {
             self.durations.remainder_if_hidden()
         } else {
@@ -220,12 +220,17 @@ impl<S: Copy + PartialEq, X: StateVector> History<S, X> {
         let remainder = remainder?;
         // The times of clocks are known: they have no limit, whatever their series so far.
         self.leading(remainder.period).next()?;
-        self.limit(remainder)
+        self.limit(remainder, at)
     }
 
     #[cold]
-    fn limit(&self, remainder: Remainder) -> Option<ZenoLimit<X>> {
+    fn limit(&self, remainder: Remainder, at: &X) -> Option<ZenoLimit<X>> {
         let Remainder { time, error, period, length, order } = remainder;
+        // A limit before the present is now, within its error. Farther back it is refuted: the flow has gone on.
+        let overrun = (self.since_event - time).max(0.0);
+        if overrun > error {
+            return None;
+        }
         let now = self.state(0)?;
         let mut step = now.clone();
         step.add_scaled(-1.0, self.state(period)?);
@@ -234,14 +239,17 @@ impl<S: Copy + PartialEq, X: StateVector> History<S, X> {
         // step.
         let mut state = now.clone();
         state.add_scaled(time / (order * length), &step);
+        if overrun > 0.0 {
+            state = at.clone();
+        }
+        let rounding = 0.5 * f64::EPSILON * self.durations.now.value().abs();
         Some(ZenoLimit {
-            time: self.durations.now.plus(time).value(),
-            time_error: error + 0.5 * f64::EPSILON * self.durations.now.value().abs(),
-            // A limit that lies before the present by the rounding of the durations is now.
+            time: self.durations.now.plus(time + overrun).value(),
+            time_error: error + overrun + rounding,
             remainder: (time - self.since_event).max(0.0),
             state,
-            // 1 − ratio = length/(length + time).
             state_error: step.largest() * (1.0 + time / length),
+            // 1 − ratio = length/(length + time).
             ratio: time / (length + time),
             period,
         })

@@ -261,3 +261,94 @@ fn an_observer_crossed_again_before_a_limit_is_not_lost() {
         }
     }
 }
+
+/// A ball that rests at its limit, and an observer of the clock x₂.
+macro_rules! ticking_ball {
+    ($flow:expr, $floor:expr, $restitution:expr, $tick:expr) => {{
+        let (floor, restitution, tick) = ($floor, $restitution, $tick);
+        $flow
+            .guard(
+                true,
+                Guard::falling("floor").contact(),
+                move |x: &State<3>| x[0] - floor,
+                move |x| (true, [x[0], -restitution * x[1], x[2]]),
+            )
+            .observer(Guard::rising("tick"), move |x| x[2] - tick)
+            .rest(move |_, x| Some((false, [floor, 0.0, x[2]])))
+    }};
+}
+
+fn by_formula(flies: bool, x: &State<3>, t: f64) -> [f64; 3] {
+    match flies {
+        true => [x[0] + t * (x[1] - t / 2.0), x[1] - t, x[2] + t],
+        false => [x[0], 0.0, x[2] + t],
+    }
+}
+
+/// Near a limit the height as rounded is a large part of a bounce, and a weak bounce lasts longer by what is left of its
+/// height: whatever divides the last flights, the limit is within its error.
+#[test]
+fn a_limit_is_within_its_error_whatever_divides_the_last_flights() {
+    for floor in [0.0, 1.0, 25.0] {
+        for restitution in [0.0024, 0.0194, 0.18, 0.42, 0.5] {
+            let height = 0.947;
+            let limit = (2.0_f64 * height).sqrt() * (1.0 + restitution) / (1.0 - restitution);
+            for k in 0..40 {
+                let tick = limit - 3e-3 * 0.45_f64.powi(k);
+                let stops = [limit - 1e-3 * 0.37_f64.powi(k), limit + 1.0];
+                let start = State::from([floor + height, 0.0, 0.0]);
+                let plain = Model::closed_form(by_formula).sampled(0.0213);
+                let ball = ticking_ball!(plain, floor, restitution, tick);
+                is_within_its_error(&ball, start, stops, limit);
+                let signal = move |flies: bool, x: &State<3>| {
+                    flies.then(|| QuasiPolynomial::polynomial(&[x[0] - floor, x[1], -0.5]))
+                };
+                let ball = ball.signal("floor", signal);
+                is_within_its_error(&ball, start, stops, limit);
+            }
+        }
+    }
+}
+
+/// A bounce that a stop hides is an error with its remedy, and no wrong answer.
+fn is_within_its_error<T>(ball: &T, start: State<3>, stops: [f64; 2], exact: f64)
+where
+    T: HybridSystem<Mode = bool, State = State<3>>,
+    T::Surface: Copy + PartialEq + std::fmt::Debug,
+{
+    let limits = Limits::sampled(0.0, 10_000, 0.0213);
+    let mut execution = Execution::new(ball, true, start, limits);
+    for stop in stops {
+        for arc in execution.run_until(stop) {
+            if let Ok(Arc { end: ArcEnd::Zeno { limit, .. }, .. }) = arc {
+                assert!((limit.time - exact).abs() <= limit.time_error, "{exact} {limit:?}");
+            }
+        }
+    }
+}
+
+/// The durations may show a limit that the flow has passed, within its error: the limit is now, and the clock goes on from
+/// the present state.
+#[test]
+fn a_limit_before_the_present_does_not_turn_the_clock_back() {
+    let (floor, restitution, height, tolerance) =
+        (25.0, 0.641_721_114_024_630_5, 0.812_340_951_002_269_3, 1e-6);
+    let limit = (2.0_f64 * height).sqrt() * (1.0 + restitution) / (1.0 - restitution);
+    let tick = limit + 1.159_872_198_286_393_5e-11;
+    let flow = Model::integrated(|flies: bool, x: &State<3>| match flies {
+        true => [x[1], -1.0, 1.0],
+        false => [0.0, 0.0, 1.0],
+    })
+    .tolerance(tolerance);
+    let ball = ticking_ball!(flow, floor, restitution, tick);
+    let mut execution = ball.run(true, [floor + height, 0.0, 0.0], 0.0);
+    let mut ticks = 0;
+    for stop in [limit - 9.654_005_026_504_82e-7, limit - 2.195_831_161_344_585_8e-8, limit + 1.0] {
+        for arc in execution.run_until(stop) {
+            let arc = arc.unwrap();
+            ticks += usize::from(arc.event().is_some_and(|event| event.surface == "tick"));
+            assert!((arc.start[2] - arc.time).abs() <= 4.0 * f64::EPSILON * arc.time, "{arc:?}");
+        }
+    }
+    assert_eq!(ticks, 1);
+}

@@ -225,6 +225,8 @@ fn may_have_bounced<F: GuardedFlow>(
     starts_as: StartsAs,
 ) -> bool {
     let StartsAs::Bounced { direction, flight } = starts_as else { return false };
-    let ratio = || value / flow.guard_at(surface, 0.5 * time);
+    // The value at the start is zero within its error.
+    let start = flow.guard_value(surface, flow.start());
+    let ratio = || (value - start) / (flow.guard_at(surface, 0.5 * time) - start);
     direction.is_beyond(value) && time > NEXT_BOUNCE * flight && !(0.0..STRAIGHT).contains(&ratio())
 }
