@@ -11,12 +11,12 @@ def constant(name, kind, crate):
     """The text on the right of `const NAME: … kind … =`, without comments."""
     pattern = re.compile(rf"\bconst {name}\s*:[^=]*{kind}[^=]*=(.*?);", re.S)
     found = []
-    for path in sorted((ROOT / "crates" / crate / "src").rglob("*.rs")):
+    for path in sorted((ROOT / "crates").glob(f"*/{crate}/src/**/*.rs")):
         source = re.sub(r"//[^\n]*", "", path.read_text(encoding="utf-8"))
         # The length of an array type has a semicolon, and stands before the equals sign.
         found += pattern.findall(source)
     if len(found) != 1:
-        raise LookupError(f"crates/{crate}/src has {len(found)} constants {name}; the generator needs exactly one")
+        raise LookupError(f"the sources of {crate} have {len(found)} constants {name}; the generator needs exactly one")
     return found[0]
 
 

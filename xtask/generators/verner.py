@@ -2,7 +2,7 @@
 
 verner_published.json has the digits of Verner's pages, rounded to doubles. Published numbers of at most EXACT digits
 are parameters of the families and are kept. Newton's method moves all others to a solution next to them. The result is
-written as Rust source.
+written as a Rust expression.
 """
 
 import json
@@ -37,21 +37,16 @@ FIRST_ROBUST = 3
 # The interpolants are tabulated at this many Chebyshev nodes of the step (ode/chebyshev.rs).
 NODES = 16
 ROOT = Path(__file__).resolve().parents[2]
-SOURCES = ROOT / "crates" / "hybrid-system" / "src" / "ode" / "schemes"
+SOURCES = ROOT / "crates" / "any-system" / "hybrid-system" / "src" / "ode" / "schemes"
 OUT = ROOT / "target" / "regenerate"
 # Published name, the higher order, the order of the interpolant, `kink_ratio` (schemes/scheme.rs; a test compares it
 # with the weights), the file.
-PAIRS = (("9(8)", 9, 8, 5, "nine.rs"), ("6(5)", 6, 6, 8, "six.rs"))
+PAIRS = (("9(8)", 9, 8, 5, "nine.in"), ("6(5)", 6, 6, 8, "six.in"))
 HEADER = """\
-//! J. H. Verner's "efficient" pair of orders {orders}: {stages} stages, and {more} more for its interpolant of order {inside}.
-//!
-//! Made by `xtask/generators/verner.py` (`cargo xtask regenerate --only verner`); not edited by hand.
-
-use super::scheme::Scheme;
-
-/// The pair of orders {orders}.
-#[rustfmt::skip]
-pub(super) static PAIR: Scheme = Scheme {{
+// J. H. Verner's "efficient" pair of orders {orders}: {stages} stages, and {more} more for its interpolant of order {inside}.
+//
+// Made by `xtask/generators/verner.py` (`cargo xtask regenerate --only verner`); not edited by hand.
+Scheme {{
 """
 
 
@@ -280,7 +275,7 @@ def robust(nodes, stages):
 
 
 def source(name, inside, kink_ratio, pair):
-    """The Rust file of a pair."""
+    """The expression of a pair, which Rust includes."""
     values, stages, total = pair.values, pair.stages, len(pair.rows)
     numbers = lambda terms: [(j, values[k]) for j, k in terms]
     weights = dense(with_first(numbers(pair.weights), 1), stages)
@@ -315,7 +310,7 @@ def source(name, inside, kink_ratio, pair):
         columns.append(dense(with_first(terms, s), total))
     for row in zip(*columns):
         text += "        [\n" + lines(map(number, row), 12) + "        ],\n" if any(row) else "        [0.0; 16],\n"
-    return text + "    ],\n};\n"
+    return text + "    ],\n}\n"
 
 
 def made(job):

@@ -43,4 +43,5 @@ pub use theorems::raster_theorems::{cells_theorem, points_theorem};
 pub use theorems::rising::rising;
 pub use theorems::theorem::{Step, Theorem};
 pub use theorems::trap_edges::trap_edges;
+pub use theorems::{QUICK_THEOREMS, QuickTheorem};
 pub use traps::{ProvedCrisis, proved_trap};

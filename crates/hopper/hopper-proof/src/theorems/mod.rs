@@ -27,3 +27,34 @@ pub(crate) mod raster_theorems;
 pub(crate) mod rising;
 pub(crate) mod theorem;
 pub(crate) mod trap_edges;
+
+use crate::error::Error;
+use theorem::Theorem;
+
+/// A theorem that takes seconds: its name, and its proof at the size that its statement has.
+pub type QuickTheorem = (&'static str, fn() -> Result<Theorem, Error>);
+
+/// The theorems that take seconds, in the order of their proofs.
+pub static QUICK_THEOREMS: &[QuickTheorem] = &[
+    ("one-sudden", || Ok(one_sudden::one_sudden())),
+    ("one-sided", || one_sided::one_sided(8)),
+    ("crisis", || crisis::crises(10)),
+    // The ends of traps at a thousand mass ratios.
+    ("traps", || trap_edges::trap_edges(8, 1000)),
+    ("everything-hops", everything_hops::everything_hops),
+    ("rising", || rising::rising(&RISING)),
+];
+
+/// Windows that rise, with the largest M.
+const RISING: [(u64, f64); 10] = [
+    (1, 0.905),
+    (2, 0.905),
+    (3, 0.905),
+    (4, 0.9),
+    (5, 0.9),
+    (6, 0.9),
+    (7, 0.9),
+    (8, 0.9),
+    (9, 0.9),
+    (10, 0.9),
+];

@@ -11,8 +11,8 @@ use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{FIG_9, FigureWindow, basin_raster};
 use hopper_figures::label_png;
 use hopper_proof::{
-    CertificateLine, Theorem, cells_theorem, crises, everything_hops, measures, one_sided,
-    one_sudden, points_theorem, proved_points, rising, trap_edges,
+    CertificateLine, QUICK_THEOREMS, QuickTheorem, Theorem, cells_theorem, measures,
+    points_theorem, proved_points,
 };
 use journal_figures::Svg;
 use std::io::ErrorKind;
@@ -52,6 +52,7 @@ pub(crate) struct Options {
 }
 
 /// A theorem that the command proves.
+#[derive(Clone, Copy)]
 struct Provable {
     name: &'static str,
     /// What the gate sets, of a theorem that does not take seconds.
@@ -62,68 +63,43 @@ struct Provable {
 /// How a theorem is proved.
 #[derive(Clone, Copy)]
 enum Proof {
-    /// At once.
-    Whole(fn(&Options) -> Result<Theorem, Error>),
+    Quick(fn() -> Result<Theorem, hopper_proof::Error>),
+    /// The fractions of basins.
+    Fractions,
     /// For every point of a figure.
     Points(fn() -> FigureWindow),
     /// For every cell of a figure, of whose area this share may stay open.
     Cells(fn() -> FigureWindow, f64),
 }
 
-/// All theorems, in the order of their proofs.
-static THEOREMS: &[Provable] = &[
-    whole("one-sudden", |_| Ok(one_sudden())),
-    whole("one-sided", |_| Ok(one_sided(HUMPS)?)),
-    whole("crisis", |_| Ok(crises(CRISES)?)),
-    whole("traps", |_| Ok(trap_edges(HUMPS, TRAPS)?)),
-    whole("everything-hops", |_| Ok(everything_hops()?)),
-    whole("rising", |_| Ok(rising(&RISING)?)),
-    Provable {
-        name: "measures",
-        gate: Some(|options| (options.mass_ratio, options.width) = (Some(0.1), Some(1e-3))),
-        proof: Proof::Whole(fractions),
-    },
-    of_figure("fig6-points", |options| options.size = 16, Proof::Points(fig_6)),
-    of_figure("fig9-points", |options| options.size = 16, Proof::Points(|| FIG_9)),
+/// The theorems that take long, in the order of their proofs: they follow [`QUICK_THEOREMS`].
+static LONG_THEOREMS: &[Provable] = &[
+    long(
+        "measures",
+        |options| (options.mass_ratio, options.width) = (Some(0.1), Some(1e-3)),
+        Proof::Fractions,
+    ),
+    long("fig6-points", |options| options.size = 16, Proof::Points(fig_6)),
+    long("fig9-points", |options| options.size = 16, Proof::Points(|| FIG_9)),
     // So few cells leave most of their area open.
-    of_figure("fig6-cells", |options| few_cells(options, 0.96), Proof::Cells(fig_6, 0.12)),
-    of_figure("fig9-cells", |options| few_cells(options, 0.81), Proof::Cells(|| FIG_9, 0.08)),
+    long("fig6-cells", |options| few_cells(options, 0.96), Proof::Cells(fig_6, 0.12)),
+    long("fig9-cells", |options| few_cells(options, 0.81), Proof::Cells(|| FIG_9, 0.08)),
 ];
 
-const fn whole(name: &'static str, prove: fn(&Options) -> Result<Theorem, Error>) -> Provable {
-    Provable { name, gate: None, proof: Proof::Whole(prove) }
+const fn long(name: &'static str, gate: fn(&mut Options), proof: Proof) -> Provable {
+    Provable { name, gate: Some(gate), proof }
 }
 
-const fn of_figure(name: &'static str, gate: fn(&mut Options), proof: Proof) -> Provable {
-    Provable { name, gate: Some(gate), proof }
+/// All theorems.
+fn theorems() -> impl Iterator<Item = Provable> {
+    let quick =
+        |(name, prove): &QuickTheorem| Provable { name, gate: None, proof: Proof::Quick(*prove) };
+    QUICK_THEOREMS.iter().map(quick).chain(LONG_THEOREMS.iter().copied())
 }
 
 fn few_cells(options: &mut Options, open: f64) {
     (options.size, options.open) = (4, Some(open));
 }
-
-/// Humps of the theorems about single humps.
-const HUMPS: u64 = 8;
-
-/// Humps whose crisis is enclosed.
-const CRISES: u64 = 10;
-
-/// Mass ratios at which the ends of traps are enclosed.
-const TRAPS: usize = 1000;
-
-/// Windows that rise, with the largest M.
-const RISING: [(u64, f64); 10] = [
-    (1, 0.905),
-    (2, 0.905),
-    (3, 0.905),
-    (4, 0.9),
-    (5, 0.9),
-    (6, 0.9),
-    (7, 0.9),
-    (8, 0.9),
-    (9, 0.9),
-    (10, 0.9),
-];
 
 /// Mass ratios of the fractions, with the width that is asked for. The last ones take longest.
 const MEASURES: [(f64, f64); 11] = [
@@ -142,9 +118,9 @@ const MEASURES: [(f64, f64); 11] = [
 
 /// Runs the command.
 pub(crate) fn run(options: &Options) -> Result<(), Error> {
-    let wanted: Vec<&Provable> = match options.names.as_slice() {
-        _ if options.all || options.gate => THEOREMS.iter().collect(),
-        [] => THEOREMS.iter().filter(|theorem| theorem.gate.is_none()).collect(),
+    let wanted: Vec<Provable> = match options.names.as_slice() {
+        _ if options.all || options.gate => theorems().collect(),
+        [] => theorems().filter(|theorem| theorem.gate.is_none()).collect(),
         names => names.iter().map(|name| named(name)).collect::<Result<_, Error>>()?,
     };
     let folder = results_folder(options.out.as_deref(), "proofs")?;
@@ -180,9 +156,9 @@ fn set_certificate_aside(name: &str, folder: &Folder) -> Result<(), Error> {
 }
 
 /// The theorem of a name.
-fn named(name: &str) -> Result<&'static Provable, Error> {
-    THEOREMS.iter().find(|theorem| theorem.name == name).ok_or_else(|| {
-        let known: Vec<&str> = THEOREMS.iter().map(|theorem| theorem.name).collect();
+fn named(name: &str) -> Result<Provable, Error> {
+    theorems().find(|theorem| theorem.name == name).ok_or_else(|| {
+        let known: Vec<&str> = theorems().map(|theorem| theorem.name).collect();
         Error::UnknownName { kind: "theorem", name: name.to_owned(), known: known.join(", ") }
     })
 }
@@ -192,7 +168,8 @@ impl Provable {
     fn prove(&self, options: &Options, folder: &Folder) -> Result<bool, Error> {
         let begin = Instant::now();
         let theorem = match self.proof {
-            Proof::Whole(prove) => prove(options)?,
+            Proof::Quick(prove) => prove()?,
+            Proof::Fractions => fractions(options)?,
             Proof::Points(window) => points(self.name, window(), options, folder)?,
             Proof::Cells(window, most_open) => {
                 return cells(self.name, window(), most_open, options, folder);
@@ -347,6 +324,6 @@ mod tests {
         let statements: serde_json::Map<String, serde_json::Value> =
             serde_json::from_str(&text).unwrap();
         let stated: BTreeSet<&str> = statements.keys().map(String::as_str).collect();
-        assert_eq!(stated, THEOREMS.iter().map(|theorem| theorem.name).collect());
+        assert_eq!(stated, theorems().map(|theorem| theorem.name).collect());
     }
 }

@@ -1,7 +1,7 @@
 //! Which Runge–Kutta scheme takes the steps?
 //!
-//! [`scheme_for`] chooses between J. H. Verner's "efficient" pairs of orders 9(8) (`nine`), with an interpolant of
-//! order 8, and 6(5) (`six`), with one of order 6. `scheme` is the layout of their coefficients. The coefficients
+//! [`scheme_for`] chooses between J. H. Verner's "efficient" pairs of orders 9(8) (`nine.in`), with an interpolant of
+//! order 8, and 6(5) (`six.in`), with one of order 6. `scheme` is the layout of their coefficients. The coefficients
 //! are not copied: they are Verner's published digits, polished on the order conditions with 120 digits
 //! (`xtask/generators/verner.py`).
 //!
@@ -18,12 +18,10 @@
 //!
 //! More digits of the other factors would not help. A factor rounded to the nearest double is wrong by at most ε/2 of
 //! itself, ε = 2⁻⁵², and its product with a difference is rounded by as much.
-mod nine;
 #[cfg(test)]
 mod order_tests;
 mod scheme;
 mod scheme_for;
-mod six;
 
 pub(super) use scheme::{ALL_STAGES, Scheme};
 pub(super) use scheme_for::scheme_for;

@@ -1,10 +1,10 @@
 //! Tests of the committed tables: order conditions in twice the digits, and the orders of convergence.
 
 use super::scheme::{ALL_STAGES, Scheme};
-use super::{nine, six};
+use super::scheme_for::{NINE, SIX};
 use crate::ode::chebyshev::CHEBYSHEV;
 
-const PAIRS: [&Scheme; 2] = [&nine::PAIR, &six::PAIR];
+const PAIRS: [&Scheme; 2] = [&NINE, &SIX];
 
 /// The largest relative error of a number that is rounded to the nearest double.
 const UNIT: f64 = 0.5 * f64::EPSILON;

@@ -1,7 +1,12 @@
 //! The choice of the scheme.
 
 use super::scheme::Scheme;
-use super::{nine, six};
+
+/// The pair of orders 9(8).
+pub(super) static NINE: Scheme = include!("nine.in");
+
+/// The pair of orders 6(5).
+pub(super) static SIX: Scheme = include!("six.in");
 
 /// The tolerance from which on order six is used. It needs more steps than order nine, but fewer stages for the
 /// interpolant. With a smaller value flows at 1e-8 would take longer.
@@ -13,5 +18,5 @@ const LOOSE: f64 = 1e-7;
 
 /// The scheme for a relative tolerance.
 pub(in crate::ode) fn scheme_for(tolerance: f64) -> &'static Scheme {
-    if tolerance >= LOOSE { &six::PAIR } else { &nine::PAIR }
+    if tolerance >= LOOSE { &SIX } else { &NINE }
 }
