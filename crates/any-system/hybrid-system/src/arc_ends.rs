@@ -54,18 +54,14 @@ impl<T: HybridSystem> Execution<'_, T> {
                 (duration, time_rounding),
             )?;
         }
+        // The sum of the rounded duration may miss the time of a clock, or the limit, by a rounding. The clock would then
+        // have its time once more, or a time that is over.
         let mut time = self.at.time.plus(duration);
-        // The sum of the rounded duration may miss the preset time by a rounding. The clock would then have the
-        // same time once more.
-        if kind == EventKind::Clock
-            && let Some(clock) = self.next_clock(horizon)?
-            && clock.surface == surface
-        {
-            time = TimeSum::new(clock.time);
-        }
-        // The sum may miss the limit by a rounding, too.
-        if time.value() > self.limits.time {
-            time = TimeSum::new(self.limits.time);
+        let clock = self.next_clock(horizon)?;
+        let latest = clock.map_or(self.limits.time, |clock| clock.time);
+        let is_tick = clock.is_some_and(|clock| clock.surface == surface);
+        if time.value() > latest || is_tick && kind == EventKind::Clock {
+            time = TimeSum::new(latest);
         }
         let time_passes = time.value() > before;
         if time_passes {
@@ -231,6 +227,10 @@ impl<T: HybridSystem> Execution<'_, T> {
         let arc = self.new_arc(horizon, ArcEnd::TimeLimit { certainty });
         self.stop = Some(Stop::TimeLimit);
         self.advance(horizon, state, leaving);
+        // The sum of the rounded duration may miss the limit.
+        if self.at.time.value() != self.limits.time {
+            self.at.time = TimeSum::new(self.limits.time);
+        }
         Ok(arc)
     }
 

@@ -3,7 +3,7 @@
 mod beyond_jump;
 mod side_before;
 
-use crate::crossing::{GuardedFlow, LeavingGuards};
+use crate::crossing::{GuardedFlow, Leaving, LeavingGuards};
 use crate::guard::{Direction, Guard, Role};
 use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem};
@@ -193,17 +193,26 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         reached.filter(|reached| reached.has_passed).map(|reached| -reached.from)
     }
 
-    /// The side to which a guard was leaving its surface when the arc began, if its value `now`, at the end, still
-    /// hides whether it has: signs of rounding are no further zeros.
-    pub(crate) fn still_leaves<T>(&self, next: &FlowFrom<T>, surface: S, now: f64) -> Option<f64>
+    /// A guard that was leaving its surface when the arc began, if rounding still hides whether it has: by the time at
+    /// which it was first seen, or by its value `now`, at the end. Signs of rounding are no further zeros.
+    pub(crate) fn still_leaves<T>(
+        &self,
+        next: &FlowFrom<T>,
+        surface: S,
+        now: f64,
+    ) -> Option<Leaving<S>>
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let left = self.leaving.iter().find(|left| left.surface == surface && !left.ahead)?;
+        if left.hidden > self.duration {
+            return Some(Leaving { hidden: left.hidden - self.duration, ..*left });
+        }
         let is_other = left.side != 0.0 && now * left.side <= 0.0;
-        let hidden = || now.abs() <= next.rounding_at(surface, next.start);
+        let is_hidden = || now.abs() <= next.rounding_at(surface, next.start);
         let arc = FlowFrom { system: next.system, mode: self.mode, start: &self.start };
-        (is_other && hidden() && self.has_stayed(&arc, surface)).then_some(left.side)
+        (is_other && is_hidden() && self.has_stayed(&arc, surface))
+            .then_some(Leaving { hidden: 0.0, ..*left })
     }
 
     /// The side from which the crossed guard came, ±1; 0 if nothing was crossed.

@@ -112,11 +112,13 @@ impl<T: HybridSystem> Execution<'_, T> {
                 let what = "a time of a clock that is not later than the time before it";
                 return Err(Error::BadLimit { what, value: time });
             }
-            // An infinite time never comes.
+            // An infinite time never comes. Durations round: two times may have the same one, and so may a time and
+            // the limit before it.
             let until = self.at.time.up_to(time);
             if time.is_finite()
                 && until <= horizon
-                && earliest.is_none_or(|first| until < first.until)
+                && time <= self.limits.time
+                && earliest.is_none_or(|first| time < first.time)
             {
                 earliest = Some(ClockEvent { surface: guard.surface, until, time });
             }

@@ -111,10 +111,15 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             && !arrival.has_touched(flow, surface)
         {
             let passed = arrival.passed_to(surface).filter(|_| !switch);
-            let passed = passed.or_else(|| arrival.still_leaves(flow, surface, now));
+            if passed.is_none()
+                && let Some(still) = arrival.still_leaves(flow, surface, now)
+            {
+                leaving.push(still);
+                continue;
+            }
             let at_rest = now != 0.0 && residue == 0.0 && !beyond && !crossed;
             if let Some(side) = passed.or(at_rest.then_some(now.signum())) {
-                leaving.push(Leaving { surface, side, ahead: now * side > 0.0 });
+                leaving.push(Leaving { surface, side, ahead: now * side > 0.0, hidden: 0.0 });
                 continue;
             }
         }
@@ -130,7 +135,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         let touched = arrival.is_some_and(|arrival| arrival.has_touched(flow, surface));
         if on_surface && touched && switch && direction != Direction::Either {
             let side = if direction == Direction::Rising { -1.0 } else { 1.0 };
-            leaving.push(Leaving { surface, side, ahead: false });
+            leaving.push(Leaving { surface, side, ahead: false, hidden: 0.0 });
             continue;
         }
         // It has had its event at the last limit on time.
@@ -138,7 +143,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             && !switch
             && let Some(side) = residues.passes_later(surface)
         {
-            leaving.push(Leaving { surface, side, ahead: false });
+            leaving.push(Leaving { surface, side, ahead: false, hidden: 0.0 });
             continue;
         }
         // Its event is still to come, however near: the signs of the computed trajectory decide.
@@ -146,7 +151,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             direction.admits(now, -now) && arrival.is_ahead(flow, surface, (now, rounding))
         };
         if on_surface && residue == 0.0 && reached.is_none() && arrival.is_some_and(is_ahead) {
-            leaving.push(Leaving { surface, side: now.signum(), ahead: true });
+            leaving.push(Leaving { surface, side: now.signum(), ahead: true, hidden: 0.0 });
             continue;
         }
         // A guard that jumps at its surface has a value beyond it that does not tell how far: the motion tells.
@@ -154,7 +159,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             .then(|| arrival?.leads_beyond(flow, surface, horizon.min(LONGEST_LOOK)))
             .flatten();
         if leads_beyond == Some(false) {
-            leaving.push(Leaving { surface, side: -now.signum(), ahead: false });
+            leaving.push(Leaving { surface, side: -now.signum(), ahead: false, hidden: 0.0 });
             continue;
         }
         let (side, certainty) = if leads_beyond == Some(true) {
@@ -174,7 +179,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
                 Departure::Stays => {
                     // On the side of the flow its value is the distance to the next event. Elsewhere it counts as zero.
                     if now == 0.0 || beyond {
-                        leaving.push(Leaving { surface, side: 0.0, ahead: false });
+                        leaving.push(Leaving { surface, side: 0.0, ahead: false, hidden: 0.0 });
                     }
                     continue;
                 }
@@ -208,7 +213,11 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             return Ok(ArcStart::Event { surface, certainty, errors, undeclared });
         }
         if on_surface {
-            leaving.push(Leaving { surface, side, ahead: false });
+            let hidden = match certainty {
+                Certainty::Sampled { interval } if leads_beyond.is_none() => interval,
+                _ => 0.0,
+            };
+            leaving.push(Leaving { surface, side, ahead: false, hidden });
         }
     }
     Ok(ArcStart::Flows)

@@ -213,3 +213,68 @@ fn the_search_can_be_called_from_an_override() {
         assert!((arc.duration - duration).abs() < 1e-14, "{}", arc.duration);
     }
 }
+
+/// x = t with observers of levels, whose crossings the model solves for.
+struct Levels {
+    levels: Vec<f64>,
+    guards: Vec<Guard<usize>>,
+}
+
+impl HybridSystem for Levels {
+    type State = State<1>;
+    type Mode = ();
+    type Surface = usize;
+    fn flow(&self, (): (), x: &State<1>, t: f64) -> State<1> {
+        State::from([x[0] + t])
+    }
+    fn vector_field(&self, (): (), _: &State<1>) -> Option<State<1>> {
+        Some(State::from([1.0]))
+    }
+    fn guards(&self, (): ()) -> &[Guard<usize>] {
+        &self.guards
+    }
+    fn guard_value(&self, level: usize, x: &State<1>) -> f64 {
+        x[0] - self.levels[level]
+    }
+    fn reset(&self, (): (), _: usize, x: &State<1>) -> Reset<(), State<1>> {
+        Reset::Jump { mode: (), state: *x }
+    }
+    fn first_crossing(
+        &self,
+        (): (),
+        x: &State<1>,
+        search: &Search<usize>,
+    ) -> Result<NextEvent<usize, State<1>>, Error> {
+        let levels = (0..self.levels.len()).filter(|level| search.side(*level).is_none());
+        let times = levels.map(|level| (self.levels[level] - x[0], level));
+        let ahead = times.filter(|(time, _)| *time > 0.0 && *time <= search.horizon);
+        let first = ahead.min_by(|a, b| a.0.total_cmp(&b.0));
+        let at = |(time, level): (f64, usize)| {
+            Crossing::exact(level, time, State::from([self.levels[level]]))
+        };
+        Ok(first.map(at).into())
+    }
+}
+
+/// Levels some ulps apart, and a stop some ulps before the first: each is met once.
+#[test]
+fn levels_that_a_model_solves_for_are_met_once_within_ulps() {
+    let ulp = f64::EPSILON / 2.0;
+    for (second, third) in [(0, 0), (1, 2), (4, 5), (8, 10), (3, 15), (12, 13)] {
+        for before in [0, 1, 2, 4, 8, 64] {
+            let levels: Vec<f64> =
+                [0, second, third].iter().map(|k| 0.5 + f64::from(*k) * ulp).collect();
+            let guards = (0..3).map(|level| Guard::rising(level).crossing()).collect();
+            let system = Levels { levels, guards };
+            let stop = 0.5 - f64::from(before) * ulp;
+            let mut execution =
+                Execution::new(&system, (), State::from([0.0]), Limits::new(stop, 100));
+            let mut met = Vec::new();
+            for stop in [stop, 1.0] {
+                let arcs = execution.run_until(stop).map(|arc| arc.unwrap());
+                met.extend(arcs.filter_map(|arc| arc.event().map(|event| event.surface)));
+            }
+            assert_eq!(met, [0, 1, 2], "{second} {third} {before}");
+        }
+    }
+}

@@ -167,3 +167,36 @@ fn a_search_by_too_many_samples_is_unfinished() {
     let NextEvent::Unfinished { time, state, .. } = found else { panic!("{found:?}") };
     assert!((time - 1.0).abs() < 1e-12 && state[0] == 3.5 + time);
 }
+
+/// Two levels just below the top of a sine: the second one is some 30 ulps below it. Its crossings are found, or the graze is
+/// said, although the first level's event is next to it.
+#[test]
+fn a_graze_next_to_another_event_is_not_lost() {
+    let (first, top) = (1.75 - 5.782e-13, 1.75);
+    for below in [2e-15, 8e-15, 1.35e-14, 6e-14, 3e-13] {
+        let levels = [first, top - below];
+        let signal = |level: f64| {
+            move |(), x: &State<2>| {
+                Some(
+                    QuasiPolynomial::cosine(x[0], 1.0) + QuasiPolynomial::sine(x[1], 1.0)
+                        - QuasiPolynomial::polynomial(&[level]),
+                )
+            }
+        };
+        let sine = Model::closed_form(|(), x: &State<2>, t: f64| {
+            [x[0] * t.cos() + x[1] * t.sin(), x[1] * t.cos() - x[0] * t.sin()]
+        })
+        .observer(Guard::either(0), move |x| x[0] - levels[0])
+        .observer(Guard::either(1), move |x| x[0] - levels[1])
+        .signal(0, signal(levels[0]))
+        .signal(1, signal(levels[1]));
+        let arcs: Result<Vec<_>, _> = sine.run((), [0.0, 1.75], 2.4).collect();
+        match arcs {
+            Ok(arcs) => {
+                let met = arcs.iter().filter_map(|arc| arc.event().map(|event| event.surface));
+                assert_eq!(met.collect::<Vec<_>>(), [0, 1, 1, 0], "{below}");
+            }
+            Err(error) => assert!(matches!(error, Error::Grazing { .. }), "{below} {error}"),
+        }
+    }
+}

@@ -44,6 +44,11 @@ const LARGEST_GROWTH: f64 = 256.0;
 /// would take a later crossing for that; a smaller one would miss a slow return.
 const MOST_LOOKS_BACK: f64 = 1024.0;
 
+/// Further looks at a guard that leaves its zero with a hidden rate, each twice as late: up to 1024 times the first one
+/// that is clear. With more of them a short stay could be passed over; with fewer, noise of a step could be taken for a
+/// return.
+const LOOKS_BEHIND: u32 = 10;
+
 /// A look behind so much of the last arc may be behind the next bounce. A larger number would miss the return of a
 /// bounce whose speed is a small part of the one before; a smaller one would refuse a slow departure.
 const NEXT_BOUNCE: f64 = 1.0 / 1024.0;
@@ -173,8 +178,13 @@ fn by_looks<F: GuardedFlow>(
         }
         let later_error = rounding_at_look(flow, surface, (time, value, &state), error);
         let to = || {
-            let certainty = Certainty::Sampled { interval: time };
-            Ok(Departure::To { side: value.signum(), certainty })
+            let side = value.signum();
+            // The steps of an integrated flow are longer than the looks, and their noise is larger.
+            let interval = match looked {
+                Looked::OnSteps => still_there(flow, surface, (time, side)),
+                _ => time,
+            };
+            Ok(Departure::To { side, certainty: Certainty::Sampled { interval } })
         };
         // The value at the start may be the height of a jump there, over which the reset of a contact turns back.
         let jumps = value * at_start < 0.0 && value.abs() > LEFT_SURFACE * (rounding + later_error);
@@ -198,6 +208,19 @@ fn by_looks<F: GuardedFlow>(
         (time, first) = (2.0 * time, first && state == *start);
     }
     Ok(Departure::Stays)
+}
+
+/// The last one of some looks, each twice as late as the one before, up to which a guard is on this side.
+fn still_there<F: GuardedFlow>(flow: &F, surface: F::Surface, (first, side): (f64, f64)) -> f64 {
+    let mut time = first;
+    for _ in 0..LOOKS_BEHIND {
+        let later = flow.guard_at(surface, 2.0 * time);
+        if !(later * side > 0.0) {
+            break;
+        }
+        time *= 2.0;
+    }
+    time
 }
 
 /// The rounding of a guard at a look: its flow adds numbers as large as the largest component, and rounds by as much in

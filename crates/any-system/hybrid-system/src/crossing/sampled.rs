@@ -92,6 +92,9 @@ pub(crate) fn sampled_event<F: GuardedFlow>(
                 undefined.push((surface, value, guard.side.unwrap_or(0.0)));
                 continue;
             }
+            if time < search.hidden(surface) {
+                continue;
+            }
             let rounding = || flow.rounding_at(surface, &state);
             let found = match guard.advance(time, value, rounding, interval)? {
                 Sample::Quiet => continue,

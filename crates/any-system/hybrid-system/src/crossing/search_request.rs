@@ -24,6 +24,8 @@ pub struct Leaving<S> {
     /// True if the flow has brought the state next to the surface, and the guard has not had its zero yet: its
     /// value counts, however small.
     pub ahead: bool,
+    /// How long rounding hides that it leaves, as far as the start shows: until then no sign says anything.
+    pub hidden: f64,
 }
 
 /// What a search for the next event is told.
@@ -79,5 +81,11 @@ impl<S: Copy + PartialEq> Search<'_, S> {
     pub fn side_before(&self, surface: S) -> Option<f64> {
         let mut ahead = self.leaving.iter().filter(|leaving| leaving.ahead);
         ahead.find(|leaving| leaving.surface == surface).map(|leaving| leaving.side)
+    }
+
+    /// How long rounding hides to which side the guard of this surface leaves its zero.
+    pub(crate) fn hidden(&self, surface: S) -> f64 {
+        let leaving = self.leaving.iter().find(|leaving| leaving.surface == surface);
+        leaving.map_or(0.0, |leaving| leaving.hidden)
     }
 }

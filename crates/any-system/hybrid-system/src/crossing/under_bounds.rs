@@ -107,6 +107,8 @@ fn first_event<F: GuardedFlow>(
     };
     let (value, now) = (bounded.value(0.0), flow.guard_value(surface, start));
     let mut zeros = match search.side_before(surface) {
+        // The bounds show the side: its two zeros beside a touch must not be taken for rounding of the start.
+        Some(side) if at_start.sign() == Some(side) => ZeroSearch::on_side(direction, 0.0, side),
         Some(side) => {
             let error = error.max(at_start.magnitude());
             ZeroSearch::before_zero(direction, 0.0, side, error)

@@ -93,7 +93,9 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                     false => stated_or_measured(stated, start, along),
                 };
                 let side = known.or_else(|| guard_rate(start, rate, error, along).map(f64::signum));
-                ZeroSearch::leaving(direction, (0.0, value), error, side)
+                // Until then the signs of the steps are noise.
+                let hidden = self.request.hidden(surface);
+                ZeroSearch::leaving(direction, (hidden, value), error, side)
             }
         };
         Ok(Followed { guard, stated: stated.unwrap_or(0.0), search })

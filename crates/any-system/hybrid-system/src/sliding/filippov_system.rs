@@ -267,7 +267,7 @@ fn of_model<M, S: Copy>(guard: Guard<S>) -> Guard<FilippovSurface<M, S>> {
 
 fn leaving_of_model<M, S: Copy>(leaving: &Leaving<FilippovSurface<M, S>>) -> Option<Leaving<S>> {
     let FilippovSurface::Model(surface) = leaving.surface else { return None };
-    Some(Leaving { surface, side: leaving.side, ahead: leaving.ahead })
+    Some(Leaving { surface, side: leaving.side, ahead: leaving.ahead, hidden: leaving.hidden })
 }
 
 fn next_of_model<M, S, X>(next: NextEvent<S, X>) -> NextEvent<FilippovSurface<M, S>, X> {
