@@ -72,6 +72,7 @@ pub(crate) fn sampled_event<F: GuardedFlow>(
                 side: (!stays).then_some(side),
                 level,
                 leaves: known.filter(|side| *side != 0.0).map(|_| value.abs()),
+                hidden: search.hidden(guard.surface),
                 since: 0.0,
                 zero: None,
             })
@@ -92,7 +93,7 @@ pub(crate) fn sampled_event<F: GuardedFlow>(
                 undefined.push((surface, value, guard.side.unwrap_or(0.0)));
                 continue;
             }
-            if time < search.hidden(surface) {
+            if time < guard.hidden {
                 continue;
             }
             let rounding = || flow.rounding_at(surface, &state);
@@ -250,6 +251,8 @@ struct SampledGuard<S> {
     /// As long as no sample has shown that the guard has left its surface to this side: the size of its value at the
     /// start, which counts as zero.
     leaves: Option<f64>,
+    /// Until then its signs are rounding.
+    hidden: f64,
     /// The last sample at which the guard was on that side.
     since: f64,
     /// The first and the last of the samples since then, at all of which the guard is exactly zero.
