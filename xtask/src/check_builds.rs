@@ -11,11 +11,11 @@
 //! SKIPPED.
 
 use crate::error::Error;
+use crate::process::{cargo, say, skip, succeeds};
 use crate::repository::repository;
 use std::ffi::OsString;
-use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, Stdio};
+use std::process::{Command, ExitCode};
 use std::time::Instant;
 
 /// The fuzz target's package.
@@ -33,9 +33,7 @@ struct Build {
 /// Tries all builds; an error if one fails.
 pub(crate) fn run() -> Result<ExitCode, Error> {
     let root = repository();
-    let read = |path: PathBuf| {
-        std::fs::read_to_string(&path).map_err(|source| Error::File { path, source })
-    };
+    let read = |path: PathBuf| std::fs::read_to_string(&path).map_err(Error::at(path));
     let manifest = read(root.join("Cargo.toml"))?;
     let mut builds = Vec::new();
     for folder in members(&manifest) {
@@ -47,13 +45,8 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     let failed = builds.iter().map(try_build).collect::<Result<Vec<_>, _>>()?;
     match failed.iter().filter(|failed| **failed).count() {
         0 => Ok(ExitCode::SUCCESS),
-        count => Err(Error::Builds(count)),
+        count => Err(Error::new(format!("{count} builds failed"))),
     }
-}
-
-/// Cargo, the one that started this program.
-fn cargo() -> OsString {
-    std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
 }
 
 /// Runs a build and prints its time; true if it fails. The messages of the compiler stand above the line.
@@ -63,7 +56,7 @@ fn try_build(build: &Build) -> Result<bool, Error> {
     let program = if build.arguments[0] == "run" { OsString::from("rustup") } else { cargo() };
     let mut command = Command::new(&program);
     command.args(&build.arguments).envs(build.variable).current_dir(repository());
-    let status = command.status().map_err(|source| Error::Cargo { program, source })?;
+    let status = command.status().map_err(Error::starting(&program))?;
     let verdict = if status.success() { "ok" } else { "FAILED" };
     say(&format!("{verdict:6} {:6.1} s  {}", begin.elapsed().as_secs_f64(), build.name))?;
     Ok(!status.success())
@@ -102,14 +95,11 @@ fn fuzz_target(root: &Path) -> Result<Option<Build>, Error> {
     let folder = root.join(FUZZ);
     // The fuzz crate has no committed lock file. With the workspace's own, it gets the versions that the tests use.
     let (from, to) = (root.join("Cargo.lock"), folder.join("Cargo.lock"));
-    std::fs::copy(&from, &to).map_err(|source| Error::File { path: to, source })?;
+    std::fs::copy(&from, &to).map_err(Error::at(to))?;
     let manifest = folder.join("Cargo.toml");
     let mut fetch = Command::new(cargo());
-    fetch.args(["fetch", "--quiet", "--manifest-path"]).arg(&manifest).stderr(Stdio::null());
-    if !fetch.status().is_ok_and(|status| status.success()) {
-        say(
-            "SKIPPED the fuzz target: its packages cannot be had (cargo fetch fails in its folder)",
-        )?;
+    if !succeeds(fetch.args(["fetch", "--quiet", "--manifest-path"]).arg(&manifest)) {
+        skip("the fuzz target", "its packages cannot be had (cargo fetch fails in its folder)")?;
         return Ok(None);
     }
     let arguments = ["check", "--quiet", "--manifest-path"].map(OsString::from);
@@ -124,13 +114,13 @@ fn fuzz_target(root: &Path) -> Result<Option<Build>, Error> {
 
 /// The check of the workspace with the promised Rust; `None` if this toolchain is not installed.
 fn oldest_rust(root: &Path, manifest: &str) -> Result<Option<Build>, Error> {
-    let version = rust_version(manifest).ok_or(Error::NoRustVersion)?;
+    let version = rust_version(manifest).ok_or_else(|| {
+        Error::new("Cargo.toml has no rust-version; write the oldest Rust that is supported")
+    })?;
     let mut probe = Command::new("rustup");
-    probe.args(["run", version, "rustc", "--version"]).stdout(Stdio::null()).stderr(Stdio::null());
-    if !probe.status().is_ok_and(|status| status.success()) {
-        say(&format!(
-            "SKIPPED Rust {version}, the oldest that Cargo.toml promises: `rustup toolchain install {version}`"
-        ))?;
+    if !succeeds(probe.args(["run", version, "rustc", "--version"])) {
+        let what = format!("Rust {version}, the oldest that Cargo.toml promises");
+        skip(&what, &format!("`rustup toolchain install {version}`"))?;
         return Ok(None);
     }
     let target =
@@ -148,11 +138,6 @@ fn oldest_rust(root: &Path, manifest: &str) -> Result<Option<Build>, Error> {
 /// The value of `rust-version`.
 fn rust_version(manifest: &str) -> Option<&str> {
     manifest.lines().find_map(|line| line.strip_prefix("rust-version = \"")?.strip_suffix('"'))
-}
-
-fn say(line: &str) -> Result<(), Error> {
-    let at = |source| Error::File { path: "standard output".into(), source };
-    writeln!(std::io::stdout(), "{line}").map_err(at)
 }
 
 #[cfg(test)]

@@ -4,9 +4,9 @@
 //! index. If they cannot be had, a line that begins with SKIPPED is printed.
 
 use crate::error::Error;
-use crate::python_environment::{environment_python, first_python, no_python};
+use crate::process::{cargo, skip, step};
+use crate::python_environment::{environment_python, first_python};
 use crate::repository::repository;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 
@@ -26,53 +26,46 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     let scripts = repository().join("xtask/generators");
     let list = scripts.join("certificate_requirements.txt");
     let Ok(python) = environment_python(&first_python(), &folder.join("environment"), &list) else {
-        return skip("python-flint cannot be installed; the messages stand above");
+        return skip(
+            "the certificates",
+            "python-flint cannot be installed; the messages stand above",
+        );
     };
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     // The files of an earlier run must not pass for new ones.
     certificates(&folder).iter().for_each(|file| drop(std::fs::remove_file(file)));
-    let mut prove = Command::new(&cargo);
+    let mut prove = Command::new(cargo());
     prove.args(["run", "--quiet", "--release", "--package", "hopper-studies", "--", "prove"]);
     prove.args(["--gate", "--out"]).arg(&folder).current_dir(repository());
-    let proved =
-        prove.status().map_err(|source| Error::Cargo { program: cargo.clone(), source })?;
-    if !proved.success() {
-        return Err(Error::Certificates("prove"));
-    }
+    step(&mut prove, "prove")?;
     let files = certificates(&folder);
     let script = |name: &str| {
         let mut command = Command::new(&python);
         command.arg(scripts.join(name)).env("PYTHONDONTWRITEBYTECODE", "1");
         command
     };
-    let passes = |name: &'static str, command: &mut Command| match command.status() {
-        Ok(status) if status.success() => Ok(()),
-        Ok(_) => Err(Error::Certificates(name)),
-        Err(source) => Err(no_python(&python, &source.to_string())),
-    };
     let checker = "check_certificate.py";
-    passes(checker, script(checker).args(["--sample", SAMPLE]).args(files))?;
+    step(script(checker).args(["--sample", SAMPLE]).args(files), checker)?;
     let falsifier = "false_certificates.py";
-    passes(falsifier, script(falsifier).arg(&folder))?;
-    passes(falsifier, script(falsifier).args(["--random", CHANGES]).arg(&folder))?;
+    step(script(falsifier).arg(&folder), falsifier)?;
+    step(script(falsifier).args(["--random", CHANGES]).arg(&folder), falsifier)?;
     // The bound of Theorem 68, which no certificate rests on: a larger one, which takes seconds.
     let remainder = "left_remainder.py";
-    passes(remainder, script(remainder).args(["1", "--bound", "40"]))?;
+    step(script(remainder).args(["1", "--bound", "40"]), remainder)?;
     // Sines and cosines, which both programs and all lemmas rest on.
-    let mut enclosures = Command::new(&cargo);
+    let mut enclosures = Command::new(cargo());
     enclosures.args(["run", "--quiet", "--release", "--package", "interval-arithmetic"]);
     enclosures.args(["--example", "wave_enclosures", "--", ARGUMENTS]).current_dir(repository());
-    let failed = |source| Error::Cargo { program: cargo.clone(), source };
-    let mut enclosures = enclosures.stdout(Stdio::piped()).spawn().map_err(failed)?;
+    let failed = Error::starting(cargo());
+    let mut enclosures = enclosures.stdout(Stdio::piped()).spawn().map_err(&failed)?;
     let records = enclosures.stdout.take().map_or_else(Stdio::null, Stdio::from);
     let comparison = "compare_functions.py";
-    let compared = passes(comparison, script(comparison).stdin(records));
+    let compared = step(script(comparison).stdin(records), comparison);
     let written = enclosures.wait().map_err(failed)?;
     compared?;
     if written.success() {
         Ok(ExitCode::SUCCESS)
     } else {
-        Err(Error::Certificates("wave_enclosures"))
+        Err(Error::new("wave_enclosures failed; its messages stand above"))
     }
 }
 
@@ -85,14 +78,4 @@ fn certificates(folder: &Path) -> Vec<PathBuf> {
         .collect();
     files.sort();
     files
-}
-
-fn skip(reason: &str) -> Result<ExitCode, Error> {
-    say(&format!("SKIPPED the certificates: {reason}"))?;
-    Ok(ExitCode::SUCCESS)
-}
-
-fn say(text: &str) -> Result<(), Error> {
-    let at = |source| Error::File { path: PathBuf::from("standard output"), source };
-    writeln!(std::io::stdout(), "{text}").map_err(at)
 }

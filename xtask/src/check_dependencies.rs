@@ -6,10 +6,9 @@
 //! one that has.
 
 use crate::error::Error;
-use crate::process::succeeds;
+use crate::process::{skip, step, succeeds};
 use crate::python_environment::{environment_python, first_python};
 use crate::repository::repository;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
@@ -25,32 +24,22 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     let root = repository();
     let passed = hash_of_lock(&root)?;
     let rules = root.join(RULES);
-    let text = std::fs::read_to_string(&rules);
-    let text = text.map_err(|source| Error::File { path: rules, source })?;
+    let text = std::fs::read_to_string(&rules).map_err(Error::at(rules))?;
     let is_written = text.lines().any(|line| line == format!("{PASSED}{passed}"));
     let Some(program) = cargo_deny(&root) else {
         if !is_written {
-            return Err(Error::Dependencies(
-                "Cargo.lock has changed and cargo-deny is not there: `cargo install cargo-deny`"
-                    .to_owned(),
+            return Err(Error::new(
+                "Cargo.lock has changed and cargo-deny is not there: `cargo install cargo-deny`",
             ));
         }
-        let skipped =
-            "SKIPPED packages from outside: no cargo-deny, and a Cargo.lock that has passed";
-        let at = |source| Error::File { path: "standard output".into(), source };
-        writeln!(std::io::stdout(), "{skipped}").map_err(at)?;
-        return Ok(ExitCode::SUCCESS);
+        return skip("packages from outside", "no cargo-deny, and a Cargo.lock that has passed");
     };
     let mut check = Command::new(&program);
     check.args(["--config", RULES, "check", "--hide-inclusion-graph"]).args(CHECKS);
-    let status = check.current_dir(&root).status();
-    let status = status.map_err(|source| Error::Cargo { program: program.into(), source })?;
-    if !status.success() {
-        return Err(Error::Dependencies("its messages stand above".to_owned()));
-    }
+    step(check.current_dir(&root), "the check of packages from outside")?;
     if !is_written {
         let rule = format!("Cargo.lock passes and is new: write `{PASSED}{passed}` in {RULES}");
-        return Err(Error::Dependencies(rule));
+        return Err(Error::new(rule));
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -58,7 +47,7 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
 /// The hash of the lock file, by git, which computes it outside of a repository as well.
 fn hash_of_lock(root: &Path) -> Result<String, Error> {
     let hash = Command::new("git").args(["hash-object", "Cargo.lock"]).current_dir(root).output();
-    let hash = hash.map_err(|source| Error::Cargo { program: "git".into(), source })?;
+    let hash = hash.map_err(Error::starting("git"))?;
     Ok(String::from_utf8_lossy(&hash.stdout).trim().to_owned())
 }
 

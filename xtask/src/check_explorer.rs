@@ -5,9 +5,9 @@
 //! docs/explorer.md instead.
 
 use crate::error::Error;
-use crate::explorer_build::{INSTALL, build, cargo, manifest, say, target_folder, target_is_here};
+use crate::explorer_build::{INSTALL, build, manifest, target_folder, target_is_here};
 use crate::explorer_file::one_file;
-use crate::process::succeeds;
+use crate::process::{cargo, say, skip, step, succeeds};
 use crate::repository::repository;
 use crate::static_server::serve;
 use std::ffi::OsString;
@@ -31,25 +31,24 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
             return Ok(ExitCode::SUCCESS);
         }
         Some(word) => {
-            let option = word.into_owned();
-            return Err(Error::UnknownOption { command: "check-explorer", option });
+            return Err(Error::unknown_option("check-explorer", &word));
         }
     };
     let folder = target_folder().join("explorer");
     if !measure {
-        step(cargo_command(&["test"]), "the tests of its core")?;
+        step(&mut cargo_command(&["test"]), "the tests of its core")?;
     }
     if !target_is_here() {
-        return skip(&format!("the target wasm32-unknown-unknown is not there: `{INSTALL}`"));
+        return skip(PAGE, &format!("the target wasm32-unknown-unknown is not there: `{INSTALL}`"));
     }
     if !succeeds(Command::new("node").args(["-e", NEW_ENOUGH])) {
-        return skip("node 20 or newer is not there");
+        return skip(PAGE, "node 20 or newer is not there");
     }
     let Some(browser) = browser() else {
-        return skip("Chromium is not there; name one with CHROMIUM=/path/to/chromium");
+        return skip(PAGE, "Chromium is not there; name one with CHROMIUM=/path/to/chromium");
     };
     if !has_driver(&folder)? {
-        return skip("playwright-core cannot be installed by npm");
+        return skip(PAGE, "playwright-core cannot be installed by npm");
     }
     build(&folder.join("site"))?;
     // What the page shows is compared with what the same code gives here.
@@ -65,12 +64,11 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
         program.args(["build", "--quiet", "--package", "passive-hopper-cli", "--target-dir"]);
         step(program.arg(target_folder()).current_dir(repository()), "the program hopper")?;
         let file = folder.join("explorer.html");
-        let at = |source| Error::File { path: file.clone(), source };
-        std::fs::write(&file, one_file(&folder.join("site"))?).map_err(at)?;
+        std::fs::write(&file, one_file(&folder.join("site"))?).map_err(Error::at(&file))?;
     }
-    let at = |source| Error::File { path: "the loopback address".into(), source };
-    let listener = TcpListener::bind("127.0.0.1:0").map_err(at)?;
-    let port = listener.local_addr().map_err(at)?.port();
+    let at = Error::at("the loopback address");
+    let listener = TcpListener::bind("127.0.0.1:0").map_err(&at)?;
+    let port = listener.local_addr().map_err(&at)?.port();
     let site = folder.join("site");
     // Ends with this process.
     std::thread::spawn(move || serve(&listener, &site));
@@ -91,6 +89,9 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// What is skipped.
+const PAGE: &str = "the explorer's page in a browser";
+
 /// Ends with an error in an older node.
 const NEW_ENOUGH: &str = "process.exit(Number(process.versions.node.split('.')[0]) >= 20 ? 0 : 1)";
 
@@ -104,20 +105,16 @@ fn cargo_command(words: &[&str]) -> Command {
 /// Installs the driver of the browser from the committed list, unless an earlier run has; false if it cannot be had.
 fn has_driver(folder: &Path) -> Result<bool, Error> {
     let driver = folder.join("driver");
-    let at = |path: &Path| {
-        let path = path.to_path_buf();
-        move |source| Error::File { path, source }
-    };
-    std::fs::create_dir_all(&driver).map_err(at(&driver))?;
+    std::fs::create_dir_all(&driver).map_err(Error::at(&driver))?;
     let lists = repository().join("crates/hopper/hopper-explorer/tests/browser");
     let (wanted, there) = (lists.join("package-lock.json"), driver.join("installed.json"));
-    let text = std::fs::read(&wanted).map_err(at(&wanted))?;
+    let text = std::fs::read(&wanted).map_err(Error::at(&wanted))?;
     if std::fs::read(&there).is_ok_and(|installed| installed == text) {
         return Ok(true);
     }
     for name in ["package.json", "package-lock.json"] {
         let from = lists.join(name);
-        std::fs::copy(&from, driver.join(name)).map_err(at(&from))?;
+        std::fs::copy(&from, driver.join(name)).map_err(Error::at(&from))?;
     }
     let npm = if cfg!(windows) { "npm.cmd" } else { "npm" };
     let mut install = Command::new(npm);
@@ -125,7 +122,7 @@ fn has_driver(folder: &Path) -> Result<bool, Error> {
     if !succeeds(&mut install) {
         return Ok(false);
     }
-    std::fs::write(&there, text).map_err(at(&there))?;
+    std::fs::write(&there, text).map_err(Error::at(&there))?;
     Ok(true)
 }
 
@@ -139,17 +136,4 @@ fn browser() -> Option<PathBuf> {
     let places =
         BROWSERS.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
     places.into_iter().find(|place| place.is_file())
-}
-
-fn step(mut command: impl std::borrow::BorrowMut<Command>, what: &str) -> Result<(), Error> {
-    let command = command.borrow_mut();
-    match command.status() {
-        Ok(status) if status.success() => Ok(()),
-        Ok(status) => Err(Error::Explorer(format!("{what} failed ({status})"))),
-        Err(source) => Err(Error::Explorer(format!("{what} could not start: {source}"))),
-    }
-}
-
-fn skip(reason: &str) -> Result<ExitCode, Error> {
-    say(&format!("SKIPPED the explorer's page in a browser: {reason}")).map(|()| ExitCode::SUCCESS)
 }

@@ -4,11 +4,9 @@
 //! be had, it prints a line that begins with SKIPPED.
 
 use crate::error::Error;
-use crate::process::succeeds;
+use crate::process::{cargo, skip, step, succeeds};
 use crate::python_environment::{call, environment_python, first_python};
 use crate::repository::repository;
-use std::ffi::OsStr;
-use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
@@ -19,17 +17,25 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     let target = root.join("target/python");
     let python = first_python();
     if !succeeds(Command::new(&python).args(["-c", NEW_ENOUGH])) {
-        return skip("Python 3.10 or newer is not there; name one with PYTHON=/path/to/python3");
+        return skip(
+            PACKAGE,
+            "Python 3.10 or newer is not there; name one with PYTHON=/path/to/python3",
+        );
     }
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut fetch = Command::new(&cargo);
+    let mut fetch = Command::new(cargo());
     fetch.args(["fetch", "--quiet", "--locked", "--manifest-path"]).arg(package.join("Cargo.toml"));
     if !succeeds(&mut fetch) {
-        return skip("its crates cannot be had (cargo fetch fails in crates/both/python-package)");
+        return skip(
+            PACKAGE,
+            "its crates cannot be had (cargo fetch fails in crates/both/python-package)",
+        );
     }
     let list = package.join("tests/requirements.txt");
     let Ok(inside) = environment_python(&python, &target.join("environment"), &list) else {
-        return skip("the packages of its tests cannot be installed; its messages stand above");
+        return skip(
+            PACKAGE,
+            "the packages of its tests cannot be installed; its messages stand above",
+        );
     };
     let mut install = Command::new(&inside);
     install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
@@ -42,7 +48,7 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
         install.env("PATH", path);
     }
     call(&inside, install.env("CARGO_TARGET_DIR", target.join("build")).current_dir(&root))?;
-    let program = hopper_program(&cargo)?;
+    let program = hopper_program()?;
     let mut tests = Command::new(&inside);
     tests.env("HOPPER_PROGRAM", program);
     // Without this, Python would write its compiled files into the repository.
@@ -52,27 +58,19 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
 }
 
 /// The program `hopper`, built: a test compares its files with those of the package.
-fn hopper_program(cargo: &OsStr) -> Result<PathBuf, Error> {
-    let mut build = Command::new(cargo);
+fn hopper_program() -> Result<PathBuf, Error> {
+    let mut build = Command::new(cargo());
     build
         .args(["build", "--quiet", "--locked", "--package", "passive-hopper-cli"])
         .current_dir(repository());
-    match build.status() {
-        Ok(status) if status.success() => {}
-        Ok(_) => return Err(Error::Builds(1)),
-        Err(source) => return Err(Error::Cargo { program: cargo.to_owned(), source }),
-    }
+    step(&mut build, "the build of the program hopper")?;
     // Cargo has put it beside this program, which has the same profile.
-    let own = std::env::current_exe();
-    let own = own.map_err(|source| Error::File { path: "xtask".into(), source })?;
+    let own = std::env::current_exe().map_err(Error::at("xtask"))?;
     Ok(own.with_file_name(format!("hopper{}", std::env::consts::EXE_SUFFIX)))
 }
 
+/// What is skipped.
+const PACKAGE: &str = "the Python package";
+
 /// Ends with an error in a Python that is too old, or has no virtual environments.
 const NEW_ENOUGH: &str = "import sys, venv; sys.exit(sys.version_info < (3, 10))";
-
-fn skip(reason: &str) -> Result<ExitCode, Error> {
-    let at = |source| Error::File { path: PathBuf::from("standard output"), source };
-    writeln!(std::io::stdout(), "SKIPPED the Python package: {reason}").map_err(at)?;
-    Ok(ExitCode::SUCCESS)
-}

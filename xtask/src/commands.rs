@@ -1,12 +1,11 @@
 //! The commands: those of this program in a table, those of the studies read from where they are defined.
 
 use crate::error::Error;
-use crate::process::become_program;
+use crate::process::{become_program, cargo, say};
 use crate::repository::repository;
 use crate::{check_builds, check_certificates, check_dependencies, check_explorer, check_python};
 use crate::{explore, regenerate, tidy};
 use std::ffi::{OsStr, OsString};
-use std::io::Write;
 use std::process::{Command, ExitCode};
 
 /// A command of this program.
@@ -113,7 +112,7 @@ fn names() -> String {
 /// Runs the command that the arguments name.
 pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
     let Some((first, rest)) = arguments.split_first() else {
-        return Err(Error::NoCommand { known: names() });
+        return Err(Error::new(format!("no command is named; there are: {}", names())));
     };
     match first.to_string_lossy().as_ref() {
         // `help speed` and `speed --help` give the same text.
@@ -133,7 +132,7 @@ fn start(name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
         return if known {
             run_program(STUDIES, name, arguments)
         } else {
-            Err(Error::UnknownCommand { name: name.to_owned(), known: names() })
+            Err(Error::new(format!("there is no command '{name}'; there are: {}", names())))
         };
     };
     match (&task.run, arguments.first().map(|argument| argument.to_string_lossy())) {
@@ -144,22 +143,17 @@ fn start(name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
             "{}\n\nUsage: cargo xtask {}\n\nOptions:\n  -h, --help  Print help\n",
             task.about, task.name
         )),
-        (Alone(_), Some(option)) => {
-            Err(Error::UnknownOption { command: task.name, option: option.into_owned() })
-        }
+        (Alone(_), Some(option)) => Err(Error::unknown_option(task.name, &option)),
     }
 }
 
 /// Builds a program of the workspace and runs it in the user's current folder.
 fn run_program(package: &str, name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
-    // Cargo sets CARGO for the programs that it runs. If this program was started by hand, the first `cargo` in the
-    // path is used.
-    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut command = Command::new(&program);
+    let mut command = Command::new(cargo());
     command.args(["run", "--quiet", "--release", "--package", package, "--manifest-path"]);
     command.arg(repository().join("Cargo.toml"));
     command.args([OsStr::new("--"), OsStr::new(name)]).args(arguments);
-    become_program(&mut command).map_err(|source| Error::Cargo { program, source })
+    become_program(&mut command)
 }
 
 fn help() -> String {
@@ -174,8 +168,7 @@ fn help() -> String {
 }
 
 fn print(text: &str) -> Result<ExitCode, Error> {
-    let at = |source| Error::File { path: "standard output".into(), source };
-    std::io::stdout().write_all(text.as_bytes()).map_err(at)?;
+    say(text.trim_end())?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -1,8 +1,9 @@
 //! `cargo xtask explore`: builds the explorer, and serves it on the loopback address or writes it into a folder.
 
 use crate::error::Error;
-use crate::explorer_build::{build, say, target_folder};
+use crate::explorer_build::{build, target_folder};
 use crate::explorer_file::one_file;
+use crate::process::say;
 use crate::static_server::serve;
 use std::ffi::OsString;
 use std::net::TcpListener;
@@ -36,17 +37,17 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
         // The argument itself, which need not be a text.
         ["--export", _] => arguments.get(1).map(PathBuf::from),
         ["--export"] => {
-            return Err(Error::Explorer("--export needs a folder: --export DIR".into()));
+            return Err(Error::new("--export needs a folder: --export DIR"));
         }
         [option, ..] => {
-            return Err(Error::UnknownOption { command: "explore", option: (*option).to_owned() });
+            return Err(Error::unknown_option("explore", option));
         }
     };
     let folder = export.clone().unwrap_or_else(|| target_folder().join("explorer/site"));
     build(&folder)?;
     if export.is_some() {
         let file = folder.join("explorer.html");
-        let at = |source| Error::File { path: file.clone(), source };
+        let at = Error::at(&file);
         std::fs::write(&file, one_file(&folder)?).map_err(at)?;
         say(&format!("{} holds the explorer; any web server can serve it", folder.display()))?;
         say(&format!(
@@ -62,9 +63,9 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
         let reason = format!(
             "all ports from {PORT} to {last} are taken; end another server, or use --export"
         );
-        return Err(Error::Explorer(reason));
+        return Err(Error::new(reason));
     };
-    let at = |source| Error::File { path: "the loopback address".into(), source };
+    let at = Error::at("the loopback address");
     let port = listener.local_addr().map_err(at)?.port();
     say(&format!("http://127.0.0.1:{port}/    Ctrl-C ends it"))?;
     serve(&listener, &folder);

@@ -1,11 +1,10 @@
 //! The folder of the explorer: its page, and the core compiled to WebAssembly.
 
 use crate::error::Error;
+use crate::process::{cargo, step, succeeds};
 use crate::repository::repository;
-use std::ffi::OsString;
-use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 /// The target of the core.
 const TARGET: &str = "wasm32-unknown-unknown";
@@ -38,57 +37,40 @@ pub(crate) fn manifest() -> PathBuf {
     repository().join("crates/hopper/hopper-explorer/Cargo.toml")
 }
 
-pub(crate) fn cargo() -> OsString {
-    std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
-}
-
 /// Whether the target's standard library is here; if not, rustup is asked to install it.
 pub(crate) fn target_is_here() -> bool {
-    let quiet = |command: &mut Command| {
-        let status = command.stdout(Stdio::null()).stderr(Stdio::null()).status();
-        status.is_ok_and(|status| status.success())
-    };
     let here = || {
         let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
         let found =
             Command::new(rustc).args(["--print", "target-libdir", "--target", TARGET]).output();
         found.is_ok_and(|out| Path::new(String::from_utf8_lossy(&out.stdout).trim()).exists())
     };
-    here() || (quiet(Command::new("rustup").args(["target", "add", TARGET])) && here())
+    here() || (succeeds(Command::new("rustup").args(["target", "add", TARGET])) && here())
 }
 
 /// Builds the core and copies it with the page into a folder.
 pub(crate) fn build(folder: &Path) -> Result<(), Error> {
     if !target_is_here() {
-        return Err(Error::Explorer(format!(
+        return Err(Error::new(format!(
             "the target {TARGET} is missing and could not be installed; run `{INSTALL}`"
         )));
     }
     let target = target_folder();
-    let program = cargo();
-    let mut command = Command::new(&program);
+    let mut command = Command::new(cargo());
     // Of the crate's two types only this one: with a Rust library beside it the linker does not see the crates as one.
     command.args(["rustc", "--quiet", "--lib", "--crate-type", "cdylib", "--locked"]);
     command.args(["--profile", PROFILE, "--target", TARGET]);
     command.arg("--manifest-path").arg(manifest()).arg("--target-dir").arg(&target);
     command.env(FLAGS.0, FLAGS.1);
-    let status = command.status().map_err(|source| Error::Cargo { program, source })?;
-    if !status.success() {
-        let reason = format!("its core does not compile ({status}); the messages stand above");
-        return Err(Error::Explorer(reason));
-    }
-    let at = |path: &Path| {
-        let path = path.to_path_buf();
-        move |source| Error::File { path, source }
-    };
-    std::fs::create_dir_all(folder).map_err(at(folder))?;
+    step(&mut command, "the explorer's core")?;
+    std::fs::create_dir_all(folder).map_err(Error::at(folder))?;
     for page in page_files()? {
         let to = folder.join(page.file_name().unwrap_or_default());
-        let text = std::fs::read_to_string(&page).map_err(at(&page))?;
-        std::fs::write(&to, without_comments(&text)).map_err(at(&to))?;
+        let text = std::fs::read_to_string(&page).map_err(Error::at(&page))?;
+        std::fs::write(&to, without_comments(&text)).map_err(Error::at(&to))?;
     }
     let core = target.join(TARGET).join(PROFILE).join("hopper_explorer.wasm");
-    std::fs::copy(&core, folder.join("core.wasm")).map_err(at(&core))?;
+    std::fs::copy(&core, folder.join("core.wasm")).map_err(Error::at(&core))?;
     Ok(())
 }
 
@@ -103,18 +85,12 @@ fn without_comments(text: &str) -> String {
 /// The files of the page.
 pub(crate) fn page_files() -> Result<Vec<PathBuf>, Error> {
     let path = repository().join("crates/hopper/hopper-explorer/page");
-    let at = |source| Error::File { path: path.clone(), source };
-    let entries = std::fs::read_dir(&path).map_err(at)?;
+    let at = Error::at(&path);
+    let entries = std::fs::read_dir(&path).map_err(&at)?;
     let mut files =
         entries.map(|entry| Ok(entry?.path())).collect::<Result<Vec<_>, _>>().map_err(at)?;
     files.sort();
     Ok(files)
-}
-
-/// A line for the user.
-pub(crate) fn say(line: &str) -> Result<(), Error> {
-    let at = |source| Error::File { path: "standard output".into(), source };
-    writeln!(std::io::stdout(), "{line}").map_err(at)
 }
 
 #[cfg(test)]

@@ -29,23 +29,21 @@ import(addressOf("main.js"));
 
 /// The text of the file, from the folder of the page.
 pub(crate) fn one_file(folder: &Path) -> Result<String, Error> {
-    let at = |path: &Path| {
-        let path = path.to_path_buf();
-        move |source| Error::File { path, source }
-    };
     let text = |name: &str| {
         let path = folder.join(name);
-        std::fs::read_to_string(&path).map_err(at(&path))
+        std::fs::read_to_string(&path).map_err(Error::at(&path))
     };
     let mut parts = String::new();
     let mut add = |name: &str, text: &str| {
         let _ = writeln!(parts, "<script type=\"text/plain\" data-name=\"{name}\">{text}</script>");
     };
     let core = folder.join("core.wasm");
-    add("core.wasm", &base_64(&std::fs::read(&core).map_err(at(&core))?));
+    add("core.wasm", &base_64(&std::fs::read(&core).map_err(Error::at(&core))?));
     let mut names: Vec<String> = std::fs::read_dir(folder)
-        .map_err(at(folder))?
-        .map(|entry| Ok(entry.map_err(at(folder))?.file_name().to_string_lossy().into_owned()))
+        .map_err(Error::at(folder))?
+        .map(|entry| {
+            Ok(entry.map_err(Error::at(folder))?.file_name().to_string_lossy().into_owned())
+        })
         .collect::<Result<_, Error>>()?;
     names.sort();
     // The service worker keeps a page that has an address. A file has none, and is always there.

@@ -1,19 +1,24 @@
-//! Starting other programs: in place of this one, or to ask whether they succeed.
+//! Starting other programs: in place of this one, as a step, or to ask whether they succeed; and what is said of them.
 
+use crate::error::Error;
+use std::ffi::OsString;
+use std::io::Write;
 use std::process::{Command, ExitCode, Stdio};
 
 /// Replaces this process, so that signals reach the program itself and its exit status is the exit status of the
 /// command.
 #[cfg(unix)]
-pub(crate) fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
+pub(crate) fn become_program(command: &mut Command) -> Result<ExitCode, Error> {
     // `exec` returns only if the program could not be started.
-    Err(std::os::unix::process::CommandExt::exec(command))
+    let source = std::os::unix::process::CommandExt::exec(command);
+    Err(Error::starting(command.get_program())(source))
 }
 
 /// Waits for the program and returns its exit status. Ctrl-C reaches both processes.
 #[cfg(not(unix))]
-pub(crate) fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
-    let code = command.status()?.code().and_then(|code| u8::try_from(code).ok());
+pub(crate) fn become_program(command: &mut Command) -> Result<ExitCode, Error> {
+    let status = command.status().map_err(Error::starting(command.get_program()))?;
+    let code = status.code().and_then(|code| u8::try_from(code).ok());
     Ok(code.map_or(ExitCode::FAILURE, ExitCode::from))
 }
 
@@ -21,4 +26,29 @@ pub(crate) fn become_program(command: &mut Command) -> Result<ExitCode, std::io:
 pub(crate) fn succeeds(command: &mut Command) -> bool {
     let quiet = command.stdout(Stdio::null()).stderr(Stdio::null());
     quiet.status().is_ok_and(|status| status.success())
+}
+
+/// Cargo, the one that started this program.
+pub(crate) fn cargo() -> OsString {
+    std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
+}
+
+/// Runs a step to its end; its own messages stand above the error.
+pub(crate) fn step(command: &mut Command, what: &str) -> Result<(), Error> {
+    let status = command.status().map_err(Error::starting(command.get_program()))?;
+    match status.success() {
+        true => Ok(()),
+        false => Err(Error::new(format!("{what} failed ({status}); its messages stand above"))),
+    }
+}
+
+/// A line for the user.
+pub(crate) fn say(line: &str) -> Result<(), Error> {
+    writeln!(std::io::stdout(), "{line}").map_err(Error::at("standard output"))
+}
+
+/// Says that a command cannot do its work here.
+pub(crate) fn skip(what: &str, reason: &str) -> Result<ExitCode, Error> {
+    say(&format!("SKIPPED {what}: {reason}"))?;
+    Ok(ExitCode::SUCCESS)
 }

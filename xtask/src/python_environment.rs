@@ -22,11 +22,7 @@ pub(crate) fn environment_python(
     list: &Path,
 ) -> Result<PathBuf, Error> {
     let inside = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let at = |path: &Path| {
-        let path = path.to_path_buf();
-        move |source| Error::File { path, source }
-    };
-    let wanted = std::fs::read_to_string(list).map_err(at(list))?;
+    let wanted = std::fs::read_to_string(list).map_err(Error::at(list))?;
     let copy = folder.join("requirements.txt");
     if std::fs::read_to_string(&copy).is_ok_and(|there| there == wanted) {
         return Ok(inside);
@@ -36,7 +32,7 @@ pub(crate) fn environment_python(
     call(python, Command::new(python).args(["-m", "venv", "--clear"]).arg(folder))?;
     let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"];
     call(&inside, Command::new(&inside).args(install).arg(list))?;
-    std::fs::write(&copy, wanted).map_err(at(&copy))?;
+    std::fs::write(&copy, wanted).map_err(Error::at(&copy))?;
     Ok(inside)
 }
 
@@ -50,7 +46,11 @@ pub(crate) fn call(python: &Path, command: &mut Command) -> Result<(), Error> {
 }
 
 pub(crate) fn no_python(python: &Path, reason: &str) -> Error {
-    Error::Python { program: python.into(), reason: reason.to_owned() }
+    Error::new(format!(
+        "{} failed ({reason}); install Python 3.11 or newer with its venv module and let pip reach a package index, or \
+         name another interpreter with PYTHON=/path/to/python3",
+        python.display()
+    ))
 }
 
 #[cfg(test)]

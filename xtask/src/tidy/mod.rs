@@ -37,12 +37,11 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     let breaches = breaches(&repository())?;
     let mut out = std::io::stdout().lock();
     for Breach { file, line, rule } in &breaches {
-        writeln!(out, "{file}:{line}: {rule}")
-            .map_err(|source| Error::File { path: "standard output".into(), source })?;
+        writeln!(out, "{file}:{line}: {rule}").map_err(Error::at("standard output"))?;
     }
     match breaches.len() {
         0 => Ok(ExitCode::SUCCESS),
-        count => Err(Error::Breaches(count)),
+        count => Err(Error::new(format!("{count} breaches of the repository's rules"))),
     }
 }
 

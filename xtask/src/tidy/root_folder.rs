@@ -32,7 +32,9 @@ pub(super) fn crates(root: &Path) -> Result<Vec<String>, Error> {
 }
 
 fn names(folder: &Path) -> Result<Vec<String>, Error> {
-    let at = |source| Error::File { path: folder.into(), source };
-    let entries = std::fs::read_dir(folder).map_err(at)?;
-    entries.map(|entry| Ok(entry.map_err(at)?.file_name().to_string_lossy().into_owned())).collect()
+    let at = Error::at(folder);
+    let entries = std::fs::read_dir(folder).map_err(&at)?;
+    entries
+        .map(|entry| Ok(entry.map_err(&at)?.file_name().to_string_lossy().into_owned()))
+        .collect()
 }

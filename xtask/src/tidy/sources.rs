@@ -122,9 +122,9 @@ fn collect_in(
     names: &mut Vec<String>,
 ) -> Result<(), Error> {
     let path = root.join(folder);
-    let at = |source| Error::File { path: path.clone(), source };
-    for entry in std::fs::read_dir(&path).map_err(at)? {
-        let entry = entry.map_err(at)?;
+    let at = Error::at(&path);
+    for entry in std::fs::read_dir(&path).map_err(&at)? {
+        let entry = entry.map_err(&at)?;
         let file = entry.file_name().to_string_lossy().into_owned();
         let name = format!("{folder}/{file}");
         if entry.path().is_dir() {
@@ -142,7 +142,7 @@ fn collect_in(
 /// The file of that name.
 pub(super) fn read(root: &Path, name: &str) -> Result<Source, Error> {
     let path = root.join(name);
-    let text = std::fs::read_to_string(&path).map_err(|source| Error::File { path, source })?;
+    let text = std::fs::read_to_string(&path).map_err(Error::at(path))?;
     Ok(Source::new(name, &text))
 }
 
