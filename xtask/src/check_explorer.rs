@@ -7,7 +7,7 @@
 use crate::error::Error;
 use crate::explorer_build::{INSTALL, build, manifest, target_folder, target_is_here};
 use crate::explorer_file::one_file;
-use crate::process::{cargo, say, skip, step, succeeds};
+use crate::process::{cargo, print, skip, step, succeeds};
 use crate::repository::repository;
 use crate::static_server::serve;
 use std::ffi::OsString;
@@ -25,10 +25,11 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
         None => false,
         Some(word) if word == "--measure" => true,
         Some(word) if word == "--help" || word == "-h" => {
-            say("Test the explorer in a headless Chromium: needs node, npm and Chromium\n\n\
+            return print(
+                "Test the explorer in a headless Chromium: needs node, npm and Chromium\n\n\
                  Usage: cargo xtask check-explorer [--measure]\n\n\
-                 Options:\n      --measure  Print times and sizes instead\n  -h, --help     Print help")?;
-            return Ok(ExitCode::SUCCESS);
+                 Options:\n      --measure  Print times and sizes instead\n  -h, --help     Print help",
+            );
         }
         Some(word) => {
             return Err(Error::unknown_option("check-explorer", &word));

@@ -1,7 +1,7 @@
 //! The commands: those of this program in a table, those of the studies read from where they are defined.
 
 use crate::error::Error;
-use crate::process::{become_program, cargo, say};
+use crate::process::{become_program, cargo, print};
 use crate::repository::repository;
 use crate::{check_builds, check_certificates, check_dependencies, check_explorer, check_python};
 use crate::{explore, regenerate, tidy};
@@ -165,11 +165,6 @@ fn help() -> String {
     all().for_each(|(name, about)| text.push_str(&line(&name, about)));
     text.push_str(&line("help", "Print this message or the help of the given command"));
     text + "\nOptions:\n  -h, --help     Print help\n  -V, --version  Print version\n"
-}
-
-fn print(text: &str) -> Result<ExitCode, Error> {
-    say(text.trim_end())?;
-    Ok(ExitCode::SUCCESS)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::explorer_build::{build, target_folder};
 use crate::explorer_file::one_file;
-use crate::process::say;
+use crate::process::{print, say};
 use crate::static_server::serve;
 use std::ffi::OsString;
 use std::net::TcpListener;
@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
         arguments.iter().map(|word| word.to_string_lossy().into_owned()).collect();
     let export = match words.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
         [] => None,
-        ["-h" | "--help"] => return say(HELP.trim_end()).map(|()| ExitCode::SUCCESS),
+        ["-h" | "--help"] => return print(HELP),
         // The argument itself, which need not be a text.
         ["--export", _] => arguments.get(1).map(PathBuf::from),
         ["--export"] => {

@@ -49,6 +49,11 @@ pub(crate) fn say(line: &str) -> Result<(), Error> {
 
 /// Says that a command cannot do its work here.
 pub(crate) fn skip(what: &str, reason: &str) -> Result<ExitCode, Error> {
-    say(&format!("SKIPPED {what}: {reason}"))?;
+    print(&format!("SKIPPED {what}: {reason}"))
+}
+
+/// A text that is all the answer.
+pub(crate) fn print(text: &str) -> Result<ExitCode, Error> {
+    say(text.trim_end())?;
     Ok(ExitCode::SUCCESS)
 }

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::process::become_program;
-use crate::python_environment::{environment_python, first_python};
+use crate::python_environment::{environment_python, first_python, no_python};
 use crate::repository::repository;
 use std::ffi::OsString;
 use std::process::{Command, ExitCode};
@@ -17,5 +17,5 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
     // Without this, Python would write its compiled files into the repository.
     command.env("PYTHONDONTWRITEBYTECODE", "1");
     command.arg(scripts.join("regenerate.py")).args(arguments);
-    become_program(&mut command)
+    become_program(&mut command).map_err(|error| no_python(&python, &error.to_string()))
 }

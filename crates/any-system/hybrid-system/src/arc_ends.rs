@@ -9,7 +9,7 @@ use crate::execution::{AnArc, Execution};
 use crate::guard::Role;
 use crate::limits::Stop;
 use crate::missed::check_missed;
-use crate::next_event::flow_to;
+use crate::next_event::{ClockEvent, flow_to};
 use crate::sliding::{AtOnce, Sliding, sliding_point};
 use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem, Reset};
@@ -25,11 +25,11 @@ const NEXT_PART: f64 = 0.01;
 const LARGEST_PART: f64 = 0.25;
 
 impl<T: HybridSystem> Execution<'_, T> {
-    /// An arc that ends in an event.
+    /// An arc that ends in an event, before a clock if there is one.
     pub(crate) fn event_arc(
         &mut self,
         crossing: Crossing<T::Surface, T::State>,
-        horizon: f64,
+        (horizon, clock): (f64, Option<ClockEvent<T::Surface>>),
         leaving: LeavingGuards<T::Surface>,
     ) -> Result<AnArc<T>, Error> {
         let Crossing {
@@ -57,7 +57,6 @@ impl<T: HybridSystem> Execution<'_, T> {
         // The sum of the rounded duration may miss the time of a clock, or the limit, by a rounding. The clock would then
         // have its time once more, or a time that is over.
         let mut time = self.at.time.plus(duration);
-        let clock = self.next_clock(horizon)?;
         let latest = clock.map_or(self.limits.time, |clock| clock.time);
         let is_tick = clock.is_some_and(|clock| clock.surface == surface);
         if time.value() > latest || is_tick && kind == EventKind::Clock {

@@ -69,7 +69,7 @@ impl<T: HybridSystem> Execution<'_, T> {
                     }
                     None => clock.crossing(limit.state, Certainty::Interpolated),
                 };
-                self.event_arc(event, horizon, LeavingGuards::new()).map(Some)
+                self.event_arc(event, (horizon, Some(clock)), LeavingGuards::new()).map(Some)
             }
         }
     }
@@ -87,7 +87,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         if let Some(event) = self.first_on_path(&limit, before)?
             && event.time <= latest
         {
-            return self.event_arc(event, horizon, leaving);
+            return self.event_arc(event, (horizon, clock), leaving);
         }
         if ends_at_limit {
             return Ok(self.zeno_arc(limit, &passing));
@@ -95,7 +95,9 @@ impl<T: HybridSystem> Execution<'_, T> {
         let part = if limit.remainder > 0.0 { latest / limit.remainder } else { 1.0 };
         let state = self.path_to(&limit)(part);
         match clock {
-            Some(clock) => self.event_arc(clock.crossing(state, certainty), horizon, leaving),
+            Some(tick) => {
+                self.event_arc(tick.crossing(state, certainty), (horizon, clock), leaving)
+            }
             None => self.arc_without_event(horizon, Some(state), certainty, leaving),
         }
     }

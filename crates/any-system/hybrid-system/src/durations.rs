@@ -136,17 +136,22 @@ impl Durations {
 
     /// The duration `back` arcs before the newest; 0 before the record begins.
     pub(crate) fn duration(&self, back: usize) -> f64 {
-        if back < self.count { self.durations[(self.count - 1 - back) % KEPT] } else { 0.0 }
+        self.before(&self.durations, back)
     }
 
     /// The error of that duration, as stated by the search.
     fn stated_error(&self, back: usize) -> f64 {
-        if back < self.count { self.errors[(self.count - 1 - back) % KEPT] } else { 0.0 }
+        self.before(&self.errors, back)
     }
 
     /// The sum of all errors up to `back` events before the newest.
     fn total(&self, back: usize) -> f64 {
-        if back < self.count { self.totals[(self.count - 1 - back) % KEPT] } else { 0.0 }
+        self.before(&self.totals, back)
+    }
+
+    /// The number of a ring `back` arcs before the newest; 0 before the record begins.
+    fn before(&self, ring: &[f64; KEPT], back: usize) -> f64 {
+        if back < self.count { ring[(self.count - 1 - back) % KEPT] } else { 0.0 }
     }
 
     /// The error of that duration, with its rounding.

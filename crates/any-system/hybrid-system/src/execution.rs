@@ -64,7 +64,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         {
             return Ok(arc);
         }
-        let (found, leaving) = match self.next_event(horizon) {
+        let (found, leaving, clock) = match self.next_event(horizon) {
             // After many short bounces rounding hides the next one. If the durations form a geometric series, this is a
             // Zeno limit.
             Err(
@@ -101,7 +101,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 if at_once && let Some(sliding) = self.sliding(crossing.surface) {
                     return Ok(self.sliding_arc(sliding));
                 }
-                self.event_arc(crossing, horizon, leaving)
+                self.event_arc(crossing, (horizon, clock), leaving)
             }
             NextEvent::None { state, certainty } => {
                 self.arc_without_event(horizon, state, certainty, leaving)

@@ -10,10 +10,11 @@ use crate::point::Point;
 use crate::start_rule::{ArcStart, Undeclared, start_of_arc};
 use crate::system::{FlowFrom, HybridSystem};
 
-/// The next event of an arc, and the guards on whose surfaces it starts.
+/// The next event of an arc, the guards on whose surfaces it starts, and the clock up to which it was looked for.
 type NextAndLeaving<T> = (
     NextEvent<<T as HybridSystem>::Surface, <T as HybridSystem>::State>,
     LeavingGuards<<T as HybridSystem>::Surface>,
+    Option<ClockEvent<<T as HybridSystem>::Surface>>,
 );
 
 type StartAndLeaving<T> = (
@@ -22,8 +23,7 @@ type StartAndLeaving<T> = (
 );
 
 impl<T: HybridSystem> Execution<'_, T> {
-    /// The next event: at once, at a preset time, or the first crossing; and the guards on whose surfaces the arc
-    /// starts.
+    /// The next event: at once, at a preset time, or the first crossing.
     pub(crate) fn next_event(&self, horizon: f64) -> Result<NextAndLeaving<T>, Error> {
         let Point { mode, ref state, ref time, .. } = self.at;
         let flow = self.flow();
@@ -57,7 +57,7 @@ impl<T: HybridSystem> Execution<'_, T> {
                 from: None,
                 certainty,
             };
-            return Ok((NextEvent::Crossing(at_once), leaving));
+            return Ok((NextEvent::Crossing(at_once), leaving, None));
         }
         let clock = self.next_clock(horizon)?;
         let search = Search {
@@ -80,7 +80,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             }
             (found, _) => found,
         };
-        Ok((found, leaving))
+        Ok((found, leaving, clock))
     }
 
     /// How the next arc starts, and the guards on whose surfaces it does.

@@ -119,7 +119,8 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             }
             let at_rest = now != 0.0 && residue == 0.0 && !beyond && !crossed;
             if let Some(side) = passed.or(at_rest.then_some(now.signum())) {
-                leaving.push(Leaving { surface, side, ahead: now * side > 0.0, hidden: 0.0 });
+                let ahead = now * side > 0.0;
+                leaving.push(Leaving { ahead, ..Leaving::to(surface, side) });
                 continue;
             }
         }
@@ -135,7 +136,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         let touched = arrival.is_some_and(|arrival| arrival.has_touched(flow, surface));
         if on_surface && touched && switch && direction != Direction::Either {
             let side = if direction == Direction::Rising { -1.0 } else { 1.0 };
-            leaving.push(Leaving { surface, side, ahead: false, hidden: 0.0 });
+            leaving.push(Leaving::to(surface, side));
             continue;
         }
         // It has had its event at the last limit on time.
@@ -143,7 +144,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             && !switch
             && let Some(side) = residues.passes_later(surface)
         {
-            leaving.push(Leaving { surface, side, ahead: false, hidden: 0.0 });
+            leaving.push(Leaving::to(surface, side));
             continue;
         }
         // Its event is still to come, however near: the signs of the computed trajectory decide.
@@ -151,7 +152,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             direction.admits(now, -now) && arrival.is_ahead(flow, surface, (now, rounding))
         };
         if on_surface && residue == 0.0 && reached.is_none() && arrival.is_some_and(is_ahead) {
-            leaving.push(Leaving { surface, side: now.signum(), ahead: true, hidden: 0.0 });
+            leaving.push(Leaving::before_zero(surface, now.signum()));
             continue;
         }
         // A guard that jumps at its surface has a value beyond it that does not tell how far: the motion tells.
@@ -159,11 +160,11 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             .then(|| arrival?.leads_beyond(flow, surface, horizon.min(LONGEST_LOOK)))
             .flatten();
         if leads_beyond == Some(false) {
-            leaving.push(Leaving { surface, side: -now.signum(), ahead: false, hidden: 0.0 });
+            leaving.push(Leaving::to(surface, -now.signum()));
             continue;
         }
-        let (side, certainty) = if leads_beyond == Some(true) {
-            (now.signum(), Certainty::Sampled { interval: horizon.min(LONGEST_LOOK) })
+        let (side, certainty, hidden) = if leads_beyond == Some(true) {
+            (now.signum(), Certainty::Sampled { interval: horizon.min(LONGEST_LOOK) }, 0.0)
         } else if on_surface {
             // Both are short on the time scale of the model.
             let interval = interval.filter(|interval| *interval > 0.0).unwrap_or(f64::INFINITY);
@@ -175,17 +176,17 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
                 _ => StartsAs::Crossing,
             };
             match departure(flow, surface, (error, rounding), (horizon, short), starts_as)? {
-                Departure::To { side, certainty } => (side, certainty),
+                Departure::To { side, certainty, hidden } => (side, certainty, hidden),
                 Departure::Stays => {
                     // On the side of the flow its value is the distance to the next event. Elsewhere it counts as zero.
                     if now == 0.0 || beyond {
-                        leaving.push(Leaving { surface, side: 0.0, ahead: false, hidden: 0.0 });
+                        leaving.push(Leaving::to(surface, 0.0));
                     }
                     continue;
                 }
             }
         } else {
-            (now.signum(), Certainty::Certain)
+            (now.signum(), Certainty::Certain, 0.0)
         };
         let passes = reached.is_some_and(|from| direction.admits(from, side));
         if passes || switch && direction.is_beyond(side) {
@@ -213,11 +214,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             return Ok(ArcStart::Event { surface, certainty, errors, undeclared });
         }
         if on_surface {
-            let hidden = match certainty {
-                Certainty::Sampled { interval } if leads_beyond.is_none() => interval,
-                _ => 0.0,
-            };
-            leaving.push(Leaving { surface, side, ahead: false, hidden });
+            leaving.push(Leaving { hidden, ..Leaving::to(surface, side) });
         }
     }
     Ok(ArcStart::Flows)

@@ -227,7 +227,8 @@ impl<S: Copy + PartialEq, X: StateVector> History<S, X> {
     fn limit(&self, remainder: Remainder, at: &X) -> Option<ZenoLimit<X>> {
         let Remainder { time, error, period, length, order } = remainder;
         // A limit before the present is now, within its error. Farther back it is refuted: the flow has gone on.
-        let overrun = (self.since_event - time).max(0.0);
+        let end = time.max(self.since_event);
+        let overrun = end - time;
         if overrun > error {
             return None;
         }
@@ -238,15 +239,15 @@ impl<S: Copy + PartialEq, X: StateVector> History<S, X> {
         // period, and it vanishes if it changes by D = −D′ (t∞ − t)/μ: a multiple (t∞ − t)/(μ · period) of the
         // step.
         let mut state = now.clone();
-        state.add_scaled(time / (order * length), &step);
-        if overrun > 0.0 {
-            state = at.clone();
+        match overrun > 0.0 {
+            true => state.clone_from(at),
+            false => state.add_scaled(time / (order * length), &step),
         }
         let rounding = 0.5 * f64::EPSILON * self.durations.now.value().abs();
         Some(ZenoLimit {
-            time: self.durations.now.plus(time + overrun).value(),
+            time: self.durations.now.plus(end).value(),
             time_error: error + overrun + rounding,
-            remainder: (time - self.since_event).max(0.0),
+            remainder: end - self.since_event,
             state,
             state_error: step.largest() * (1.0 + time / length),
             // 1 − ratio = length/(length + time).

@@ -114,6 +114,29 @@ fn two_contacts_of_one_floor_have_one_limit() {
     assert!((limit.time - 3.0).abs() <= limit.time_error, "{limit:?}");
 }
 
+/// A ball that rests at its limit, and an observer of the clock x₂.
+macro_rules! ticking_ball {
+    ($flow:expr, $floor:expr, $restitution:expr, $tick:expr) => {{
+        let (floor, restitution, tick) = ($floor, $restitution, $tick);
+        $flow
+            .guard(
+                true,
+                Guard::falling("floor").contact(),
+                move |x: &State<3>| x[0] - floor,
+                move |x| (true, [x[0], -restitution * x[1], x[2]]),
+            )
+            .observer(Guard::rising("tick"), move |x| x[2] - tick)
+            .rest(move |_, x| Some((false, [floor, 0.0, x[2]])))
+    }};
+}
+
+fn by_formula(flies: bool, x: &State<3>, t: f64) -> [f64; 3] {
+    match flies {
+        true => [x[0] + t * (x[1] - t / 2.0), x[1] - t, x[2] + t],
+        false => [x[0], 0.0, x[2] + t],
+    }
+}
+
 /// Stops and observers among bounces that rounding hides are no landings from below, and lose nothing.
 #[test]
 fn stops_among_hidden_bounces_change_nothing() {
@@ -127,19 +150,8 @@ fn stops_among_hidden_bounces_change_nothing() {
         let limit = (2.0_f64 * height).sqrt() * (1.0 + restitution) / (1.0 - restitution);
         for k in 0..24 {
             let (stop, tick) = (limit - 1e-5 * 0.5_f64.powi(k), limit - 1.3e-5 * 0.45_f64.powi(k));
-            let ball = Model::closed_form(|flies: bool, x: &State<3>, t| match flies {
-                true => [x[0] + t * (x[1] - t / 2.0), x[1] - t, x[2] + t],
-                false => [x[0], 0.0, x[2] + t],
-            })
-            .guard(
-                true,
-                Guard::falling("floor").contact(),
-                move |x| x[0] - floor,
-                move |x| (true, [x[0], -restitution * x[1], x[2]]),
-            )
-            .observer(Guard::rising("tick"), move |x| x[2] - tick)
-            .sampled(0.02)
-            .rest(move |_, x| Some((false, [floor, 0.0, x[2]])));
+            let flow = Model::closed_form(by_formula).sampled(0.02);
+            let ball = ticking_ball!(flow, floor, restitution, tick);
             let mut run = ball.run(true, [floor + height, 0.0, 0.0], 0.0);
             let (mut ticks, mut limits) = (0, 0);
             for until in [stop, limit + 1.0] {
@@ -173,24 +185,27 @@ fn clocks_alone_have_no_limit() {
     assert_eq!(run.stop(), Some(Stop::TimeLimit));
 }
 
+/// The field of a ball whose third component is the time.
 #[cfg(feature = "ode")]
-type Timed = State<3>;
+fn field_of_time(flies: bool, x: &State<3>) -> [f64; 3] {
+    match flies {
+        true => [x[1], -1.0, 1.0],
+        false => [0.0, 0.0, 1.0],
+    }
+}
 
 /// A ball whose third component is the time, with a limit at 3.
 #[cfg(feature = "ode")]
 macro_rules! timed_ball {
     () => {
-        Model::integrated(|flies: bool, x: &Timed| match flies {
-            true => [x[1], -1.0, 1.0],
-            false => [0.0, 0.0, 1.0],
-        })
-        .guard(
-            true,
-            Guard::falling("floor").contact(),
-            |x| x[0],
-            |x| (true, [x[0], -0.5 * x[1], x[2]]),
-        )
-        .rest(|_, x| Some((false, [0.0, 0.0, x[2]])))
+        Model::integrated(field_of_time)
+            .guard(
+                true,
+                Guard::falling("floor").contact(),
+                |x| x[0],
+                |x| (true, [x[0], -0.5 * x[1], x[2]]),
+            )
+            .rest(|_, x| Some((false, [0.0, 0.0, x[2]])))
     };
 }
 
@@ -262,29 +277,6 @@ fn an_observer_crossed_again_before_a_limit_is_not_lost() {
     }
 }
 
-/// A ball that rests at its limit, and an observer of the clock x₂.
-macro_rules! ticking_ball {
-    ($flow:expr, $floor:expr, $restitution:expr, $tick:expr) => {{
-        let (floor, restitution, tick) = ($floor, $restitution, $tick);
-        $flow
-            .guard(
-                true,
-                Guard::falling("floor").contact(),
-                move |x: &State<3>| x[0] - floor,
-                move |x| (true, [x[0], -restitution * x[1], x[2]]),
-            )
-            .observer(Guard::rising("tick"), move |x| x[2] - tick)
-            .rest(move |_, x| Some((false, [floor, 0.0, x[2]])))
-    }};
-}
-
-fn by_formula(flies: bool, x: &State<3>, t: f64) -> [f64; 3] {
-    match flies {
-        true => [x[0] + t * (x[1] - t / 2.0), x[1] - t, x[2] + t],
-        false => [x[0], 0.0, x[2] + t],
-    }
-}
-
 /// Near a limit the height as rounded is a large part of a bounce, and a weak bounce lasts longer by what is left of its
 /// height: whatever divides the last flights, the limit is within its error.
 #[test]
@@ -329,17 +321,14 @@ where
 
 /// The durations may show a limit that the flow has passed, within its error: the limit is now, and the clock goes on from
 /// the present state.
+#[cfg(feature = "ode")]
 #[test]
 fn a_limit_before_the_present_does_not_turn_the_clock_back() {
     let (floor, restitution, height, tolerance) =
         (25.0, 0.641_721_114_024_630_5, 0.812_340_951_002_269_3, 1e-6);
     let limit = (2.0_f64 * height).sqrt() * (1.0 + restitution) / (1.0 - restitution);
     let tick = limit + 1.159_872_198_286_393_5e-11;
-    let flow = Model::integrated(|flies: bool, x: &State<3>| match flies {
-        true => [x[1], -1.0, 1.0],
-        false => [0.0, 0.0, 1.0],
-    })
-    .tolerance(tolerance);
+    let flow = Model::integrated(field_of_time).tolerance(tolerance);
     let ball = ticking_ball!(flow, floor, restitution, tick);
     let mut execution = ball.run(true, [floor + height, 0.0, 0.0], 0.0);
     let mut ticks = 0;

@@ -86,22 +86,21 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         let now = value(&self.before);
         let rounding = arc.rounding_at(surface, &self.before);
         let (earlier, change) = self.earlier(arc.system, surface);
-        let left = self.leaving.iter().find(|leaving| leaving.surface == surface);
         // It has another sign a moment earlier, or in the middle of the arc, and no event since.
         let jumped = earlier * now < 0.0
             || value(arc.start) * now < 0.0 && value(&arc.state(0.5 * self.duration)) * now < 0.0;
-        let has_come = match left {
+        if !(jumped || now.abs() <= change + rounding) {
+            return None;
+        }
+        let has_come = match self.leaving.iter().find(|leaving| leaving.surface == surface) {
             // It was on its way, however near.
-            Some(left) if left.ahead => true,
+            Some(left) if left.ahead => return Some(left.side),
             // It has had its event, and may still be between its zero and its side.
             Some(left) if left.side != 0.0 => self.has_left(arc, surface, left.side),
             _ => !self.has_stayed(arc, surface),
         };
-        if !(jumped || now.abs() <= change + rounding) || !has_come {
+        if !has_come {
             return None;
-        }
-        if let Some(left) = left.filter(|left| left.ahead) {
-            return Some(left.side);
         }
         // The side from which the guard comes: by its rate, or by its value at the start of the arc.
         let field = arc.vector_field(&self.before);

@@ -75,7 +75,12 @@ fn shown_error<F: GuardedFlow>(
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Departure {
     /// To this side, ±1.
-    To { side: f64, certainty: Certainty },
+    To {
+        side: f64,
+        certainty: Certainty,
+        /// How long rounding hides that it does.
+        hidden: f64,
+    },
     /// It stays at zero.
     Stays,
 }
@@ -107,7 +112,7 @@ pub(crate) fn departure<F: GuardedFlow>(
     (horizon, short): (f64, f64),
     starts_as: StartsAs,
 ) -> Result<Departure, Error> {
-    let to = |side: f64, certainty| Departure::To { side: side.signum(), certainty };
+    let to = |side: f64, certainty| Departure::To { side: side.signum(), certainty, hidden: 0.0 };
     if let Some(side) = flow.leaving_side(surface) {
         return Ok(if side == 0.0 { Departure::Stays } else { to(side, Certainty::Exact) });
     }
@@ -180,11 +185,11 @@ fn by_looks<F: GuardedFlow>(
         let to = || {
             let side = value.signum();
             // The steps of an integrated flow are longer than the looks, and their noise is larger.
-            let interval = match looked {
+            let hidden = match looked {
                 Looked::OnSteps => still_there(flow, surface, (time, side)),
                 _ => time,
             };
-            Ok(Departure::To { side, certainty: Certainty::Sampled { interval } })
+            Ok(Departure::To { side, certainty: Certainty::Sampled { interval: time }, hidden })
         };
         // The value at the start may be the height of a jump there, over which the reset of a contact turns back.
         let jumps = value * at_start < 0.0 && value.abs() > LEFT_SURFACE * (rounding + later_error);

@@ -28,6 +28,18 @@ pub struct Leaving<S> {
     pub hidden: f64,
 }
 
+impl<S> Leaving<S> {
+    /// A guard that leaves its zero to a side, as the start shows.
+    pub(crate) fn to(surface: S, side: f64) -> Self {
+        Leaving { surface, side, ahead: false, hidden: 0.0 }
+    }
+
+    /// A guard on a side whose zero is still to come.
+    pub(crate) fn before_zero(surface: S, side: f64) -> Self {
+        Leaving { ahead: true, ..Self::to(surface, side) }
+    }
+}
+
 /// What a search for the next event is told.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search<'a, S> {
