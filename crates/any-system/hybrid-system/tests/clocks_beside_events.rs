@@ -64,3 +64,29 @@ fn clocks_and_stops_within_ulps_of_a_crossing_lose_and_double_nothing() {
         }
     }
 }
+
+/// A stop between two observers that are both on their way to their zeros, some ulps behind it: the search of each of them
+/// once began the other's anew, for ever.
+#[cfg(feature = "ode")]
+#[test]
+fn two_observers_on_their_way_at_a_stop_end_the_search() {
+    let (stop, near, far) =
+        (0.900_000_000_000_001_4, 0.900_000_000_000_001_5, 0.900_000_000_000_001_6);
+    let flip = 0.899_999_999_999_999_4;
+    let model = Model::integrated(|_: bool, _: &State<1>| [1.0])
+        .clock_everywhere(
+            "clock",
+            move |now| (now < flip).then_some(flip),
+            |mode: bool, x: &State<1>| (!mode, *x),
+        )
+        .observer(Guard::rising("far"), move |x| x[0] - far)
+        .observer(Guard::either("near"), move |x| x[0] - near);
+    let mut execution = model.run(false, [0.0], 0.0);
+    let mut names = Vec::new();
+    for until in [stop, 3.0] {
+        let arcs = execution.run_until(until).map(|arc| arc.unwrap());
+        names.extend(arcs.filter_map(|arc| arc.event().map(|event| event.surface)));
+    }
+    names.sort_unstable();
+    assert_eq!(names, ["clock", "far", "near"]);
+}

@@ -62,3 +62,26 @@ fn a_stop_shortly_behind_the_lift_off_is_no_landing() {
         }
     }
 }
+
+/// The height h + t²(T − t) leaves its level without a rate, and comes back at T, in a flight that is 10³ roundings high and
+/// more. It is met there, and not taken for noise of the departure.
+#[test]
+fn a_return_soon_after_a_departure_without_a_rate_is_met() {
+    for level in [0.0_f64, 0.3, 1.0, 37.0] {
+        for k in 0..60 {
+            let back = 10f64.powf(-4.0 + 0.05 * f64::from(k));
+            let rounding = f64::EPSILON * level.max(1.0);
+            if 4.0 / 27.0 * back.powi(3) < 1e3 * rounding {
+                continue;
+            }
+            // Height, velocity, acceleration.
+            let field = |(), x: &State<3>| [x[1], x[2], -6.0];
+            let model = Model::integrated(field)
+                .observer(Guard::either("level"), move |x: &State<3>| x[0] - level);
+            let arcs = model.run((), [level, 0.0, 2.0 * back], 4.0 * back).map(|arc| arc.unwrap());
+            let met: Vec<f64> = arcs.filter_map(|arc| Some(arc.event()?.time)).collect();
+            let [time] = met[..] else { panic!("{level} {back}: {met:?}") };
+            assert!((time - back).abs() < 0.05 * back, "{level} {back}: {time}");
+        }
+    }
+}

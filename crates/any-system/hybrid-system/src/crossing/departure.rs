@@ -45,8 +45,7 @@ const LARGEST_GROWTH: f64 = 256.0;
 const MOST_LOOKS_BACK: f64 = 1024.0;
 
 /// Further looks at a guard that leaves its zero with a hidden rate, each twice as late: up to 1024 times the first one
-/// that is clear. With more of them a short stay could be passed over; with fewer, noise of a step could be taken for a
-/// return.
+/// that is clear. With fewer of them noise of a step could be taken for a return; more of them would cost evaluations.
 const LOOKS_BEHIND: u32 = 10;
 
 /// A look behind so much of the last arc may be behind the next bounce. A larger number would miss the return of a
@@ -186,8 +185,8 @@ fn by_looks<F: GuardedFlow>(
             let side = value.signum();
             // The steps of an integrated flow are longer than the looks, and their noise is larger.
             let hidden = match looked {
-                Looked::OnSteps => still_there(flow, surface, (time, side)),
-                _ => time,
+                Looked::OnSteps => leaves_until(flow, surface, (time, value)),
+                _ => 0.5 * time,
             };
             Ok(Departure::To { side, certainty: Certainty::Sampled { interval: time }, hidden })
         };
@@ -215,17 +214,18 @@ fn by_looks<F: GuardedFlow>(
     Ok(Departure::Stays)
 }
 
-/// The last one of some looks, each twice as late as the one before, up to which a guard is on this side.
-fn still_there<F: GuardedFlow>(flow: &F, surface: F::Surface, (first, side): (f64, f64)) -> f64 {
-    let mut time = first;
+/// Half of the last one of some looks, each twice as late as the one before, up to which a guard leaves with a growing
+/// rate. Its way back begins behind that look.
+fn leaves_until<F: GuardedFlow>(flow: &F, surface: F::Surface, (first, value): (f64, f64)) -> f64 {
+    let (mut time, mut value) = (first, value);
     for _ in 0..LOOKS_BEHIND {
         let later = flow.guard_at(surface, 2.0 * time);
-        if !(later * side > 0.0) {
+        if !(later / value >= 2.0) {
             break;
         }
-        time *= 2.0;
+        (time, value) = (2.0 * time, later);
     }
-    time
+    0.5 * time
 }
 
 /// The rounding of a guard at a look: its flow adds numbers as large as the largest component, and rounds by as much in

@@ -133,6 +133,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             }
             let step = integration.last_step()?;
             let before = followed.clone();
+            let mut restart = before.clone();
             while let Some(finding) =
                 self.first_on_step(&mut followed, &step, until, &mut budget)?
             {
@@ -140,11 +141,13 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 if let Some(outcome) = self.event(&finding, &mut integration, &on_step)? {
                     return Ok(outcome);
                 }
-                // The searches of the other guards begin anew on this step.
+                // The searches of the other guards begin anew on this step, behind what each of them has passed: two
+                // guards that are on their way to their zeros must not bring each other back.
                 let passed = finding.followed.guard.surface;
-                for (now, before) in followed.iter_mut().zip(&before) {
-                    if now.guard.surface != passed {
-                        *now = *before;
+                for (now, restart) in followed.iter_mut().zip(&mut restart) {
+                    match now.guard.surface == passed {
+                        true => *restart = *now,
+                        false => *now = *restart,
                     }
                 }
             }
