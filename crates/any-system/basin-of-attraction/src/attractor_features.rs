@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::feature_groups::{FeatureGroups, check_feature_count};
 use crate::label::Label;
 use crate::split_mix::SplitMix64;
+use crate::state_map::{OrbitFeature, StateMap};
 use crate::unmatched::{Unmatched, UnmatchedReason};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -162,8 +163,8 @@ impl FeatureAttractors {
     /// stretches of more than 10⁷ steps, a transient and a budget of more than 10⁹ steps together, and more than 10⁶
     /// tests; [`Error::TooManyAttractors`] beyond 65 000.
     pub fn search(
-        map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
-        feature: &(impl Fn(&[Vec<f64>]) -> Vec<f64> + Sync),
+        map: &StateMap<'_>,
+        feature: &OrbitFeature<'_>,
         starts: &[Vec<f64>],
         limits: FeatureLimits,
     ) -> Result<FeatureAttractors, Error> {
@@ -260,12 +261,7 @@ impl FeatureAttractors {
     /// the budget.
     ///
     /// No attractor is added, so that points can be labelled in parallel.
-    pub fn label(
-        &self,
-        map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
-        feature: &impl Fn(&[Vec<f64>]) -> Vec<f64>,
-        start: &[f64],
-    ) -> Label {
+    pub fn label(&self, map: &StateMap<'_>, feature: &OrbitFeature<'_>, start: &[f64]) -> Label {
         self.follow(map, feature, start).unwrap_or_else(|reason| match reason {
             UnmatchedReason::Stopped => Label::UNDECIDED_MAP,
             _ => Label::UNDECIDED,
@@ -284,8 +280,8 @@ impl FeatureAttractors {
     /// Follows an orbit until `agree` successive stretches have one label.
     fn follow(
         &self,
-        map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
-        feature: &impl Fn(&[Vec<f64>]) -> Vec<f64>,
+        map: &StateMap<'_>,
+        feature: &OrbitFeature<'_>,
         start: &[f64],
     ) -> Result<Label, UnmatchedReason> {
         let limits = &self.limits;
@@ -308,8 +304,8 @@ impl FeatureAttractors {
     /// Whether orbits from random states beside those of a group come to the group.
     fn is_trap(
         &self,
-        map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
-        feature: &(impl Fn(&[Vec<f64>]) -> Vec<f64> + Sync),
+        map: &StateMap<'_>,
+        feature: &OrbitFeature<'_>,
         orbits: &[&Beginning],
         label: Label,
     ) -> bool {
@@ -333,8 +329,8 @@ impl FeatureAttractors {
 
 /// The first stretches of an orbit; `None` if it stops, or has features that are not finite.
 fn beginning(
-    map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
-    feature: &impl Fn(&[Vec<f64>]) -> Vec<f64>,
+    map: &StateMap<'_>,
+    feature: &OrbitFeature<'_>,
     start: &[f64],
     limits: FeatureLimits,
 ) -> Option<Beginning> {
@@ -352,21 +348,13 @@ fn beginning(
 }
 
 /// The state after some steps; `None` if the orbit stops or is not finite.
-fn after(
-    map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
-    start: &[f64],
-    steps: usize,
-) -> Option<Vec<f64>> {
+fn after(map: &StateMap<'_>, start: &[f64], steps: usize) -> Option<Vec<f64>> {
     let finite = |at: Vec<f64>| at.iter().all(|x| x.is_finite()).then_some(at);
     (0..steps).try_fold(finite(start.to_vec())?, |at, _| finite(map(&at)?))
 }
 
 /// The next states of an orbit, which moves to the last of them.
-fn stretch(
-    map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
-    at: &mut Vec<f64>,
-    steps: usize,
-) -> Option<Vec<Vec<f64>>> {
+fn stretch(map: &StateMap<'_>, at: &mut Vec<f64>, steps: usize) -> Option<Vec<Vec<f64>>> {
     let mut points = Vec::new();
     for _ in 0..steps {
         *at = after(map, at, 1)?;

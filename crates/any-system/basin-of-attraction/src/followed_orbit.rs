@@ -13,6 +13,7 @@
 
 use crate::known_cells::KnownCells;
 use crate::recurrence_limits::RecurrenceLimits;
+use crate::state_map::StateMap;
 use crate::unmatched::{Border, UnmatchedReason};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -77,7 +78,7 @@ impl Orbit {
         &mut self,
         known: &KnownCells,
         limits: &RecurrenceLimits,
-        map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
+        map: &StateMap<'_>,
     ) -> End {
         loop {
             if let Some(end) = self.until_it_recurs(known, limits, map) {
@@ -96,7 +97,7 @@ impl Orbit {
         &mut self,
         known: &KnownCells,
         limits: &RecurrenceLimits,
-        map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
+        map: &StateMap<'_>,
     ) -> Option<End> {
         let (mut visited, mut recurrences) = (BTreeSet::new(), 0);
         while recurrences < limits.recurrences {
@@ -123,7 +124,7 @@ impl Orbit {
         &mut self,
         known: &KnownCells,
         limits: &RecurrenceLimits,
-        map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
+        map: &StateMap<'_>,
     ) -> Result<Option<Settled>, End> {
         let pace = self.steps.max(limits.locate).max(1);
         let length = pace.saturating_mul(CONFIRMED);
@@ -189,7 +190,7 @@ impl Orbit {
         known.owner(&self.at).map_or(Look::Inside(cell), |own| Look::End(End::Known(own)))
     }
 
-    fn step(&mut self, map: &impl Fn(&[f64]) -> Option<Vec<f64>>) -> Result<(), End> {
+    fn step(&mut self, map: &StateMap<'_>) -> Result<(), End> {
         self.at = map(&self.at).ok_or(End::Unmatched(UnmatchedReason::Stopped))?;
         self.steps += 1;
         Ok(())
@@ -198,11 +199,7 @@ impl Orbit {
 
 /// How fast an orbit moves on from a point, a step: the mean change of the ends of stretches of so many steps, in
 /// the largest coordinate. NaN if it stops.
-pub(crate) fn drift(
-    map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
-    from: &[f64],
-    stretch: usize,
-) -> f64 {
+pub(crate) fn drift(map: &StateMap<'_>, from: &[f64], stretch: usize) -> f64 {
     let (mut at, stretch) = (from.to_vec(), stretch.max(1));
     let mut windows = Vec::new();
     for _ in 0..WINDOWS {

@@ -126,6 +126,7 @@ mod scalar_map;
 mod smooth_boundary;
 mod split_mix;
 mod state_grid;
+mod state_map;
 mod tipping;
 mod uncertainty;
 mod uncertainty_fit;
@@ -184,6 +185,7 @@ pub use smooth_boundary::{
     BallEntropy, BoundaryShape, RandomBalls, ball_entropy, smooth_boundary_entropy,
 };
 pub use split_mix::SplitMix64;
+pub use state_map::{OrbitFeature, StateMap};
 pub use tipping::{Tipping, TippingCounts, label_after_drift, random_tipping};
 pub use uncertainty::uncertain_fraction;
 pub use undecided_reason::UndecidedReason;

@@ -13,6 +13,7 @@ use crate::label::Label;
 use crate::recurrence_limits::RecurrenceLimits;
 use crate::split_mix::SplitMix64;
 use crate::state_grid::StateGrid;
+use crate::state_map::StateMap;
 use crate::unmatched::{Remedy, Unmatched, UnmatchedReason, remedy};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -89,7 +90,7 @@ impl Attractors {
     /// finite; [`Error::WrongDimension`] for a start of another dimension than the region;
     /// [`Error::TooManyAttractors`] beyond 65 000.
     pub fn search(
-        map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
+        map: &StateMap<'_>,
         region: Hyperrectangle,
         starts: &[Vec<f64>],
         limits: RecurrenceLimits,
@@ -133,7 +134,7 @@ impl Attractors {
     /// Follows one start, and adds its attractor if it is new. Returns the reason if it belongs to none.
     fn search_from(
         &mut self,
-        map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
+        map: &StateMap<'_>,
         start: &[f64],
         ends: &mut Vec<Vec<f64>>,
     ) -> Result<Option<UnmatchedReason>, Error> {
@@ -189,7 +190,7 @@ impl Attractors {
     ///
     /// The label is the same for each call: no attractor is added. So the points of a raster or of a sample can be
     /// labelled in parallel: `|x| attractors.label(&map, x)`. A point of another dimension is undecided.
-    pub fn label(&self, map: &impl Fn(&[f64]) -> Option<Vec<f64>>, start: &[f64]) -> Label {
+    pub fn label(&self, map: &StateMap<'_>, start: &[f64]) -> Label {
         if start.len() != self.known.dimension() {
             return Label::UNDECIDED;
         }
@@ -207,11 +208,7 @@ impl Attractors {
     }
 
     /// Locates and tests a candidate, on one grid after the other; `false` if the tests refuse it on all of them.
-    fn add_attractor(
-        &mut self,
-        map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
-        settled: &Settled,
-    ) -> Result<bool, Error> {
+    fn add_attractor(&mut self, map: &StateMap<'_>, settled: &Settled) -> Result<bool, Error> {
         for grid in 0..self.known.grids().len() {
             let Some((cells, last)) = self.visited(map, grid, settled) else { return Ok(false) };
             let own: BTreeSet<u64> = cells.keys().copied().collect();
@@ -239,7 +236,7 @@ impl Attractors {
     /// and the last points. `None` if it leaves the region or stops.
     fn visited(
         &self,
-        map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
+        map: &StateMap<'_>,
         grid: usize,
         settled: &Settled,
     ) -> Option<(FirstPoints, VecDeque<Vec<f64>>)> {
@@ -263,7 +260,7 @@ impl Attractors {
     /// to them.
     fn is_trap(
         &self,
-        map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
+        map: &StateMap<'_>,
         grid: &StateGrid,
         cells: &BTreeSet<u64>,
         pace: usize,
@@ -314,7 +311,7 @@ impl Attractors {
 
     /// Makes one of attractors whose orbits enter each other, and gives the labels again. `ends` are points of
     /// their orbits.
-    fn merge(&mut self, map: &impl Fn(&[f64]) -> Option<Vec<f64>>, ends: &[Vec<f64>]) {
+    fn merge(&mut self, map: &StateMap<'_>, ends: &[Vec<f64>]) {
         if self.attractors.len() < 2 {
             return;
         }
@@ -345,12 +342,7 @@ impl Attractors {
     }
 
     /// The attractor that the orbit of another one enters within the budget.
-    fn entered(
-        &self,
-        map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
-        own: usize,
-        end: &[f64],
-    ) -> Option<usize> {
+    fn entered(&self, map: &StateMap<'_>, own: usize, end: &[f64]) -> Option<usize> {
         let (mut at, mut anchor) = (end.to_vec(), end.to_vec());
         for step in 1..=self.limits.budget {
             if let Some(other) = self.known.other_owner(&at, own) {

@@ -125,7 +125,7 @@ impl<T: HybridSystem> Execution<'_, T> {
                 return None;
             }
             let by_state = error_of_state.as_ref().map_or(f64::INFINITY, |error| {
-                change_by_components(&limit.state, |axis| error.components()[axis], value)
+                change_by_components(&limit.state, |axis| error.components()[axis], &value)
             });
             let rounding = flow.rounding_at(surface, &limit.state);
             let hidden = rounding + by_state + error * (then - now).abs();
@@ -165,7 +165,7 @@ impl<T: HybridSystem> Execution<'_, T> {
                 // It has come to its surface at the last event.
                 0.0
             } else if now * then < 0.0 {
-                root_beyond(along, (0.0, now), (1.0, then))?
+                root_beyond(&along, (0.0, now), (1.0, then))?
             } else {
                 // The sum of the state and the step rounds: the limit itself is on the other side.
                 1.0

@@ -94,6 +94,6 @@ where
         .map_or(0.0, |field| value(&(event.before + field * time_rounding)) - value(&event.before));
     // The error counts for both events, in both directions.
     let stated = system.guard_error(event.surface, &event.before);
-    let error = stated_or_measured(stated, &event.before, value) + 4.0 * moved.abs();
+    let error = stated_or_measured(stated, &event.before, &value) + 4.0 * moved.abs();
     value(&event.before).abs() > error
 }

@@ -56,7 +56,7 @@ pub fn bracketed_root(
     right: f64,
 ) -> Result<f64, Error> {
     let (at_left, at_right) = (function(left), function(right));
-    let [low, high] = last_bracket(function, (left, at_left), (right, at_right))?;
+    let [low, high] = last_bracket(&mut function, (left, at_left), (right, at_right))?;
     // The crate's own iterate is not used: it may lie outside the last bracket.
     Ok(if low.1.abs() < high.1.abs() { low.0 } else { high.0 })
 }
@@ -69,11 +69,11 @@ pub fn bracketed_root(
 /// # Errors
 /// As [`bracketed_root`].
 pub fn root_beyond(
-    mut function: impl FnMut(f64) -> f64,
+    function: &dyn Fn(f64) -> f64,
     before: (f64, f64),
     beyond: (f64, f64),
 ) -> Result<f64, Error> {
-    let [low, high] = last_bracket(&mut function, before, beyond)?;
+    let [low, high] = last_bracket(&mut |x| function(x), before, beyond)?;
     let (mut left, mut right) = (low.0, high.0);
     // The last bracket is some ulps wide.
     loop {
@@ -92,8 +92,10 @@ pub fn root_beyond(
 
 /// Two points, an ulp or two apart, at which the function has the signs of the two given points, or is zero at the
 /// second.
+///
+/// Compiled once, and not for each function: the search is long, and the call is nothing beside the function's value.
 fn last_bracket(
-    mut function: impl FnMut(f64) -> f64,
+    function: &mut dyn FnMut(f64) -> f64,
     (left, at_left): (f64, f64),
     (right, at_right): (f64, f64),
 ) -> Result<[(f64, f64); 2], Error> {

@@ -104,7 +104,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         }
         // The side from which the guard comes: by its rate, or by its value at the start of the arc.
         let field = arc.vector_field(&self.before);
-        let rate = field.and_then(|field| guard_rate(&self.before, &field, rounding, value));
+        let rate = field.and_then(|field| guard_rate(&self.before, &field, rounding, &value));
         Some(match rate {
             _ if jumped => -now,
             Some(rate) => -rate,

@@ -67,7 +67,7 @@ fn shown_error<F: GuardedFlow>(
     let scatter = (value - 3.0 * third + 3.0 * second - first).abs();
     let start = flow.start().components();
     let size = state.filled(|axis| state.components()[axis].abs().max(start[axis].abs()));
-    scatter + rounding_of_state(state, &size, |state| flow.guard_value(surface, state))
+    scatter + rounding_of_state(state, &size, &|state| flow.guard_value(surface, state))
 }
 
 /// How a guard leaves its zero.
@@ -140,7 +140,7 @@ pub(crate) fn departure<F: GuardedFlow>(
             return Ok(Departure::Stays);
         }
         let value = |state: &F::State| flow.guard_value(surface, state);
-        if let Some(rate) = guard_rate(start, &field, rounding, value) {
+        if let Some(rate) = guard_rate(start, &field, rounding, &value) {
             return Ok(to(rate, Certainty::Interpolated));
         }
     }
@@ -238,7 +238,7 @@ fn rounding_at_look<F: GuardedFlow>(
 ) -> f64 {
     let largest = state.largest().max(flow.start().largest());
     let size = state.filled(|_| largest);
-    let rounding = rounding_of_state(state, &size, |state| flow.guard_value(surface, state));
+    let rounding = rounding_of_state(state, &size, &|state| flow.guard_value(surface, state));
     match value.abs() > LEFT_SURFACE * (error + rounding) {
         true => rounding,
         false => rounding.min(shown_error(flow, surface, (time, value, state))),

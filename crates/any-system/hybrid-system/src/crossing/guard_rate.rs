@@ -19,7 +19,7 @@ pub(crate) fn guard_rate<X: StateVector>(
     state: &X,
     field: &X,
     rounding: f64,
-    guard: impl Fn(&X) -> f64,
+    guard: &dyn Fn(&X) -> f64,
 ) -> Option<f64> {
     // The shortest reach first: on a longer one a component that is large, and moves slowly, would carry the others
     // far.
@@ -30,7 +30,7 @@ pub(crate) fn guard_rate<X: StateVector>(
     let longest = (1.0 + state.largest()) / field.largest();
     [shortest, longest]
         .into_iter()
-        .find_map(|reach| rate_over(state, field, DIFFERENCE_REACH * reach, rounding, &guard))
+        .find_map(|reach| rate_over(state, field, DIFFERENCE_REACH * reach, rounding, guard))
 }
 
 /// The same by a difference over this time on both sides.
@@ -39,7 +39,7 @@ fn rate_over<X: StateVector>(
     field: &X,
     reach: f64,
     rounding: f64,
-    guard: impl Fn(&X) -> f64,
+    guard: &dyn Fn(&X) -> f64,
 ) -> Option<f64> {
     let at = |distance: f64| {
         let mut moved = state.clone();

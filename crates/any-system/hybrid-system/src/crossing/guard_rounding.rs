@@ -71,15 +71,15 @@ const FAR_MOVE: f64 = 1.0 / 1024.0;
 pub(crate) fn guard_rounding<X: StateVector>(
     state: &X,
     size: &X,
-    guard: impl Fn(&X) -> f64,
+    guard: &dyn Fn(&X) -> f64,
 ) -> f64 {
-    let upwards = scatter(state, 1.0, &guard);
-    let ahead = rounding_of_state(state, size, &guard) + upwards;
+    let upwards = scatter(state, 1.0, guard);
+    let ahead = rounding_of_state(state, size, guard) + upwards;
     if ahead < guard(state).abs() {
         return ahead;
     }
-    let own = smaller(ahead, scatter(state, -1.0, &guard));
-    let sum = rounding_beside_jumps(state, size, &guard) + own.min(upwards);
+    let own = smaller(ahead, scatter(state, -1.0, guard));
+    let sum = rounding_beside_jumps(state, size, guard) + own.min(upwards);
     if sum.is_finite() { sum } else { 0.0 }
 }
 
@@ -90,9 +90,9 @@ fn smaller(here: f64, there: f64) -> f64 {
 }
 
 /// The rounding of the state, each component moved to the side on which the guard does not jump.
-fn rounding_beside_jumps<X: StateVector>(state: &X, size: &X, guard: impl Fn(&X) -> f64) -> f64 {
+fn rounding_beside_jumps<X: StateVector>(state: &X, size: &X, guard: &dyn Fn(&X) -> f64) -> f64 {
     if state.dimension() > SINGLE_COMPONENTS {
-        let [up, down] = [1.0, -1.0].map(|side| rounding_on_side(state, (size, side), &guard));
+        let [up, down] = [1.0, -1.0].map(|side| rounding_on_side(state, (size, side), guard));
         return smaller(up, down);
     }
     let value = guard(state);
@@ -118,14 +118,14 @@ fn rounding_beside_jumps<X: StateVector>(state: &X, size: &X, guard: impl Fn(&X)
 pub(crate) fn stated_or_measured<X: StateVector>(
     stated: Option<f64>,
     state: &X,
-    guard: impl Fn(&X) -> f64,
+    guard: &dyn Fn(&X) -> f64,
 ) -> f64 {
     match stated {
         Some(stated) => {
-            let ahead = rounding_of_state(state, state, &guard);
+            let ahead = rounding_of_state(state, state, guard);
             match ahead + stated < guard(state).abs() {
                 true => ahead + stated,
-                false => rounding_beside_jumps(state, state, &guard) + stated,
+                false => rounding_beside_jumps(state, state, guard) + stated,
             }
         }
         None => guard_rounding(state, state, guard),
@@ -137,10 +137,10 @@ pub(crate) fn stated_or_measured<X: StateVector>(
 pub(crate) fn rounding_beside_zero<X: StateVector>(
     stated: Option<f64>,
     beside: [&X; 2],
-    guard: impl Fn(&X) -> f64,
+    guard: &dyn Fn(&X) -> f64,
 ) -> f64 {
     stated.unwrap_or_else(|| {
-        let [before, behind] = beside.map(|state| scatter(state, 1.0, &guard));
+        let [before, behind] = beside.map(|state| scatter(state, 1.0, guard));
         // `min` drops NaN.
         let least = before.min(behind);
         if least.is_finite() { least } else { 0.0 }
@@ -152,15 +152,15 @@ pub(crate) fn rounding_beside_zero<X: StateVector>(
 pub(crate) fn rounding_of_state<X: StateVector>(
     state: &X,
     size: &X,
-    guard: impl Fn(&X) -> f64,
+    guard: &dyn Fn(&X) -> f64,
 ) -> f64 {
     rounding_on_side(state, (size, 1.0), guard)
 }
 
 /// The larger one of the estimates on both sides: for a guard that is zero beside its jump.
 #[cfg(feature = "ode")]
-pub(crate) fn rounding_around<X: StateVector>(state: &X, guard: impl Fn(&X) -> f64) -> f64 {
-    let [up, down] = [1.0, -1.0].map(|side| rounding_on_side(state, (state, side), &guard));
+pub(crate) fn rounding_around<X: StateVector>(state: &X, guard: &dyn Fn(&X) -> f64) -> f64 {
+    let [up, down] = [1.0, -1.0].map(|side| rounding_on_side(state, (state, side), guard));
     up.max(down)
 }
 
@@ -168,12 +168,12 @@ pub(crate) fn rounding_around<X: StateVector>(state: &X, guard: impl Fn(&X) -> f
 fn rounding_on_side<X: StateVector>(
     state: &X,
     (size, side): (&X, f64),
-    guard: impl Fn(&X) -> f64,
+    guard: &dyn Fn(&X) -> f64,
 ) -> f64 {
     let ulps = side * COMPONENT_ULPS * f64::EPSILON;
     let reach = |axis: usize| ulps * size.components()[axis].abs();
-    let near = change_by_components(state, reach, &guard);
-    let far = change_by_components(state, |axis| FARTHER * reach(axis), &guard);
+    let near = change_by_components(state, reach, guard);
+    let far = change_by_components(state, |axis| FARTHER * reach(axis), guard);
     // The change of a smooth guard grows with the reach, and that of a jump does not: its height is no error.
     let sum = ROOM * (far - near).abs() / (FARTHER - 1.0);
     if sum.is_finite() { sum } else { 0.0 }
@@ -238,7 +238,7 @@ pub(crate) fn spread(axis: usize) -> f64 {
 pub(crate) fn change_by_components<X: StateVector>(
     state: &X,
     reach: impl Fn(usize) -> f64,
-    guard: impl Fn(&X) -> f64,
+    guard: &dyn Fn(&X) -> f64,
 ) -> f64 {
     let value = guard(state);
     let mut moved = state.clone();
@@ -284,7 +284,7 @@ fn random_sign(axis: usize, joint: u32) -> f64 {
 
 /// The scatter of the guard's values around a smooth function, at five states on a line from `state`, upwards or
 /// downwards by the sign of `side`.
-fn scatter<X: StateVector>(state: &X, side: f64, guard: impl Fn(&X) -> f64) -> f64 {
+fn scatter<X: StateVector>(state: &X, side: f64, guard: &dyn Fn(&X) -> f64) -> f64 {
     let (value, largest) = (guard(state).abs(), state.largest());
     let by_component = COMPONENT_DISTANCES.map(|distance| (distance, 0.0));
     let by_size = [value.min(largest), (value * largest).sqrt().min(largest), largest]
@@ -319,10 +319,10 @@ mod tests {
             let state = DVector::from_element(dimension, 1.0);
             for i in 0..dimension {
                 for j in 0..i {
-                    let gap = rounding_of_state(&state, &state, |x| x[i] - x[j]);
+                    let gap = rounding_of_state(&state, &state, &|x| x[i] - x[j]);
                     // Two components of size 1, COMPONENT_ULPS each, twice ROOM.
                     assert_eq!(gap, 16.0 * f64::EPSILON, "{i} {j} of {dimension}");
-                    let sum = rounding_of_state(&state, &state, |x| x[i] + x[j] - 2.0);
+                    let sum = rounding_of_state(&state, &state, &|x| x[i] + x[j] - 2.0);
                     assert_eq!(sum, 16.0 * f64::EPSILON, "{i} {j} of {dimension}");
                 }
             }

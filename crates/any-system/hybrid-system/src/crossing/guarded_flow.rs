@@ -50,9 +50,9 @@ pub(crate) trait GuardedFlow {
     fn rounding_at(&self, surface: Self::Surface, state: &Self::State) -> f64 {
         let value = |state: &Self::State| self.guard_value(surface, state);
         if value(state) == 0.0 {
-            return rounding_of_state(state, state, value);
+            return rounding_of_state(state, state, &value);
         }
-        stated_or_measured(self.guard_error(surface, state), state, value)
+        stated_or_measured(self.guard_error(surface, state), state, &value)
     }
 
     /// g(φ(t; x₀)).

@@ -160,15 +160,15 @@ fn crossing<F: GuardedFlow>(
         let looked = Looked::Sampled;
         return Err(Error::UndecidedStart { surface: format!("{surface:?}"), interval, looked });
     };
-    let time = root_beyond(value, (left, at_left), (right, at_right))?;
+    let time = root_beyond(&value, (left, at_left), (right, at_right))?;
     let guard = |state: &F::State| flow.guard_value(surface, state);
     let reach = BESIDE * (right - left);
     let beside = [flow.state((time - reach).max(left)), flow.state((time + reach).min(right))];
     let stated = flow.guard_error(surface, &flow.state(time));
-    let own = rounding_beside_zero(stated, [&beside[0], &beside[1]], guard);
+    let own = rounding_beside_zero(stated, [&beside[0], &beside[1]], &guard);
     let clear_at = |moved: f64| {
         let state = flow.state(moved);
-        let rounding = own + rounding_of_state(&state, &state, guard);
+        let rounding = own + rounding_of_state(&state, &state, &guard);
         // An end of the bracket is farther away than the zero, whatever its rounding.
         moved <= left || flow.guard_value(surface, &state).abs() > rounding
     };

@@ -356,7 +356,7 @@ impl ZeroSearch {
         if at_last * side >= 0.0 {
             return Ok(right);
         }
-        Ok(root_beyond(value, (after, at_first), (right, at_last))?)
+        Ok(root_beyond(&value, (after, at_first), (right, at_last))?)
     }
 }
 

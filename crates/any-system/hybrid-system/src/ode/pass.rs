@@ -69,7 +69,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         }
         let stated = self.system.guard_error(surface, start);
         if let Some(side) = self.request.side_before(surface) {
-            let error = stated_or_measured(stated, start, along);
+            let error = stated_or_measured(stated, start, &along);
             let search = ZeroSearch::before_zero(direction, 0.0, side, error);
             return Ok(Followed { guard, stated: stated.unwrap_or(0.0), search });
         }
@@ -78,7 +78,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             Some(side) if known.is_none() => ZeroSearch::on_side(direction, 0.0, side),
             // A touch that it has had is no further one.
             Some(side) if known == Some(side) => {
-                let error = stated_or_measured(stated, start, along);
+                let error = stated_or_measured(stated, start, &along);
                 ZeroSearch::before_zero(direction, 0.0, side, error)
             }
             Some(side)
@@ -89,10 +89,11 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             _ => {
                 // An exact zero has no error of its own, but the states of the step have.
                 let error = match value == 0.0 {
-                    true => rounding_around(start, along),
-                    false => stated_or_measured(stated, start, along),
+                    true => rounding_around(start, &along),
+                    false => stated_or_measured(stated, start, &along),
                 };
-                let side = known.or_else(|| guard_rate(start, rate, error, along).map(f64::signum));
+                let side =
+                    known.or_else(|| guard_rate(start, rate, error, &along).map(f64::signum));
                 // Until then the signs of the steps are noise.
                 let hidden = self.request.hidden(surface);
                 ZeroSearch::leaving(direction, (hidden, value), error, side)
@@ -204,7 +205,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             let size = step.rounding_size();
             let middle = left + 0.5 * (right - left);
             let mut roundings = [left, middle, right]
-                .map(|time| stated + rounding_of_state(&step.state(time), &size, value));
+                .map(|time| stated + rounding_of_state(&step.state(time), &size, &value));
             roundings.sort_by(f64::total_cmp);
             roundings[1]
         };
@@ -224,8 +225,8 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         let value = |state: &T::State| self.system.guard_value(surface, state);
         let stated = self.system.guard_error(surface, &on_step.state(time));
         let [before, behind] = on_step.beside(time);
-        let own = rounding_beside_zero(stated, [&before, &behind], value);
-        let rounding = |state: &T::State| own + rounding_of_state(state, state, value);
+        let own = rounding_beside_zero(stated, [&before, &behind], &value);
+        let rounding = |state: &T::State| own + rounding_of_state(state, state, &value);
         let time_rounding = on_step.time_rounding((time, hidden), value, rounding);
         let time_error = on_step.time_error((time, time_rounding), value, accuracy);
         Crossing {
@@ -253,8 +254,8 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         let state = integration.state();
         let value = |state: &T::State| self.system.guard_value(surface, state);
         let stated = self.system.guard_error(surface, &state);
-        let rounding = stated_or_measured(stated, &state, value);
-        let rate = guard_rate(&state, &integration.slope(), rounding, value);
+        let rounding = stated_or_measured(stated, &state, &value);
+        let rate = guard_rate(&state, &integration.slope(), rounding, &value);
         rate.is_some_and(|rate| rate * side < 0.0)
     }
 

@@ -59,7 +59,7 @@ impl<V: StateVector> Accuracy<'_, V> {
     /// changes by its tolerance on every step. Growth or decay of these errors along the flow is not known here.
     pub(super) fn guard_error(&self, state: &V, guard: impl Fn(&V) -> f64) -> f64 {
         let unit = |axis: usize| self.tolerances.of(axis, self.sizes.components()[axis]);
-        change_by_components(state, |axis| self.steps as f64 * unit(axis), guard)
+        change_by_components(state, |axis| self.steps as f64 * unit(axis), &guard)
     }
 }
 
@@ -111,7 +111,7 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
             let left = (until - reach).max(from);
             let at_left = along(left);
             if at_left * side > 0.0 {
-                return Ok(Some(root_beyond(along, (left, at_left), (until, at_until))?));
+                return Ok(Some(root_beyond(&along, (left, at_left), (until, at_until))?));
             }
         }
         Ok(None)
@@ -134,7 +134,7 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
             let (before, after) = (along(left), along(right));
             if before.signum() != after.signum() {
                 // The first double at which the guard is zero, or has its new sign.
-                return Ok(Some(root_beyond(along, (left, before), (right, after))?));
+                return Ok(Some(root_beyond(&along, (left, before), (right, after))?));
             }
         }
         Ok(None)

@@ -154,7 +154,7 @@ fn is_on_surface<T: HybridSystem>(
 /// The rounding error of a guard, from its state and from its own arithmetic.
 pub(super) fn rounding<T: HybridSystem>(system: &T, surface: T::Surface, state: &T::State) -> f64 {
     let guard = |state: &T::State| system.guard_value(surface, state);
-    stated_or_measured(system.guard_error(surface, state), state, guard)
+    stated_or_measured(system.guard_error(surface, state), state, &guard)
 }
 
 /// The factor c of ∇g = c ∇h for the guards g of `surface` and h of `other`, if the two are the same surface near

@@ -46,7 +46,7 @@ const RELATIVE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 ///
 /// A direction of zeros gives exactly 0. A function or direction that is not finite gives NaN.
 pub(crate) fn slope_along<X: StateVector>(
-    function: impl Fn(&X) -> f64,
+    function: &dyn Fn(&X) -> f64,
     state: &X,
     direction: &X,
     rounding: f64,
@@ -101,7 +101,12 @@ mod tests {
     #[test]
     fn a_linear_function_has_its_own_slope_within_the_error() {
         let at = Vector2::new(0.3, -7.0);
-        let slope = slope_along(|x| 3.0 * x[0] - x[1] + 6.0, &at, &Vector2::new(2.0, 0.5), 0.0);
+        let slope = slope_along(
+            &|x: &Vector2<f64>| 3.0 * x[0] - x[1] + 6.0,
+            &at,
+            &Vector2::new(2.0, 0.5),
+            0.0,
+        );
         assert!((slope.value - 5.5).abs() <= slope.error);
         assert!(slope.error < 1e-11, "{slope:?}");
     }
@@ -110,7 +115,7 @@ mod tests {
     fn a_curved_function_has_thirteen_digits() {
         let at = Vector2::new(0.3, -7.0);
         let value = |x: &Vector2<f64>| pxfm::f_sin(x[0]) * x[1] + x[1] * x[1];
-        let slope = slope_along(value, &at, &Vector2::new(2.0, 0.5), 0.0);
+        let slope = slope_along(&value, &at, &Vector2::new(2.0, 0.5), 0.0);
         let exact = 2.0 * pxfm::f_cos(0.3) * -7.0 + 0.5 * (pxfm::f_sin(0.3) - 14.0);
         assert!((slope.value - exact).abs() < 1e-12, "{slope:?} {exact}");
         assert!((slope.value - exact).abs() <= slope.error, "{slope:?} {exact}");
@@ -120,7 +125,12 @@ mod tests {
     #[test]
     fn a_function_that_bends_over_short_distances_is_resolved() {
         let at = Vector2::new(0.3, 1.0);
-        let slope = slope_along(|x| pxfm::f_sin(1000.0 * x[0]), &at, &Vector2::new(1.0, 0.0), 0.0);
+        let slope = slope_along(
+            &|x: &Vector2<f64>| pxfm::f_sin(1000.0 * x[0]),
+            &at,
+            &Vector2::new(1.0, 0.0),
+            0.0,
+        );
         let exact = 1000.0 * pxfm::f_cos(300.0);
         assert!((slope.value / exact - 1.0).abs() < 1e-9, "{slope:?} {exact}");
         assert!((slope.value - exact).abs() <= slope.error, "{slope:?} {exact}");
@@ -130,7 +140,7 @@ mod tests {
     #[test]
     fn a_function_that_ends_nearby_still_has_a_slope() {
         let at = Vector2::new(1e-3, 1.0);
-        let slope = slope_along(|x| x[0].sqrt(), &at, &Vector2::new(1.0, 0.0), 0.0);
+        let slope = slope_along(&|x: &Vector2<f64>| x[0].sqrt(), &at, &Vector2::new(1.0, 0.0), 0.0);
         let exact = 0.5 / 1e-3f64.sqrt();
         assert!((slope.value / exact - 1.0).abs() < 1e-9, "{slope:?} {exact}");
     }
@@ -138,13 +148,13 @@ mod tests {
     #[test]
     fn zero_directions_and_values_that_are_no_numbers() {
         let at = Vector2::new(1.0, 1.0);
-        let zero = slope_along(|x| x[0], &at, &Vector2::zeros(), 0.0);
+        let zero = slope_along(&|x: &Vector2<f64>| x[0], &at, &Vector2::zeros(), 0.0);
         assert_eq!(zero, Estimate { value: 0.0, error: 0.0 });
         assert_eq!(zero.sign(), None);
         for (function, direction) in
             [(f64::NAN, Vector2::new(1.0, 0.0)), (1.0, Vector2::new(f64::NAN, 1.0))]
         {
-            let slope = slope_along(|x| function * x[0], &at, &direction, 0.0);
+            let slope = slope_along(&|x: &Vector2<f64>| function * x[0], &at, &direction, 0.0);
             assert!(slope.value.is_nan() && slope.sign().is_none() && !slope.is_hidden());
         }
     }
@@ -154,7 +164,7 @@ mod tests {
     fn a_kink_has_an_error_as_large_as_the_slope() {
         let at = Vector2::new(0.0, 1.0);
         let ramp = |x: &Vector2<f64>| if x[0] > 0.0 { x[0] } else { 0.0 };
-        let slope = slope_along(ramp, &at, &Vector2::new(1.0, 0.0), 0.0);
+        let slope = slope_along(&ramp, &at, &Vector2::new(1.0, 0.0), 0.0);
         assert!((slope.value - 0.5).abs() < 1e-12);
     }
 }

@@ -159,7 +159,7 @@ impl<T: HybridSystem> Filippov<T> {
             }
             None => {
                 let guard = |state: &T::State| self.system.guard_value(surface, state);
-                slope_along(guard, state, field, self.rounding(surface, state)).value
+                slope_along(&guard, state, field, self.rounding(surface, state)).value
             }
         }
     }
@@ -206,7 +206,7 @@ impl<T: HybridSystem> Filippov<T> {
             let component = state.components()[axis].abs();
             multiple * self.tolerances.of(axis, component) / f64::EPSILON
         });
-        guard_rounding(state, &size, |state| self.system.guard_value(surface, state))
+        guard_rounding(state, &size, &|state| self.system.guard_value(surface, state))
     }
 
     /// The point of the surface next to `state` along f⁺ − f⁻, as far as the rounding of the guard allows.

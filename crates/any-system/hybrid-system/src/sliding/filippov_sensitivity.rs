@@ -31,7 +31,7 @@ where
     fn curvature_along(&self, surface: T::Surface, state: &State<N>, field: &State<N>) -> State<N> {
         State::from_fn(|axis, _| {
             let component = |state: &State<N>| self.system.guard_gradient(surface, state)[axis];
-            slope_along(component, state, field, 0.0).value
+            slope_along(&component, state, field, 0.0).value
         })
     }
 

@@ -63,8 +63,8 @@ fn by_quasi_polynomial<T: HybridSystem>(
         error: error + 2.0 * f64::EPSILON * value.abs(),
     };
     Some(GuardRates {
-        first: estimate(first.value(0.0), guard_rounding(state, state, value)),
-        second: Some(estimate(first.derivative().value(0.0), guard_rounding(state, state, bend))),
+        first: estimate(first.value(0.0), guard_rounding(state, state, &value)),
+        second: Some(estimate(first.derivative().value(0.0), guard_rounding(state, state, &bend))),
     })
 }
 
@@ -90,15 +90,15 @@ fn by_field<T: HybridSystem>(
 ) -> Option<GuardRates> {
     let field = system.vector_field(mode, state)?;
     let guard = |state: &T::State| system.guard_value(surface, state);
-    let rounding = stated_or_measured(system.guard_error(surface, state), state, guard);
+    let rounding = stated_or_measured(system.guard_error(surface, state), state, &guard);
     // L_f g(x) = ∇g·f, at any state.
     let rate = |state: &T::State| {
         let field = system.vector_field(mode, state);
-        field.map_or(f64::NAN, |field| slope_along(guard, state, &field, rounding).value)
+        field.map_or(f64::NAN, |field| slope_along(&guard, state, &field, rounding).value)
     };
-    let mut first = slope_along(guard, state, &field, rounding);
-    first.error += guard_rounding(state, state, rate);
+    let mut first = slope_along(&guard, state, &field, rounding);
+    first.error += guard_rounding(state, state, &rate);
     // g̈ = L_f L_f g. The differences of the rate have the errors of the rate.
-    let second = slope_along(rate, state, &field, first.error);
+    let second = slope_along(&rate, state, &field, first.error);
     Some(GuardRates { first, second: Some(second) })
 }
