@@ -23,7 +23,7 @@ fn a_slow_passage_is_no_attractor() {
     let limits = RecurrenceLimits { escape: Some(10.0), ..RecurrenceLimits::default() };
     for cells in [10, 100, 999, 10_000] {
         let limits = RecurrenceLimits { cells, ..limits };
-        let mut points = starts(&line, 100);
+        let mut points = starts(&line, 25);
         points.extend([vec![1e-3], vec![1e-4], vec![-0.5], vec![-1e-3]]);
         let found = Attractors::search(&map, line.clone(), &points, limits).unwrap();
         assert!(found.attractors().is_empty(), "{cells}");

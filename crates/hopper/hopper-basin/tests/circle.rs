@@ -53,7 +53,7 @@ fn the_label_of_a_phase_is_the_fate_at_every_scale() {
         let fates = fates(mass_ratio);
         let circle = circle(&fates, n);
         for scale in [-1e-6, -1e-8, -1e-10] {
-            let points = turn(circle.coordinate(), n, scale, 1000);
+            let points = turn(circle.coordinate(), n, scale, 300);
             let speeds: Vec<f64> = points.iter().map(|(speed, _)| *speed).collect();
             let mut unknown = 0;
             for ((speed, phase), label) in points.iter().zip(fates.labels(&speeds).unwrap()) {

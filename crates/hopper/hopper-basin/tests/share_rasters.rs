@@ -34,8 +34,8 @@ fn a_hop_is_one_turn_on_all_of_the_domain() {
         let circle = circle(&fates, n);
         let map = LiftOffMap::new(fates.map().mass_ratio());
         let lowest = FixedPointSpeed::new(n).offset_of(circle.domain().0);
-        for k in 0..200 {
-            let delta = 0.999 * lowest * pxfm::f_exp10(-0.03 * f64::from(k));
+        for k in 0..60 {
+            let delta = 0.999 * lowest * pxfm::f_exp10(-0.1 * f64::from(k));
             let next = map.hop_near_fixed_point(n, delta).unwrap().next.unwrap();
             if next < lowest {
                 continue;

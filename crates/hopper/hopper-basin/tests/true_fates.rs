@@ -223,7 +223,7 @@ fn an_orbit_just_above_a_fixed_point_is_in_its_trap() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 16, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: if cfg!(debug_assertions) { 8 } else { 32 }, ..ProptestConfig::default() })]
 
     /// The image beyond the edge of the trap of α*_0 is grounded.
     #[test]

@@ -202,9 +202,11 @@ fn what_is_no_question_is_refused() {
 /// 839 wrong labels here.
 #[test]
 fn basins_as_intervals_have_no_wrong_label_at_any_mass_ratio() {
-    // Without optimization a quarter of the probes is compared.
-    let count = if cfg!(debug_assertions) { 5_000 } else { 20_000 };
-    for (m, undecided) in [(0.95, 0.5), (2.0, 2.0), (5.0, 5.0), (20.0, 8.0)] {
+    // Without optimization fewer probes are compared, and M = 20 is left out, which takes three quarters of the time.
+    let (count, ratios) = if cfg!(debug_assertions) { (5_000, 3) } else { (20_000, 4) };
+    for (m, undecided) in
+        [(0.95, 0.5), (2.0, 2.0), (5.0, 5.0), (20.0, 8.0)].into_iter().take(ratios)
+    {
         let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
         let refinement = Refinement { undecided, ..Refinement::default() };
         let found = basins_at_every_mass_ratio(&fates, 1, 6, 400, refinement).unwrap();

@@ -6,7 +6,7 @@ use super::common::call;
 use basin_of_attraction::SplitMix64;
 use std::panic::catch_unwind;
 
-/// Random calls. Without optimization these are a third.
+/// Random calls. Without optimization these are fewer.
 const CALLS: u32 = if cfg!(debug_assertions) { 400 } else { 3000 };
 
 /// Words that calls are made of: names, options, values, and what is none.
