@@ -48,6 +48,14 @@ pub enum Error {
         /// The reason.
         reason: String,
     },
+    /// The texts of a figure do not fit it.
+    #[error("texts.md: the figure {name} {what}")]
+    Text {
+        /// The figure.
+        name: &'static str,
+        /// What is wrong.
+        what: String,
+    },
     /// A name that does not exist.
     #[error("there is no {kind} '{name}'; there are: {known}")]
     UnknownName {

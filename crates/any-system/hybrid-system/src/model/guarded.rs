@@ -25,9 +25,6 @@ where
     fn value(&self, surface: S, state: &X) -> Option<f64> {
         (surface == self.surface).then(|| (self.guard)(state))
     }
-    fn other_value(&self, surface: S, state: &X, value: f64) -> Option<f64> {
-        other(self.value(surface, state), value)
-    }
     #[inline]
     fn reset(&self, mode: M, surface: S, before: &X) -> Option<Reset<M, X>> {
         (surface == self.surface && mode == self.mode).then(|| (self.reset)(before).reset())
@@ -53,9 +50,6 @@ where
     fn value(&self, surface: S, state: &X) -> Option<f64> {
         (surface == self.surface).then(|| (self.guard)(state))
     }
-    fn other_value(&self, surface: S, state: &X, value: f64) -> Option<f64> {
-        other(ModelPart::<M, S, X>::value(self, surface, state), value)
-    }
     #[inline]
     fn reset(&self, mode: M, surface: S, before: &X) -> Option<Reset<M, X>> {
         (surface == self.surface).then(|| (self.reset)(mode, before).reset())
@@ -80,9 +74,6 @@ where
     fn value(&self, surface: S, state: &X) -> Option<f64> {
         (surface == self.surface).then(|| (self.guard)(state))
     }
-    fn other_value(&self, surface: S, state: &X, value: f64) -> Option<f64> {
-        other(self.value(surface, state), value)
-    }
     #[inline]
     fn reset(&self, mode: M, surface: S, _: &X) -> Option<Reset<M, X>> {
         (surface == self.surface && mode == self.mode).then_some(Reset::Stop)
@@ -105,9 +96,6 @@ where
     #[inline]
     fn value(&self, surface: S, state: &X) -> Option<f64> {
         (surface == self.surface).then(|| (self.guard)(state))
-    }
-    fn other_value(&self, surface: S, state: &X, value: f64) -> Option<f64> {
-        other(ModelPart::<M, S, X>::value(self, surface, state), value)
     }
     #[inline]
     fn reset(&self, mode: M, surface: S, before: &X) -> Option<Reset<M, X>> {
@@ -144,9 +132,4 @@ where
     fn reset(&self, mode: M, surface: S, before: &X) -> Option<Reset<M, X>> {
         self.ticks(mode, surface).then(|| (self.reset)(mode, before).reset())
     }
-}
-
-/// `own` if it is another number than `value`. Two NaN count as equal: the search reports them.
-fn other(own: Option<f64>, value: f64) -> Option<f64> {
-    own.filter(|own| *own != value && !(own.is_nan() && value.is_nan()))
 }

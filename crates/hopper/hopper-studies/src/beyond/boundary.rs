@@ -103,28 +103,12 @@ pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
     );
     generations_against_law(&mut svg, &generations)?;
     Ok(Finding {
-        figure: Figure {
-            name: "beyond_boundary",
-            title: "The boundary is countable; it is no Cantor set, and its box count tends to dimension 1/4".into(),
-            paper: "The basin is a Cantor-like set, nested and finer at every scale.".into(),
-            notes: "Parts of the basins at $M$ = 0.2 with their ends to an ulp, preimages followed down to parts of \
-                    10^{−13}; of each gap that is left both ends count. (a) Boxes that hold a \
-                    boundary point: at the scales of a plot the local slopes lie anywhere between 0 and 0.5; \
-                    below they come together and approach 1/4, hump by hump, as those of a single \
-                    accumulation does (for that 1/4 is proved; for the whole, with its accumulations of \
-                    accumulations, it holds with powers of ln 1/$ε$ beside it, which the count down to 10^{−100} \
-                    shows). \
-                    (b) The generations left of $α$^{∗}_{2}: the $k$-th lies at \
-                    $δ$_{k} → (3/(10$λk$))^{3}. **Why**: $f$($α$) ≤ $α$, with equality at the fixed points \
-                    only, so that no orbit returns. A point whose orbit enters a trap is an inner point of \
-                    its basin; the boundary is what is mapped onto fixed points, and the edges of grounding, \
-                    after some number of hops: finitely many for each number, countably many in all. Such a \
-                    closed set has no part that is a Cantor set. It accumulates at $α$^{∗}_{n} from the left \
-                    along $k$^{−3}, a set of box dimension 1/4, and at the preimages of that."
-                .replace("**", ""),
+        figure: Figure::new(
+            "beyond_boundary",
             svg,
-            data: vec![csv_file("boundary.csv", &["hump", "box_size", "boxes", "local_slope"], data)?],
-        },
+            vec![csv_file("boundary.csv", &["hump", "box_size", "boxes", "local_slope"], data)?],
+            &[],
+        )?,
         table,
     })
 }
@@ -296,23 +280,12 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
     }
     let data = exact.iter().map(|&(epsilon, fraction)| [epsilon, fraction]);
     Ok(Finding {
-        figure: Figure {
-            name: "beyond_uncertainty",
-            title: "The uncertainty exponent drifts to 3/4".into(),
-            paper: "Fine structure at every scale makes the final state unpredictable.".into(),
-            notes: format!(
-                "On [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{4}}] at $M$ = 0.2. At the scales of a plot an error ten times \
-                 smaller leaves some 0.3 times as many starts uncertain, an exponent of about a half, which \
-                 looks like a fractal boundary of dimension one half. The local exponents in the table rise past \
-                 3/4 and come back to it slowly, as the box counts approach 1/4 from below. A fit over the \
-                 coarse scales alone would have been a mistake. Pairs change their fate less often than starts \
-                 lie near the boundary, by half at $ε$ = 10^{{−2}} and by a quarter below 10^{{−5}}: thin pieces \
-                 between them go unseen. The fractions from intervals are known to {:.0e} of themselves.",
-                widest
-            ),
+        figure: Figure::new(
+            "beyond_uncertainty",
             svg,
-            data: vec![csv_file("uncertainty.csv", &["epsilon", "fraction"], data)?],
-        },
+            vec![csv_file("uncertainty.csv", &["epsilon", "fraction"], data)?],
+            &[("widest", format!("{widest:.0e}"))],
+        )?,
         table,
     })
 }

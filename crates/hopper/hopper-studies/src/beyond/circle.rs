@@ -80,21 +80,12 @@ pub(super) fn circle(_: &Job) -> Result<Finding, Error> {
         table.row([format!("{n}"), format!("{m}")].into_iter().chain(shares));
     }
     Ok(Finding {
-        figure: Figure {
-            name: "beyond_circle",
-            title: "The circle of fates: all that is seen left of a fixed point, at every scale".into(),
-            paper: "Self-similar at every scale.".into(),
-            notes: "Left of $α$^{∗}_{n} the fate depends on one phase, $Ψ$ mod 1, the number of hops to escape, counted \
-                    continuously. Above: the circle over the mass ratio; each pixel has the colours of all phases that it \
-                    covers, mixed as light. Below: the local fractions $p$_{n,k}, the share of each basin in \
-                    ($α$^{∗}_{n} − $ε$, $α$^{∗}_{n}) as $ε$ → 0; the decaying share is black. A circle of one colour has no \
-                    structure at any scale: that of $α$^{∗}_{1} up to the first grounding, $M$ = 0.3275, and that of \
-                    $α$^{∗}_{n} up to the crisis $M$_{c}($n$ − 1). Bands that are steeper than a pixel is wide look dotted: the \
-                    circle of a column is that of its middle."
-                .into(),
+        figure: Figure::new(
+            "beyond_circle",
             svg,
-            data: vec![csv_file("circle.csv", &["n", "mass_ratio", "label", "share"], data)?],
-        },
+            vec![csv_file("circle.csv", &["n", "mass_ratio", "label", "share"], data)?],
+            &[],
+        )?,
         table,
     })
 }
@@ -226,20 +217,12 @@ pub(super) fn openings(job: &Job) -> Result<Finding, Error> {
     );
     let header = ["n", "distance", "share", "lower", "upper"];
     Ok(Finding {
-        figure: Figure {
-            name: "beyond_openings",
-            title: "At a crisis the local fractions open like a square root".into(),
-            paper: "The fraction of incessant hopping falls rapidly.".into(),
-            notes: "Up to $M$_{0} all speeds left of $α$^{∗}_{n} have one fate: they decay for $n$ = 1, and hop to \
-                    $α$^{∗}_{n−1} for $n$ = 2 and 3. At $M$_{0} a minimum of the map touches the edge of this basin, at one \
-                    phase of the circle, and above it passes the edge by a length proportional to $M$ − $M$_{0}. Speeds next \
-                    to a quadratic minimum pass it on an interval of the length of a square root. So the other fates have \
-                    the share $C$√($M$ − $M$_{0}) (1 + …), continuous, with an infinite slope. The dashed lines are $C$√($M$ − \
-                    $M$_{0}), with $C$ from the shares at 3·10^{−8} and 3·10^{−7}."
-                .into(),
+        figure: Figure::new(
+            "beyond_openings",
             svg,
-            data: vec![csv_file("openings.csv", &header, data)?],
-        },
+            vec![csv_file("openings.csv", &header, data)?],
+            &[],
+        )?,
         table,
     })
 }

@@ -99,25 +99,16 @@ pub(super) fn count(_: &Job) -> Result<Finding, Error> {
         |decades: f64| found(&counts[1], decades).map(|n| n * pxfm::f_exp10(-0.25 * decades));
     let slope = (deep(100.0)? - deep(60.0)?) / (40.0 * LN_10);
     Ok(Finding {
-        figure: Figure {
-            name: "beyond_count",
-            title: "The number of boundary points against scale has its logarithm".into(),
-            paper: "Nested and finer at every scale.".into(),
-            notes: format!(
-                "$M$ = 0.2. The gaps between neighbouring boundary points left of $α$^{{∗}}_{{n}} that are longer than $ε$, \
-                 counted from their lengths on the circle of fates, in all its turns: no sampling, and no difference in cost \
-                 between 10^{{−4}} and 10^{{−100}}. (b) Left of $α$^{{∗}}_{{2}} the number is {:.4} $ε$^{{−1/4}}: its circle has two \
-                 points and no limit point. Left of $α$^{{∗}}_{{3}} two points of the circle are preimages of \
-                 $α$^{{∗}}_{{2}}, each with all its scales beside it, and the number is {:.5} $ε$^{{−1/4}} ln 1/$ε$ to leading \
-                 order. The counts between 10^{{−60}} and 10^{{−100}} rise with the slope {slope:.5}. So each level of the \
-                 tower gives one factor ln 1/$ε$ (docs/theory.md, Theorem 89; dashed, for $n$ = 3 drawn through the last \
-                 count).",
-                0.75 * two,
-                0.75 * three
-            ),
+        figure: Figure::new(
+            "beyond_count",
             svg,
-            data: vec![data],
-        },
+            vec![data],
+            &[
+                ("two", format!("{:.4}", 0.75 * two)),
+                ("three", format!("{:.5}", 0.75 * three)),
+                ("slope", format!("{slope:.5}")),
+            ],
+        )?,
         table,
     })
 }

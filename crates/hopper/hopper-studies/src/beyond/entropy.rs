@@ -58,24 +58,16 @@ pub(super) fn entropy_of_basins(job: &Job) -> Result<Finding, Error> {
         ]);
     }
     Ok(Finding {
-        figure: Figure {
-            name: "beyond_entropy",
-            title: "Basin entropy against the mass ratio".into(),
-            paper: "No measure of the mixing of basins is given.".into(),
-            notes: "500 boxes on the five humps of [$α$^{∗}_{1}, $α$^{∗}_{6}], 100 random starts in each, natural \
-                    logarithms; all fates count, decaying and grounded too. From 100 starts an entropy comes out low by \
-                    about (fates − 1)/200 a mixed box, and a box is mixed only if a start shows it. Grounding, possible from $M$ = 0.3275 \
-                    to the inverse of that, lifts both. The boundary entropy stays under ln 2 but at some \
-                    large $M$; above it, elsewhere, is taken for a proof of a fractal boundary: at a fixed size \
-                    of boxes it is none, since this boundary is countable."
-                .into(),
+        figure: Figure::new(
+            "beyond_entropy",
             svg,
-            data: vec![csv_file(
+            vec![csv_file(
                 "entropy.csv",
                 &["mass_ratio", "basin_entropy", "boundary_entropy", "mixed_boxes"],
                 scan,
             )?],
-        },
+            &[],
+        )?,
         table,
     })
 }

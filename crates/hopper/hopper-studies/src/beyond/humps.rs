@@ -79,19 +79,16 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
             .map(move |(fraction, m)| [n as f64, m as f64, fraction.0, fraction.1])
     });
     Ok(Finding {
-        figure: Figure {
-            name: "beyond_humps",
-            title: "Nested basins: every hump holds copies of the basins below, $M$ = 0.2".into(),
-            paper: "The structure repeats and becomes finer upwards (Fig. 6); basins are nested.".into(),
-            notes: "Fraction of each hump ($α$^{∗}_{n}, $α$^{∗}_{n+1}) that goes to $α$^{∗}_{m}, by intervals; bars up to \
-                    what it would be with all that is undecided. From its second hump on the basin of one fixed \
-                    point takes a fraction of every hump above that changes slowly: they fall through the humps \
-                    below in similar ways. The fraction of a hump's own fixed point falls with its trap, like \
-                    $n$^{−3}."
-                .into(),
+        figure: Figure::new(
+            "beyond_humps",
             svg,
-            data: vec![csv_file("humps.csv", &["hump", "fixed_point", "fraction_lower", "fraction_upper"], data)?],
-        },
+            vec![csv_file(
+                "humps.csv",
+                &["hump", "fixed_point", "fraction_lower", "fraction_upper"],
+                data,
+            )?],
+            &[],
+        )?,
         table,
     })
 }

@@ -88,22 +88,16 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         "fraction of uncertain starts",
     );
     Ok(Finding {
-        figure: Figure {
-            name: "beyond_large_speeds",
-            title: "Final-state uncertainty at large speeds; the basins are not riddled, $M$ = 0.2".into(),
-            paper: "Whether the basins are riddled is left open.".into(),
-            notes: "20 000 random starts on a hump (2 000 from hump 1000 on), their fate against that of starts ± $ε$ \
-                    away, 95 % intervals. From hump 100 on an error of 10^{−8} leaves as many starts uncertain \
-                    as any other would: as many as if fates were drawn by lot. The fates there are those of orbits \
-                    rounded to an ulp of $α$, 10^{−13} to 10^{−12}, at every hop, and not of the exact start: \
-                    the final state cannot be predicted from it in f64. Yet no basin is riddled: a point whose orbit \
-                    enters the inside of a trap has a neighbourhood that does too, since the map is piecewise \
-                    continuous and fates are continuous across its jumps. Every basin is a union of intervals, \
-                    and the curves must fall where $ε$ is smaller than most of them."
-                .into(),
+        figure: Figure::new(
+            "beyond_large_speeds",
             svg,
-            data: vec![csv_file("large_speeds.csv", &["hump", "epsilon", "fraction", "lower", "upper"], data)?],
-        },
+            vec![csv_file(
+                "large_speeds.csv",
+                &["hump", "epsilon", "fraction", "lower", "upper"],
+                data,
+            )?],
+            &[],
+        )?,
         table,
     })
 }

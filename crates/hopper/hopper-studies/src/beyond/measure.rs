@@ -132,34 +132,19 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
     let causes: Vec<String> =
         all.jumps().zip(&falls).map(|(step, fall)| cause(step, fall)).collect();
     Ok(Finding {
-        figure: Figure {
-            name: "beyond_measure",
-            title: "Measure of the basins against the mass ratio".into(),
-            paper: "Measures at $M$ = 0.1 (1, and 0.953 for the first basin) and $M$ = 0.2 (0.037), by \
-                    50 000 points each, without errors; “falls rapidly with $M$”."
-                .into(),
-            notes: format!(
-                "Basin fractions of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}], humps weighted equally as in the paper; \
-                 where the branches of the map are proved ($M$ ≤ 0.83 and more) by intervals down to 10^{{−7}}, with bounds up \
-                 to rounding; beyond, by one random point in each of {} equal parts, with 95 % intervals. {} mass ratios: \
-                 steps are halved until neighbours differ by at most 30 % or 0.005. {} steps remain larger, {} of them of \
-                 2·10^{{−4}} of $M$ at most. There a fraction rises with a vertical tangent, since an orbit from a minimum of the map falls \
-                 onto a fixed point: {}. Ticks at the top: the crises of \
-                 the humps 1 to 5, the onsets of grounding, and their inverses. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = {touch:.5}: \
-                 there it falls through its fixed point. Between it and its inverse the measure falls and \
-                 rises by a factor of 300, with spikes where whole parts of a hump fall into the trap of \
-                 $α$^{{∗}}_{{1}} at once (at $M$ = 0.1705, three times its neighbours). At 1/$M$_{{c}}(1) nearly all \
-                 of it is back; what is missing beyond, a thousandth and less, falls through needles in the \
-                 sudden windows.",
-                FractionLimits::default().points,
-                all.points().len(),
-                all.unresolved().len(),
-                causes.len(),
-                causes.join("; "),
-            ),
+        figure: Figure::new(
+            "beyond_measure",
             svg,
-            data: vec![data, steep],
-        },
+            vec![data, steep],
+            &[
+                ("points", FractionLimits::default().points.to_string()),
+                ("ratios", all.points().len().to_string()),
+                ("larger", all.unresolved().len().to_string()),
+                ("explained", causes.len().to_string()),
+                ("causes", causes.join("; ")),
+                ("touch", format!("{touch:.5}")),
+            ],
+        )?,
         table: three_ways()?,
     })
 }
@@ -284,21 +269,5 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
         fraction_header("mass_ratio", &["incessant", "incessant_at_inverse", "fates_differ"]);
     let rows = ratios.iter().zip(&scan).map(|(&m, row)| fraction_row(m, row));
     let data = csv_file("asymmetry.csv", &header, rows)?;
-    Ok(Finding {
-        figure: Figure {
-            name: "beyond_asymmetry",
-            title: "The basins at $M$ and at 1/$M$ differ, although the traps are the same".into(),
-            paper: "The dynamics is invariant under $M$ → 1/$M$, outside the windows of sudden \
-                    lift-off."
-                .into(),
-            notes: "The intervals of attraction are the same at $M$ and 1/$M$; the basins are not, since \
-                    orbits pass the sudden windows ($nπ$, $α$^{∗}_{n}), where the map is not invariant. \
-                    The measure at 1/$M$ is up to three times that at $M$, or down to half of it. For $M$ > 1/3 up to \
-                    half of all starts have another fate: mostly it is decaying against grounded."
-                .into(),
-            svg,
-            data: vec![data],
-        },
-        table,
-    })
+    Ok(Finding { figure: Figure::new("beyond_asymmetry", svg, vec![data], &[])?, table })
 }

@@ -82,20 +82,12 @@ pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
         "$M$ from which no fall is found",
     );
     Ok(Finding {
-        figure: Figure {
-            name: "beyond_needles",
-            title: "From which $M$ on does a hump belong to its fixed point? It depends on the width looked at".into(),
-            paper: "Towards $M$ = 10 the structure resembles that of small $M$.".into(),
-            notes: "For $M$ ≳ 10 orbits fall through hump $n$ only in needles inside its sudden window, where a \
-                    chain of sudden lift-offs follows a repelling motion (a canard). They narrow fast with \
-                    $M$, to 10^{−8} at 20 and 10^{−46} at 100, without ever vanishing where they exist: so an \
-                    edge there is certain only down to a stated width. Scanned at that spacing, at 32 mass ratios \
-                    up to 400 and then by halving; a point on its dashed line, which is what the contact part \
-                    alone would say, means that no fall was found in the window."
-                .into(),
+        figure: Figure::new(
+            "beyond_needles",
             svg,
-            data: vec![csv_file("needles.csv", &["hump", "width", "fall_at", "none_at"], data)?],
-        },
+            vec![csv_file("needles.csv", &["hump", "width", "fall_at", "none_at"], data)?],
+            &[],
+        )?,
         table,
     })
 }

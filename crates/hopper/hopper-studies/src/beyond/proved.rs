@@ -29,20 +29,12 @@ pub(super) fn proved_basins(job: &Job) -> Result<Finding, Error> {
     let rows = areas.iter().map(|(label, share)| [f64::from(label.code()), share.low, share.high]);
     let data = vec![csv_file("proved.csv", &["label", "area_lower", "area_upper"], rows)?];
     Ok(Finding {
-        figure: Figure {
-            name: "beyond_proved",
-            title: "The basins, proved: every cell with all its mass ratios and all its speeds"
-                .into(),
-            paper: "The basins are computed on a grid of points (Fig. 6).".into(),
-            notes: format!(
-                "Each of {SIDE}² cells is a range of mass ratios and a range of speeds. Its colour mixes those of the basins by the shares of \
-                 the cell that are proved, by intervals rounded outwards (docs/theorems.md). Yellow is what is open, {:.1} % of the area: \
-                 boundaries that move with $M$ within a cell.",
-                100.0 * found.open_area()
-            ),
+        figure: Figure::new(
+            "beyond_proved",
             svg,
             data,
-        },
+            &[("side", SIDE.to_string()), ("open", format!("{:.1}", 100.0 * found.open_area()))],
+        )?,
         table,
     })
 }

@@ -96,19 +96,16 @@ pub(super) fn resilience(_: &Job) -> Result<Finding, Error> {
         );
     }
     Ok(Finding {
-        figure: Figure {
-            name: "beyond_resilience",
-            title: "Resilience: how close the speeds of a basin are to its boundary".into(),
-            paper: "Measures of the basins, whatever their shape.".into(),
-            notes: "The part of the basin within $ε$ of its boundary, for speeds up to $α$^{∗}_{6}, from basins as \
-                    intervals (ends to an ulp, branches of the map proved): the probability that some shock of size $ε$ takes \
-                    a speed out of the basin. The lines are the middle between bounds, which the table gives. A fixed point itself is on the \
-                    boundary: any shock downwards is fatal. Upwards the fatal shock from $α$^{∗}_{n} is the length of \
-                    its trap above the crisis of hump $n$; at $M$ = 0.1 it reaches to the next fixed point for $n$ = 1."
-                .into(),
+        figure: Figure::new(
+            "beyond_resilience",
             svg,
-            data: vec![csv_file("resilience.csv", &["mass_ratio", "label", "distance", "fraction_lower", "fraction_upper"], data)?],
-        },
+            vec![csv_file(
+                "resilience.csv",
+                &["mass_ratio", "label", "distance", "fraction_lower", "fraction_upper"],
+                data,
+            )?],
+            &[],
+        )?,
         table,
     })
 }

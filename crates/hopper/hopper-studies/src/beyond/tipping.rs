@@ -154,24 +154,7 @@ pub(super) fn tipping_of_basins(job: &Job) -> Result<Finding, Error> {
         csv_file("tipping.csv", &fraction_header("mass_ratio", &["to_0.2", "to_1"]), changes)?,
         csv_file("drift.csv", &fraction_header("hops", &["1", "2", "3"]), drifting)?,
     ];
-    Ok(Finding {
-        figure: Figure {
-            name: "beyond_tipping",
-            title: "Tipping: the fate of a hopper whose mass ratio changes".into(),
-            paper: "The basins at $M$ = 0.1 and at $M$ = 0.2, each for itself.".into(),
-            notes: "The fixed points do not depend on $M$; their basins do. (a) A lift-off speed of [$α$^{∗}_{1}, $α$^{∗}_{6}], \
-                    equally likely anywhere in the basins of incessant hopping at $M$, is taken by a sudden change to 0.2 or to 1: \
-                    the probability that it still hops for ever. Both by intersecting basins as intervals, with bounds: the branches of \
-                    the map are proved at small mass ratios, and images are enclosed at large ones. (b) $M$ grows \
-                    from 0.1 to 0.2 in equal parts from hop to hop, and the orbit follows. With 1 hop the change is sudden. The \
-                    slower the drift, the more speeds come into the trap of $M$ = 0.2 before the trap has shrunk. By random speeds \
-                    with 95 % intervals; orbits of the drift are computed without error bounds."
-                .into(),
-            svg,
-            data,
-        },
-        table: table(&sudden)?,
-    })
+    Ok(Finding { figure: Figure::new("beyond_tipping", svg, data, &[])?, table: table(&sudden)? })
 }
 
 /// From each basin at 0.1 to each at 0.2, and from some mass ratios to 1.

@@ -96,22 +96,16 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
     frame.axes(&mut svg, &ticks(frame.x, 4), &decades(frame.y, 1), "level $k$", "length");
     let data = rows.iter().map(|row| [row.0 as f64, row.1 as f64, row.2, row.3]);
     Ok(Finding {
-        figure: Figure {
-            name: "beyond_tree",
-            title: "The preimage tree of $α$^{∗}_{1}, level by level, $M$ = 0.2".into(),
-            paper:
-                "The basin is the union of the interval of attraction and all its preimages; their \
-                    number grows without bound."
-                    .into(),
-            notes: format!(
-                "Points of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}] that enter the trap of $α$^{{∗}}_{{1}} after exactly $k$ \
-                 hops. The levels converge to the measured basin, {:.6} … {:.6}. On the first two humps the \
-                 number of intervals of a level grows {growth}.",
-                total.lower, total.upper
-            ),
+        figure: Figure::new(
+            "beyond_tree",
             svg,
-            data: vec![csv_file("tree.csv", &["level", "intervals", "length", "sum"], data)?],
-        },
+            vec![csv_file("tree.csv", &["level", "intervals", "length", "sum"], data)?],
+            &[
+                ("lower", format!("{:.6}", total.lower)),
+                ("upper", format!("{:.6}", total.upper)),
+                ("growth", growth.to_string()),
+            ],
+        )?,
         table,
     })
 }

@@ -11,11 +11,7 @@ use resumable_job::{Element, Order, npy_header};
 use std::ops::ControlFlow;
 
 /// Computes and draws a window.
-pub(super) fn basin_figure(
-    window: &BasinWindow,
-    progress: &Progress,
-    texts: (String, String, String),
-) -> Result<Figure, Error> {
+pub(super) fn basin_figure(window: &BasinWindow, progress: &Progress) -> Result<Figure, Error> {
     let (x, y) = (window.mass_ratio, window.alpha);
     let grid = Grid {
         x: Interval::new(x.0, x.1)?,
@@ -30,24 +26,11 @@ pub(super) fn basin_figure(
     })?;
     bar.finish();
     let svg = draw_basins(window, &image)?;
-    let (title, paper, notes) = texts;
-    Ok(Figure {
-        name: window.name,
-        title,
-        paper,
-        notes: format!(
-            "{notes} {PIXELS} × {PIXELS} pixels, each judged by its middle. {}",
-            basin_fractions(&image)
-        ),
-        svg,
-        data: vec![
-            DataFile { name: format!("{}.npy", window.name), bytes: npy(&image) },
-            DataFile {
-                name: format!("{}_labels.png", window.name),
-                bytes: label_png(window.name, &image)?,
-            },
-        ],
-    })
+    let pixels = DataFile { name: format!("{}.npy", window.name), bytes: npy(&image) };
+    let name = format!("{}_labels.png", window.name);
+    let labels = DataFile { name, bytes: label_png(window.name, &image)? };
+    let values = [("pixels", PIXELS.to_string()), ("fractions", basin_fractions(&image))];
+    Figure::new(window.name, svg, vec![pixels, labels], &values)
 }
 
 /// The fraction of every label, in words.
@@ -56,10 +39,7 @@ fn basin_fractions(image: &LabelImage) -> String {
     let fraction = |(label, count): (Label, usize)| {
         format!("{} {:.2} %", fate_colors::name(label), 100.0 * count as f64 / pixels)
     };
-    format!(
-        "Basin fractions: {}.",
-        image.counts().into_iter().map(fraction).collect::<Vec<_>>().join(", ")
-    )
+    image.counts().into_iter().map(fraction).collect::<Vec<_>>().join(", ")
 }
 
 /// The labels as a NumPy file; rows start from the lowest α.

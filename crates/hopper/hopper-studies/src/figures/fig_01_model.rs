@@ -36,19 +36,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     coordinates(&mut svg);
     svg.arrow((30.0, 35.0), (30.0, 70.0), INK);
     svg.text(22.0, 57.0, Anchor::End, 13.0, "$g$");
-    Ok(Figure {
-        name: "fig_01_model",
-        title: "The passive hopper and its phases".into(),
-        paper: "Two masses, one spring, vertical motion only: the relaxed state and free-body diagrams \
-                of flight, collision and contact."
-            .into(),
-        notes: "Drawn anew. Positions $x$_{1}, $x$_{2} count upwards from the relaxed state; the \
-                velocities are $v$_{1}, $v$_{2}. The \
-                contact ends when the spring's pull $kx$_{1} reaches the lower mass's weight."
-            .into(),
-        svg,
-        data: Vec::new(),
-    })
+    Figure::new("fig_01_model", svg, Vec::new(), &[])
 }
 
 /// x₁ and x₂, counted from the relaxed state upwards.

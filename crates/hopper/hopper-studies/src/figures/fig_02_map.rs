@@ -53,20 +53,10 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         "lift-off speed $α$_{n} (dimensionless)",
         "next lift-off speed $α$_{n+1} = $f$($α$_{n})",
     );
-    Ok(Figure {
-        name: "fig_02_map",
-        title: "The lift-off map for several mass ratios".into(),
-        paper:
-            "The one-dimensional map between gradual lift-offs is multimodal; curves differ in the \
-                mass ratio, and the fixed points, where $α$ = tan $α$, are common to all. Shown up to \
-                the fifth of them."
-                .into(),
-        notes: format!(
-            "The mass ratios of the paper's curves are illegible in our copy; chosen: $M$ = 0.05, 0.1, 0.2 and 1, \
-             up to $α$^{{∗}}_{{5}} = {top:.3}. At $M$ = 1 gaps open in which the hopper is grounded; \
-             between $nπ$ and $α$^{{∗}}_{{n}} the first landing is sudden."
-        ),
+    Figure::new(
+        "fig_02_map",
         svg,
-        data: vec![csv_file("fig_02_map.csv", &["mass_ratio", "alpha", "alpha_next"], rows)?],
-    })
+        vec![csv_file("fig_02_map.csv", &["mass_ratio", "alpha", "alpha_next"], rows)?],
+        &[("top", format!("{top:.3}"))],
+    )
 }

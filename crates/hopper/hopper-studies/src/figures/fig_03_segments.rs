@@ -118,22 +118,10 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     }
     svg.line_key((444.0, 420.0), UPPER, "upper mass, $y$_{1}");
     svg.line_key((582.0, 420.0), LOWER, "lower mass, $y$_{2}");
-    Ok(Figure {
-        name: "fig_03_segments",
-        title: "Four segments around the first fixed point, and the motion in each".into(),
-        paper:
-            "Around $α$^{∗}_{1} the map has a left leg $α$_{L}, where landings are followed by an immediate \
-                take-off, the local basin $α$_{S} of incessant hopping, the right leg $α$_{R} with a few \
-                hops before the hopper settles, and a gap $α$_{G} without any further hop."
-                .into(),
-        notes: format!(
-            "Mass ratio lost; $M$ = {M}, at which all four segments exist. The inset enlarges the peak. Red dots: the lift-off \
-             speeds whose motions are shown, {:.3}, {:.4}, {:.2} and {:.2}. Times in units of 1/$ω$, \
-             displacements of $m$_{{2}}$g$/$k$. Elsewhere on $α$_{{R}} hops may also die out without end (the decaying fate).",
-            segments[0].alpha, segments[1].alpha, segments[2].alpha, segments[3].alpha
-        ),
+    Figure::new(
+        "fig_03_segments",
         svg,
-        data: vec![
+        vec![
             csv_file(
                 "fig_03_map.csv",
                 &["alpha", "alpha_next"],
@@ -141,7 +129,14 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
             )?,
             csv_file("fig_03_motions.csv", &["alpha", "time", "upper", "lower"], rows)?,
         ],
-    })
+        &[
+            ("m", M.to_string()),
+            ("left", format!("{:.3}", segments[0].alpha)),
+            ("basin", format!("{:.4}", segments[1].alpha)),
+            ("right", format!("{:.2}", segments[2].alpha)),
+            ("gap", format!("{:.2}", segments[3].alpha)),
+        ],
+    )
 }
 
 /// The peak, enlarged: α_S is a hundredth wide, too narrow for the main frame.

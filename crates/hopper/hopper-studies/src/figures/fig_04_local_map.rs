@@ -64,16 +64,10 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         "$α$_{n} (dimensionless)",
         "$α$_{n+1} (dimensionless)",
     );
-    Ok(Figure {
-        name: "fig_04_local_map",
-        title: "Exact and approximate map near the first fixed point, $M$ = 1".into(),
-        paper: "The approximate map $α$^{∗}_{1} + $δ$ − $λδ$^{4/3} against the exact one at $M$ = 1.".into(),
-        notes: "Window of the paper, $α$ ∈ [4.490, 4.515]. The paper's curve follows from its printed \
-                $λ$; the corrected one, ¾ of it, is the one the exact map is tangent to at this order. \
-                On the left, which the paper does not give, the loss is ten times as steep. Sampled \
-                at 162 points."
-            .into(),
+    Figure::new(
+        "fig_04_local_map",
         svg,
-        data: vec![csv_file("fig_04_local_map.csv", &["alpha", "exact", "printed", "corrected"], rows)?],
-    })
+        vec![csv_file("fig_04_local_map.csv", &["alpha", "exact", "printed", "corrected"], rows)?],
+        &[],
+    )
 }

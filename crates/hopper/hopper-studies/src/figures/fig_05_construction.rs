@@ -83,27 +83,18 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let first = levels[1].intervals();
     let own = first.iter().filter(|i| i.right < alpha_star(2)).count();
     let next = first.iter().filter(|i| i.left > alpha_star(2) && i.right < alpha_star(3)).count();
-    Ok(Figure {
-        name: "fig_05_construction",
-        title: "The basin of $α$^{∗}_{1}, level by level".into(),
-        paper:
-            "(a) The local basin $A$ of the first fixed point, its preimages $A$_{1} and $A$_{2} on the next \
-                hump, their preimages, and so on; (b) the pieces level by level, which the paper \
-                says tend to a Cantor set."
-                .into(),
-        notes: format!(
-            "Not a sketch but the real map at $M$ = {M}. The trap has {next} preimages on hump 2 and {own} on \
-             its own hump ($A$_{{0}}, $A$_{{1}}, … from left to right). Blue: the preimages of these. Levels 0 to \
-             {DEPTH} have {} intervals in [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{4}}]; ends are located to \
-             one ulp. In a bounded window they do not tend to a Cantor set: $f$($α$) ≤ $α$ lets no orbit \
-             return, so the boundary is the countable set of all preimages of $α$^{{∗}}_{{1}} and \
-             of the grounding edges, accumulating only at fixed points from the left and at their \
-             preimages (box dimension 1/4).",
-            counts.join(", ")
-        ),
+    Figure::new(
+        "fig_05_construction",
         svg,
-        data: vec![csv_file("fig_05_levels.csv", &["level", "left", "right"], rows)?],
-    })
+        vec![csv_file("fig_05_levels.csv", &["level", "left", "right"], rows)?],
+        &[
+            ("m", M.to_string()),
+            ("next", next.to_string()),
+            ("own", own.to_string()),
+            ("depth", DEPTH.to_string()),
+            ("counts", counts.join(", ")),
+        ],
+    )
 }
 
 fn draw_map(svg: &mut Svg, frame: &Frame, map: &LiftOffMap, levels: &[IntervalSet]) {

@@ -21,15 +21,15 @@ const TOLERANCE: f64 = 0.1;
 
 /// Fig. 8 with the shares of its pixels.
 pub(super) fn figure_8(progress: &Progress) -> Result<Figure, Error> {
-    figure(&window_8("fig_08_basin_coverage"), "Fig. 8 with areas instead of points", progress)
+    figure(&window_8("fig_08_basin_coverage"), progress)
 }
 
 /// Fig. 9 with the shares of its pixels.
 pub(super) fn figure_9(progress: &Progress) -> Result<Figure, Error> {
-    figure(&window_9("fig_09_basin_coverage"), "Fig. 9 with areas instead of points", progress)
+    figure(&window_9("fig_09_basin_coverage"), progress)
 }
 
-fn figure(window: &BasinWindow, title: &str, progress: &Progress) -> Result<Figure, Error> {
+fn figure(window: &BasinWindow, progress: &Progress) -> Result<Figure, Error> {
     let (x, y) = (window.mass_ratio, window.alpha);
     let grid = Grid {
         x: Interval::new(x.0, x.1)?,
@@ -56,17 +56,7 @@ fn figure(window: &BasinWindow, title: &str, progress: &Progress) -> Result<Figu
         data.push(DataFile { name, bytes });
     }
     let decided: f64 = raster.means().iter().map(|(_, mean)| mean).sum();
-    Ok(Figure {
-        name: window.name,
-        title: title.into(),
-        paper: "The figure of the paper has the fate of one speed in each pixel.".into(),
-        notes: format!(
-            "{PIXELS} × {PIXELS} pixels. Each has the shares of all its speeds at the mass ratio of its column, by interval arithmetic, \
-             with its colours mixed as light: a needle thinner than a pixel is a faint line, and no row of dashes. {:.2} % of the area is \
-             undecided, in the pixels that boundaries cross.",
-            100.0 * (1.0 - decided)
-        ),
-        svg: draw_coverage(window, &raster)?,
-        data,
-    })
+    let undecided = format!("{:.2}", 100.0 * (1.0 - decided));
+    let values = [("pixels", PIXELS.to_string()), ("undecided", undecided)];
+    Figure::new(window.name, draw_coverage(window, &raster)?, data, &values)
 }

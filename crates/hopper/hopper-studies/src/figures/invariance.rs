@@ -70,17 +70,10 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         "$α$_{n} (dimensionless)",
         "|$f$($α$; $M$) − $f$($α$; 1/$M$)|",
     );
-    Ok(Figure {
-        name: "invariance",
-        title: "Invariance under $M$ → 1/$M$".into(),
-        paper: "The map is invariant under inversion of the mass ratio when there is no sudden \
-                lift-off between two iterates (Eq. 23)."
-            .into(),
-        notes: "Shaded: ($nπ$, $α$^{∗}_{n}), where the first landing is sudden and the invariance fails; \
-                elsewhere the two maps differ by rounding only (differences of exactly zero are \
-                drawn at the foot, marked 0)."
-            .into(),
+    Figure::new(
+        "invariance",
         svg,
-        data: vec![csv_file("invariance.csv", &["alpha", "next_light", "next_heavy"], rows)?],
-    })
+        vec![csv_file("invariance.csv", &["alpha", "next_light", "next_heavy"], rows)?],
+        &[],
+    )
 }

@@ -63,22 +63,12 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let columns: Vec<&str> = std::iter::once("offset").chain(FORMS.map(|form| form.3)).collect();
     let data =
         rows.iter().map(|row| std::iter::once(Some(row.offset)).chain(row.errors.iter().copied()));
-    Ok(Figure {
-        name: "printed_against_stable",
-        title: "Where the printed form of the map loses its digits, $M$ = 1, $n$ = 1".into(),
-        paper: "Eqs. (6)–(8) give the map, Eqs. (18) and (19) its form near a fixed point.".into(),
-        notes: "Relative error of the loss $α$ − $α$′ against 40 digits. Solved for with Brent’s method \
-                to the last bit, the printed equations still give $α$′ to a few ulps; but the loss, \
-                about $λδ$^{4/3}, is a difference from $α$ and sinks below an ulp of it at $δ$ ≈ \
-                10^{−12}: there nothing of it is left. The stable form knows the loss without a \
-                difference and errs by what half an ulp of $α$ would change, 10^{−16}/$δ$. The form in \
-                ($n$, $δ$) has no such ulp. The expansions err by their first neglected term, the \
-                printed $λ$ by one third. Errors beyond the frame are drawn on it. A printed form that errs by \
-                more than all of the loss has gained energy."
-            .into(),
+    Figure::new(
+        "printed_against_stable",
         svg,
-        data: vec![csv_file("printed_against_stable.csv", &columns, data)?],
-    })
+        vec![csv_file("printed_against_stable.csv", &columns, data)?],
+        &[],
+    )
 }
 
 fn side<'a>(svg: &mut Svg, frame: &Frame, rows: impl Iterator<Item = &'a ErrorRow>) {

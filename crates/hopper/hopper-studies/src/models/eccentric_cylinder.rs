@@ -155,12 +155,10 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
         svg.text(at.0, at.1, Anchor::Start, 11.0, label);
     }
     let rows = gaps.iter().flatten().map(|&(time, gap)| vec![Some(time), Some(gap)]);
-    Ok(Figure {
-        name: "eccentric_cylinder",
-        title: "A bouncing cylinder whose centre of mass is off its axis".into(),
-        paper: "Named in the introduction.".into(),
-        notes: "ε = 0.3, κ = 0.6; released at rest at height 2 with φ = 1.5. Rolling resistance: μ = 0.1.".into(),
+    Figure::new(
+        "eccentric_cylinder",
         svg,
-        data: vec![csv_file("eccentric_cylinder.csv", &["time", "gap"], rows)?],
-    })
+        vec![csv_file("eccentric_cylinder.csv", &["time", "gap"], rows)?],
+        &[],
+    )
 }

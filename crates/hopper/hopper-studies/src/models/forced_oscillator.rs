@@ -107,18 +107,14 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
     );
     svg.text(fates.left, fates.top - 10.0, Anchor::Start, 12.5, "two orbits that start 0.02 apart");
     let rows = points.iter().map(|point| vec![Some(point[0]), Some(point[1])]);
-    Ok(Figure {
-        name: "forced_oscillator",
-        title: "The forced oscillator of Sommerer and Ott".into(),
-        paper: "Named in the introduction.".into(),
-        notes: format!(
-            "γ = 0.05, x̄ = 1.9, f₀ = 2.3, ω = 3.5. {} points of the stroboscopic map; orbits from (x, y) = {:?} and {:?} \
-             at rest",
-            PIECES * POINTS,
-            STARTS[0],
-            STARTS[1]
-        ),
+    Figure::new(
+        "forced_oscillator",
         svg,
-        data: vec![csv_file("forced_oscillator.csv", &["x", "velocity"], rows)?],
-    })
+        vec![csv_file("forced_oscillator.csv", &["x", "velocity"], rows)?],
+        &[
+            ("points", PIECES * POINTS.to_string()),
+            ("first", format!("{:?}", STARTS[0])),
+            ("second", format!("{:?}", STARTS[1])),
+        ],
+    )
 }

@@ -90,12 +90,5 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
         frame.axes(&mut svg, &[], &[], "time $t$", "guard $g$");
         svg.text(x, y - 10.0, Anchor::Start, 12.5, &format!("{}: {}", panel.title, panel.says));
     }
-    Ok(Figure {
-        name: "guards",
-        title: "How a guard along a flow can meet zero".into(),
-        paper: "Not in the paper.".into(),
-        notes: "Falling guards as quasi-polynomials; what the search returns is marked.".into(),
-        svg,
-        data: Vec::new(),
-    })
+    Figure::new("guards", svg, Vec::new(), &[])
 }

@@ -39,16 +39,12 @@ pub(super) fn events_at_one_instant(_: &Job) -> Result<Figure, Error> {
         .surface(1.0)
         .surface(3.0)
         .scene(&ENDLESS, 0, State::from([0.0]), &[0]);
-    Ok(Figure {
-        name: "semantics_instant",
-        title: "Events at one instant".into(),
-        paper: "Not in the paper.".into(),
-        notes: "Discs: events, with their number at the instant if there are several. Crosses: errors. Grey: states \
-                that cannot flow. Dashed: resets."
-            .into(),
-        svg: draw(&[cradle, stack, five, past, leap, watched, below, endless]),
-        data: Vec::new(),
-    })
+    Figure::new(
+        "semantics_instant",
+        draw(&[cradle, stack, five, past, leap, watched, below, endless]),
+        Vec::new(),
+        &[],
+    )
 }
 
 /// Scenes with sliding, touches and triple roots.
@@ -76,14 +72,10 @@ pub(super) fn sliding_and_touches(_: &Job) -> Result<Figure, Error> {
         State::from([0.0, 2.2]),
         &[0],
     );
-    Ok(Figure {
-        name: "semantics_touch",
-        title: "Sliding and touches".into(),
-        paper: "Not in the paper.".into(),
-        notes: "Discs: events. Diamonds: sliding, and touches that are events. Crosses: errors. Grey: states that \
-                cannot flow."
-            .into(),
-        svg: draw(&[relay, triple, error, event, ignored, crossing]),
-        data: Vec::new(),
-    })
+    Figure::new(
+        "semantics_touch",
+        draw(&[relay, triple, error, event, ignored, crossing]),
+        Vec::new(),
+        &[],
+    )
 }

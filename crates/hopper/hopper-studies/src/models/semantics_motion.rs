@@ -138,14 +138,10 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
         |x| if x[0] < 0.7 { -1.0 } else { 2.0 },
         2.0,
     )?;
-    Ok(Figure {
-        name: "semantics_motion",
-        title: "Sliding, observers and Zeno limits".into(),
-        paper: "Not in the paper.".into(),
-        notes: "Discs: events. Diamonds: sliding begins. A triangle: a Zeno limit. Orange in a: the relay with a hysteresis \
-                of ±0.1; in c: the voltage; in f: the table."
-            .into(),
-        svg: draw(&[relays(), friction(), converter(), observed_circle, jump, shaken_ball()]),
-        data: Vec::new(),
-    })
+    Figure::new(
+        "semantics_motion",
+        draw(&[relays(), friction(), converter(), observed_circle, jump, shaken_ball()]),
+        Vec::new(),
+        &[],
+    )
 }

@@ -66,14 +66,14 @@ pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
         .iter()
         .enumerate()
         .map(|(k, &displacement)| vec![Some(rate(k / DRAWN)), Some(displacement)]);
-    Ok(Figure {
-        name: "valve",
-        title: "Bifurcations of a pressure relief valve".into(),
-        paper: "Not in the paper: the model of the MPGOS tutorial.".into(),
-        notes: format!(
-            "{DRAWN} turning points after {TRANSIENT}, from (0.2, 0, 0), tolerances 10^{{−10}}, {COLUMNS} flow rates"
-        ),
+    Figure::new(
+        "valve",
         svg,
-        data: vec![csv_file("valve.csv", &["flow_rate", "displacement"], rows)?],
-    })
+        vec![csv_file("valve.csv", &["flow_rate", "displacement"], rows)?],
+        &[
+            ("drawn", DRAWN.to_string()),
+            ("transient", TRANSIENT.to_string()),
+            ("columns", COLUMNS.to_string()),
+        ],
+    )
 }
