@@ -143,10 +143,12 @@ def map_series(side, n, mass_ratio, size):
     following = plus(delta, scaled(quotient(scaled(squares, mu), plus(alpha, power(radicand, mpf(1) / 2))), -1))
     # t = -w on the left, w > 0 on both sides.
     sign = -1 if side == "left" else 1
+
     def cube_root(p):
         turned = [x * sign ** (k + 1) for k, x in enumerate(p)]
         root = power(lowered(turned, 3)[: work - 3], mpf(1) / 3)
         return ([mpf(0)] + root)[: size + 1]
+
     return composed(cube_root(following), inverse(cube_root(delta)))
 
 

@@ -2,13 +2,15 @@
 
 Let every interval [l, r] of a list have a fate, n (convergence to alpha*_n) or "grounded", and suppose that
 
-    1. each speed of it leads into an interval of the same fate, or to the ground if that is its fate, at every mass ratio;
-    2. it contains no alpha*_m but for l = alpha*_m, m its fate (alpha*_0 = 0).
+    1. each speed of it leads into an interval of the same fate, or to the ground if that is its fate, at every mass
+    ratio; 2. it contains no alpha*_m but for l = alpha*_m, m its fate (alpha*_0 = 0).
 
-Then each speed has the fate of its interval. Its orbit does not increase, and is grounded or converges from above to some alpha*_m
-(docs/theory.md, Theorem 24). It stays in the intervals of one fate. They are closed and finitely many, so that alpha*_m is in one of them.
+Then each speed has the fate of its interval. Its orbit does not increase, and is grounded or converges from above to
+some alpha*_m (docs/theory.md, Theorem 24). It stays in the intervals of one fate. They are closed and finitely many, so
+that alpha*_m is in one of them.
 
-Next to alpha*_n signs of heights cannot decide. On its right f stays above it, by `right_of_star.py`. On its left f rises, by `left_of_star.py`.
+Next to alpha*_n signs of heights cannot decide. On its right f stays above it, by `right_of_star.py`. On its left f
+rises, by `left_of_star.py`.
 """
 
 from bisect import bisect_right
@@ -21,7 +23,8 @@ from right_of_star import stays_above
 
 # A left end so near alpha*_n is taken as alpha*_n: what is between is shown with it.
 AT_STAR = 1e-12
-# Most parts of an interval, and hops of a single speed. At M = 3, where slopes reach thousands, an interval needs some ten thousand parts.
+# Most parts of an interval, and hops of a single speed. At M = 3, where slopes reach thousands, an interval needs some
+# ten thousand parts.
 MOST_PARTS = 100000
 MOST_HOPS = 20000
 # Parts with fewer speeds than this part of the range of kappa are divided by kappa.
@@ -55,7 +58,8 @@ def star(n):
 
 def enclosed_star(n):
     low, high = (n * arb.pi()).upper(), ((n + arb(1) / 2) * arb.pi()).lower()
-    # sin x - x cos x has the derivative x sin x of one sign, hence one root, where it changes its sign to that of sin x.
+    # sin x - x cos x has the derivative x sin x of one sign, hence one root, where it changes its sign to that of sin
+    # x.
     value = lambda x: (x.sin() - x * x.cos()) * (-1) ** n
     if not (value(low) < 0 and value(high) > 0):
         raise Unconfirmed(f"alpha*_{n} is not enclosed")
@@ -128,7 +132,9 @@ class Basins:
             low, high, kappas = work.pop()
             parts += 1
             if parts > MOST_PARTS:
-                raise Unconfirmed(f"the speeds [{low!r}, {high!r}] of the interval [{left!r}, {right!r}], after {MOST_PARTS} parts")
+                raise Unconfirmed(
+                    f"the speeds [{low!r}, {high!r}] of the interval [{left!r}, {right!r}], after {MOST_PARTS} parts"
+                )
             if low == left and begins_at_star and self.stays_right_of(fate, high):
                 continue
             if self.all_have_fate(arb(low), arb(high), kappas, fate, FURTHER_IMAGES):
@@ -155,8 +161,8 @@ class Basins:
         reach = arb(REACH_LIGHT if self.light else REACH)
         if not (high < star(above) and star(above) - low <= reach and rises(above, star(above), self.light)):
             return square_bounds((low, high), kappas)
-        # Left of alpha*_n the landings nearly coincide, and balls lose the signs of the derivatives. There F rises with alpha, and for M <= 1
-        # it falls with kappa.
+        # Left of alpha*_n the landings nearly coincide, and balls lose the signs of the derivatives. There F rises with
+        # alpha, and for M <= 1 it falls with kappa.
         if self.light:
             ends = (low, kappas[1]), (high, kappas[0])
             first, last = (Hop(*end, derivatives=False).square for end in ends)

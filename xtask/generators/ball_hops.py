@@ -7,12 +7,14 @@ ground. In flight (docs/model.md)
     P(t) = (1 + x) + V t - t^2/2            momentum coordinate: P'' = -1
     G(t) = P - s                            height of the lower mass, times 1 + M
 
-The next landing is the first t > 0 with G(t) = 0. Its time is enclosed by the signs of G: G'' = s - 1, so that G is convex
-or concave between the times with s = 1, and at these times G = P - 1 is a parabola. After the landing the upper mass has the
-speed (1-kappa) P' + kappa s', kappa = M/(1+M). For s > 1 the next flight follows. Otherwise contact follows, in which
-V^2 + 2x + kappa x^2 is constant, because x'' = -1 - kappa x; where x = 0 again, its root is the next lift-off speed.
+The next landing is the first t > 0 with G(t) = 0. Its time is enclosed by the signs of G: G'' = s - 1, so that G is
+convex or concave between the times with s = 1, and at these times G = P - 1 is a parabola. After the landing the upper
+mass has the speed (1-kappa) P' + kappa s', kappa = M/(1+M). For s > 1 the next flight follows. Otherwise contact
+follows, in which V^2 + 2x + kappa x^2 is constant, because x'' = -1 - kappa x; where x = 0 again, its root is the next
+lift-off speed.
 
-No landing time is found by a formula of the Rust crates, which work with half the time of flight and with the sum of the losses.
+No landing time is found by a formula of the Rust crates, which work with half the time of flight and with the sum of
+the losses.
 """
 
 import math
@@ -84,7 +86,8 @@ def float_root(x, v, low, high):
 
 
 def between_signs(x, v, left, right):
-    """The zero of G in [left, right], where G changes its sign once, from + to -: a ball whose ends have these signs."""
+    """The zero of G in [left, right], where G changes its sign once, from + to -: a ball whose ends have these
+    signs."""
     low, high = left.mid(), right.mid()
     t = arb(float_root(float(x.mid()), float(v.mid()), float(low), float(high)))
     mid_x, mid_v = x.mid(), v.mid()
@@ -141,7 +144,8 @@ def dips(x, v, left, right):
 
 
 def landing(x, v):
-    """The time of the first landing of the flight from (x, v): x > 0, or x = 0 exactly and v > 0. One ball for all states of x, v."""
+    """The time of the first landing of the flight from (x, v): x > 0, or x = 0 exactly and v > 0. One ball for all
+    states of x, v."""
     y = 1 + x
     radius = (y * y + v * v).sqrt()
     turn = 2 * arb.pi()
@@ -152,7 +156,8 @@ def landing(x, v):
         phi, gamma = arb.atan2(v, y), (1 / radius).acos()
         first, second = phi + gamma, phi - gamma + turn
     on_lattice = lambda t: x + t * (v - t / 2)
-    # Up to `first` G is convex with G = G' = 0 at the start, so that G > 0 there. Concave cells begin at `first`, convex ones at `second`.
+    # Up to `first` G is convex with G = G' = 0 at the start, so that G > 0 there. Concave cells begin at `first`,
+    # convex ones at `second`.
     k, jumped = 0, False
     for _ in range(100000):
         left, right, after = first + k * turn, second + k * turn, first + (k + 1) * turn
@@ -167,7 +172,8 @@ def landing(x, v):
             return between_signs(x, v, right, after)
         if not g > 0:
             raise Undecided("a landing at s = 1")
-        # G >= P - radius: a cell with P > radius at both ends has no landing, nor have all cells between two such times.
+        # G >= P - radius: a cell with P > radius at both ends has no landing, nor have all cells between two such
+        # times.
         if not (far and g > radius - 1):
             bottom = dips(x, v, right, after)
             if bottom is not None:
@@ -185,7 +191,8 @@ def landing(x, v):
 
 
 def landing_times(x, v):
-    """All first landings of states in x, v. G rises with x and V at fixed t: it is least at the lower corner, greatest at the upper."""
+    """All first landings of states in x, v. G rises with x and V at fixed t: it is least at the lower corner, greatest
+    at the upper."""
     if x.rad() <= NARROW * (1 + abs(x).mid()) and v.rad() <= NARROW * abs(v).mid():
         return landing(x, v)
     if x.is_zero():
@@ -211,10 +218,12 @@ def time_less_sine(t):
 
 
 class Hop:
-    """F = square of the next lift-off speed, below 0 where the hopper is grounded, over all alpha and kappa of two balls.
+    """F = square of the next lift-off speed, below 0 where the hopper is grounded, over all alpha and kappa of two
+    balls.
 
-    `by_alpha` and `by_kappa` are its derivatives, None where the hop may or may not have one more short flight. `in_window` says that all
-    speeds are in a window, whose first landing is sudden (docs/theory.md, Theorem 8): balls lose this at the end of a window.
+    `by_alpha` and `by_kappa` are its derivatives, None where the hop may or may not have one more short flight.
+    `in_window` says that all speeds are in a window, whose first landing is sudden (docs/theory.md, Theorem 8): balls
+    lose this at the end of a window.
     """
 
     def __init__(self, alpha, kappa, derivatives=True, in_window=False):
@@ -259,8 +268,8 @@ class Hop:
                 return
         self.square = energy(x, v, kappa)
         if derivatives:
-            # The derivative of V^2 + 2x + kappa x^2 after the last flight. The terms with dt add up to -2 kappa (1 + kappa x) closing dt, in
-            # which the closing speed cancels.
+            # The derivative of V^2 + 2x + kappa x^2 after the last flight. The terms with dt add up to -2 kappa (1 +
+            # kappa x) closing dt, in which the closing speed cancels.
             x_a, v_a, x_k, v_k = before
             tilt = 1 + kappa * x
             change = lambda dx, dv: 2 * tilt * ((1 - kappa * rise) * dx + (t - kappa * lag) * dv) + 2 * v * (
@@ -285,15 +294,13 @@ class Hop:
             sin, cos = t.sin_cos()
             spring = v * cos - (1 + start) * sin
             momentum = v - t
-            found = found.union(
-                energy(start + v * t - t * t / 2, momentum + kappa * (spring - momentum), kappa)
-            )
+            found = found.union(energy(start + v * t - t * t / 2, momentum + kappa * (spring - momentum), kappa))
         return found
 
 
 def square_bounds(alphas, kappas):
-    """Lower and upper bound of F over two intervals, each given by its ends: from ends where F is monotone, from the middle and the slope
-    elsewhere.
+    """Lower and upper bound of F over two intervals, each given by its ends: from ends where F is monotone, from the
+    middle and the slope elsewhere.
 
     The ends are kept beside the balls, because the radius of a ball has 30 bits.
     """

@@ -71,9 +71,11 @@ def sudden_edge(n, m):
     """The first place of a scan over ((n+1) pi, alpha*_{n+1}) where the map is below alpha*_n, refined; or None."""
     left, right = (n + 1) * mp.pi, alpha_star(n + 1)
     floor_ = alpha_star(n)
+
     def below(alpha):
         following = Hop(m, alpha).next
         return following is None or following < floor_
+
     width = (right - left) / SCAN
     for k in range(1, SCAN):
         place = left + k * width

@@ -1,10 +1,12 @@
 """Checks certificates of `cargo xtask prove`: python check_certificate.py [--sample N] [--seed S] FILE...
 
-The format is that of docs/certificates.md. Every line is read, and what joins the lines is checked: their number, that strips and boxes
-leave no gap, the sums of lengths and areas. Each claim (an interval, a point, a box, a trap) is then confirmed in ball arithmetic, or with
---sample a random choice of so many claims of a file; the sentence about such a file begins with "sampled". What the lines prove is derived
-from them, compared with the statement of the file and with the manifest `statements.json`, and printed. The exit status is 0 if all is confirmed.
-Otherwise it is 1, and the first line that is not confirmed is named with the reason.
+The format is that of docs/certificates.md. Every line is read, and what joins the lines is checked: their number, that
+strips and boxes leave no gap, the sums of lengths and areas. Each claim (an interval, a point, a box, a trap) is then
+confirmed in ball arithmetic, or with
+--sample a random choice of so many claims of a file; the sentence about such a file begins with "sampled". What the
+lines prove is derived from them, compared with the statement of the file and with the manifest `statements.json`, and
+printed. The exit status is 0 if all is confirmed. Otherwise it is 1, and the first line that is not confirmed is named
+with the reason.
 """
 
 import argparse
@@ -52,7 +54,9 @@ def lines_of(path, digest):
         for number, text in enumerate(file, 1):
             digest.update(text)
             try:
-                line = json.loads(text.decode("utf-8"), object_pairs_hook=once, parse_float=finite, parse_constant=no_constant)
+                line = json.loads(
+                    text.decode("utf-8"), object_pairs_hook=once, parse_float=finite, parse_constant=no_constant
+                )
             except (ValueError, RecursionError) as error:
                 raise Refuted(f"line {number}: no JSON ({error})")
             if not isinstance(line, dict):
@@ -88,7 +92,8 @@ def guarded(number, action, *arguments):
 def check(path, sample, seed, found=None):
     """A sentence about the file. Raises an error for the first line that is not confirmed.
 
-    `sample` is the number of claims to confirm, or a list of their places, or None for all. What the file proves goes into `found`.
+    `sample` is the number of claims to confirm, or a list of their places, or None for all. What the file proves goes
+    into `found`.
     """
     digests = [hashlib.sha256(), hashlib.sha256()]
     lines = lines_of(path, digests[0])
@@ -102,7 +107,9 @@ def check(path, sample, seed, found=None):
         guarded(number, whole.add, line)
         counts.append(guarded(number, kind.count, line))
     if len(counts) != header.get("lines"):
-        raise Refuted(f"line {len(counts) + 1}: {len(counts)} lines follow the header, which says {header.get('lines')}")
+        raise Refuted(
+            f"line {len(counts) + 1}: {len(counts)} lines follow the header, which says {header.get('lines')}"
+        )
     guarded(len(counts) + 1, whole.end)
     derived = guarded(len(counts) + 1, whole.derived)
     scope = guarded(1, compare, header, derived)
@@ -147,7 +154,8 @@ RISING = {}
 
 
 def rest_on_rising(path, derived, sample, seed):
-    """The windows of `everything-hops` rise by the theorem `rising`, whose certificate lies beside it: whether all its claims are confirmed."""
+    """The windows of `everything-hops` rise by the theorem `rising`, whose certificate lies beside it: whether all its
+    claims are confirmed."""
     beside = os.path.join(os.path.dirname(os.path.abspath(path)), "rising.jsonl")
     if not os.path.exists(beside):
         raise Refuted(f"it rests on the certificate of `rising`, and {beside} is not there")
@@ -165,7 +173,9 @@ def rest_on_rising(path, derived, sample, seed):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--sample", type=int, metavar="N", help="confirm so many random claims of each file [default: all]")
+    parser.add_argument(
+        "--sample", type=int, metavar="N", help="confirm so many random claims of each file [default: all]"
+    )
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="of the random choice [default: 1]")
     parser.add_argument("files", nargs="+", metavar="FILE")
     options = parser.parse_args()

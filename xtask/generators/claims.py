@@ -38,7 +38,9 @@ def gaps_of(line):
         left, right = float(left), float(right)
         if not last <= left < right:
             raise Refuted(f"the gap [{left!r}, {right!r}] is not above the one before it")
-        if any(not 0 <= least <= right - left for _, least in bounds) or len({fate for fate, _ in bounds}) < len(bounds):
+        if any(not 0 <= least <= right - left for _, least in bounds) or len({fate for fate, _ in bounds}) < len(
+            bounds
+        ):
             raise Refuted(f"the gap [{left!r}, {right!r}] has wrong lengths")
         gaps.append((left, right, {fate_of(fate): arb(least) for fate, least in bounds}))
         last = right
@@ -160,7 +162,8 @@ class ContactPart(Kind):
 class Losses(Kind):
     @staticmethod
     def check(line):
-        """Lemma 32: a flight from (Y, V) with R = |(Y, V)| and B^2 = V^2 + 2 (Y + R) has a closing speed of at most R + B."""
+        """Lemma 32: a flight from (Y, V) with R = |(Y, V)| and B^2 = V^2 + 2 (Y + R) has a closing speed of at most R +
+        B."""
         alpha = line["multiple_of_pi"] * arb.pi()
         kappa = parameter(line["mass_ratio"])
         y, v, total = arb(1), alpha, arb(0)
@@ -280,7 +283,9 @@ KINDS = {
     "cells": Given,
 }
 
-# The shapes of fields: the types of JSON numbers, and of the parts of arrays. The last shape of an array may stand any number of times.
+
+# The shapes of fields: the types of JSON numbers, and of the parts of arrays. The last shape of an array may stand any
+# number of times.
 def is_natural(value):
     return type(value) is int and 0 <= value < 10**10
 
@@ -300,7 +305,8 @@ def is_pair(value):
 def some(*shapes):
     """Arrays of arrays, whose parts have these shapes in turn."""
     return lambda value: type(value) is list and all(
-        type(part) is list and len(part) == len(shapes) and all(has(own) for has, own in zip(shapes, part)) for part in value
+        type(part) is list and len(part) == len(shapes) and all(has(own) for has, own in zip(shapes, part))
+        for part in value
     )
 
 
@@ -331,8 +337,19 @@ SHAPES = {
 # The fields of each kind of line: no more and no less. None is the header.
 FIELDS = {
     None: {"format": is_text, "version": is_natural, "theorem": is_text, "statement": is_text, "lines": is_natural},
-    "one-sudden": {"fixed_point": is_pair, "largest_mass_ratio": is_number, "available": is_number, "needed": is_number},
-    "trap": {"n": is_natural, "fixed_point": is_pair, "mass_ratio": is_number, "right": is_number, "beyond": is_number_or_null},
+    "one-sudden": {
+        "fixed_point": is_pair,
+        "largest_mass_ratio": is_number,
+        "available": is_number,
+        "needed": is_number,
+    },
+    "trap": {
+        "n": is_natural,
+        "fixed_point": is_pair,
+        "mass_ratio": is_number,
+        "right": is_number,
+        "beyond": is_number_or_null,
+    },
     "crisis": {"n": is_natural, "mass_ratio": is_pair, "speed": is_number},
     "contact-part": {"n": is_natural, "mass_ratio": is_number, "speeds": is_pair, "least_square": is_number},
     "losses": {"multiple_of_pi": is_natural, "mass_ratio": is_number, "losses": is_number, "square": is_number},
@@ -343,7 +360,11 @@ FIELDS = {
     "fraction": {"fate": is_fate, "humps": is_natural, "uniform": is_pair, "by_humps": is_pair},
     "grid": {"mass_ratios": is_pair, "speeds": is_pair, "columns": is_natural, "rows": is_natural},
     "speeds": {"speeds": is_numbers},
-    "points": {"mass_ratio": is_number, "traps": some(is_number, is_number, is_fate), "fates": some(is_fate, is_natural)},
+    "points": {
+        "mass_ratio": is_number,
+        "traps": some(is_number, is_number, is_fate),
+        "fates": some(is_fate, is_natural),
+    },
     "area": {"fate": is_fate, "share": is_pair},
     "cells": {"edges": is_numbers, "of_one_basin": is_natural},
 }

@@ -1,7 +1,8 @@
 """Compares enclosures of sine, cosine and arc tangent with Arb: python compare_functions.py < RECORDS.
 
-The records are those of the example `wave_enclosures` of interval-arithmetic. An enclosure must hold the values at both ends of its argument,
-in its middle, and at a multiple of pi/2 inside; and that of a point may be at most four ulps of its value wide.
+The records are those of the example `wave_enclosures` of interval-arithmetic. An enclosure must hold the values at both
+ends of its argument, in its middle, and at a multiple of pi/2 inside; and that of a point may be at most four ulps of
+its value wide.
 """
 
 import math
@@ -55,7 +56,10 @@ def main():
                 ulps = (most - least) / ulp(max(abs(least), abs(most)))
                 widest = max(widest, ulps)
                 wide += ulps > ULPS
-    print(f"{count} arguments: {wrong} values outside, {wide} enclosures of points wider than {ULPS} ulps; the widest has {widest:.0f}")
+    print(
+        f"{count} arguments: {wrong} values outside, {wide} enclosures of points wider than {ULPS} ulps; the widest has"
+        f" {widest:.0f}"
+    )
     return int(count == 0 or wrong > 0 or wide > 0)
 
 

@@ -60,8 +60,10 @@ def zero(function, left, right):
 def falling_lap(n, mu):
     """The ends in h of the lap on which alpha' falls, or None."""
     top = alpha_star(2 * n + 1) / 2
+
     def excess(h):
         return 4 * mu * bump(h) - 1
+
     if excess(top) <= 0:
         return None
     first = star(n) if n else mp.mpf(10) ** -3  # at h = 10^-3 W is 3e-13: before the lap for every mu <= 1/4
@@ -69,30 +71,36 @@ def falling_lap(n, mu):
 
 
 def trap_edge(n, mass_ratio):
-    """The speed where the trap of alpha*_n ends on its contact interval; None where all of the interval belongs to it."""
+    """The speed where the trap of alpha*_n ends on its contact interval; None where all of the interval belongs to
+    it."""
     m = mpf(mass_ratio)
     mu = m / (1 + m) ** 2
     lap = falling_lap(n, mu)
     if lap is None:
         return None
     target = star(n) ** 2
+
     def surplus(h):
         a, gamma = speed_and_loss(h)
         return a * a - mu * gamma * gamma - target
+
     if surplus(lap[1]) >= 0:
         return None
     return speed_and_loss(zero(surplus, *lap))[0]
 
 
 def touch(n, of_ground=False):
-    """mu_c(n) and the speed where the hump touches alpha*_n, or 0: the minimum of (A^2 - alpha*_n^2)/Gamma^2, or of A^2/Gamma^2.
+    """mu_c(n) and the speed where the hump touches alpha*_n, or 0: the minimum of (A^2 - alpha*_n^2)/Gamma^2, or of
+    A^2/Gamma^2.
 
     There Gamma^2 = 4 W (A^2 - alpha*_n^2), behind the maximum of W.
     """
     target = 0 if of_ground else star(n) ** 2
+
     def slope(h):
         a, gamma = speed_and_loss(h)
         return gamma * gamma - 4 * bump(h) * (a * a - target)
+
     a, gamma = speed_and_loss(zero(slope, alpha_star(2 * n + 1) / 2, (n + 1) * mp.pi))
     return (a * a - target) / (gamma * gamma), a
 

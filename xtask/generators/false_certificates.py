@@ -1,15 +1,17 @@
-"""Makes false certificates from true ones, and fails unless `check_certificate.py` refuses each: python false_certificates.py FOLDER.
+"""Makes false certificates from true ones, and fails unless `check_certificate.py` refuses each: python
+false_certificates.py FOLDER.
 
 The folder has the certificates of `cargo xtask prove`, one of each theorem. Each kind of line of each
-theorem is left out, doubled, exchanged, and has a field missing, unknown, null, infinite and twice; headers and statements are wrong or too
-strong; and numbers are changed so that a sentence is false or says less than its theorem. Of a file only the claims of the changed line are confirmed,
-so that the reason is the change.
+theorem is left out, doubled, exchanged, and has a field missing, unknown, null, infinite and twice; headers and
+statements are wrong or too strong; and numbers are changed so that a sentence is false or says less than its theorem.
+Of a file only the claims of the changed line are confirmed, so that the reason is the change.
 
     python false_certificates.py --random 1000 [--seed S] FOLDER [THEOREM ...]
 
-changes one number of a line at random instead, N times. A change that passes is harmless if what the file proves is no more than the true file
-does, and if other formulas find no point at which a claim of the line is false (`recomputed.py`). Enclosures of nothing but points prove no claim;
-what the checker accepts by mistake is seen if one of the points shows it.
+changes one number of a line at random instead, N times. A change that passes is harmless if what the file proves is no
+more than the true file does, and if other formulas find no point at which a claim of the line is false
+(`recomputed.py`). Enclosures of nothing but points prove no claim; what the checker accepts by mistake is seen if one
+of the points shows it.
 """
 
 import argparse
@@ -32,7 +34,6 @@ from statements import STATEMENTS
 from whole_theorems import WHOLE
 
 
-
 def read(path):
     with open(path, encoding="utf-8") as file:
         return [json.loads(line) for line in file]
@@ -48,7 +49,8 @@ class Files:
             os.symlink(os.path.abspath(rising), os.path.join(self.own.name, "rising.jsonl"))
 
     def answer(self, lines, claims, texts=None, found=None):
-        """(True, sentence) for a file that passes, or (False, reason). `texts` stand in the place of some lines; what it proves goes into `found`."""
+        """(True, sentence) for a file that passes, or (False, reason). `texts` stand in the place of some lines; what
+        it proves goes into `found`."""
         path = os.path.join(self.own.name, "changed.jsonl")
         with open(path, "w", encoding="utf-8") as file:
             for at, line in enumerate(lines):
@@ -100,7 +102,12 @@ def of_the_header(theorem, lines):
         ("an unknown field", {"proved": True}),
     ):
         yield f"header: {what}", changed(lines, 0, fields), [], None
-    yield "header: no statement", [{name: value for name, value in header.items() if name != "statement"}] + lines[1:], [], None
+    yield (
+        "header: no statement",
+        [{name: value for name, value in header.items() if name != "statement"}] + lines[1:],
+        [],
+        None,
+    )
     stronger = stronger_statement(header["statement"])
     if stronger:
         yield "header: a statement that is too strong", changed(lines, 0, statement=stronger), [], None
@@ -122,13 +129,25 @@ def of_each_kind(theorem, lines):
         yield f"{kind}: a line left out of the file alone", without(lines, at), [], None
         yield f"{kind}: a line doubled", counted(lines[: at + 1] + lines[at:]), [], None
         yield f"{kind}: an unknown kind", changed(lines, at, kind="axiom"), [], None
-        later = next((k for k in range(at + 1, len(lines)) if lines[k]["kind"] != kind or theorem in ("one-sided", "crisis", "traps")), None)
+        later = next(
+            (
+                k
+                for k in range(at + 1, len(lines))
+                if lines[k]["kind"] != kind or theorem in ("one-sided", "crisis", "traps")
+            ),
+            None,
+        )
         if later is not None:
             exchanged = list(lines)
             exchanged[at], exchanged[later] = lines[later], lines[at]
             yield f"{kind}: a line exchanged with another one", exchanged, [], None
         field = sorted(FIELDS[kind])[0]
-        yield f"{kind}: a field missing", lines[:at] + [{name: own for name, own in line.items() if name != field}] + lines[at + 1 :], [], None
+        yield (
+            f"{kind}: a field missing",
+            lines[:at] + [{name: own for name, own in line.items() if name != field}] + lines[at + 1 :],
+            [],
+            None,
+        )
         yield f"{kind}: an unknown field", changed(lines, at, remark=1), [], None
         for name in sorted(FIELDS[kind]):
             if name == "beyond" and theorem == "one-sided":
@@ -168,12 +187,35 @@ def moved(values, by):
 
 def one_sudden(lines):
     line = lines[1]
-    yield "a mass ratio above M1", changed(changed(lines, 1, largest_mass_ratio=0.91), 0, statement=lines[0]["statement"].replace("0.905619101548374", "0.91")), [0], None
+    yield (
+        "a mass ratio above M1",
+        changed(
+            changed(lines, 1, largest_mass_ratio=0.91),
+            0,
+            statement=lines[0]["statement"].replace("0.905619101548374", "0.91"),
+        ),
+        [0],
+        None,
+    )
     yield "a smaller mass ratio than is said", changed(lines, 1, largest_mass_ratio=0.5), [0], None
-    yield "less than M1 in lines and statement", changed(changed(lines, 1, largest_mass_ratio=0.5), 0, statement=lines[0]["statement"].replace("0.905619101548374", "0.5")), [0], None
+    yield (
+        "less than M1 in lines and statement",
+        changed(
+            changed(lines, 1, largest_mass_ratio=0.5),
+            0,
+            statement=lines[0]["statement"].replace("0.905619101548374", "0.5"),
+        ),
+        [0],
+        None,
+    )
     yield "a side of the inequality too large", changed(lines, 1, needed=line["needed"] * 1.1), [0], None
     yield "a side of the inequality too small", changed(lines, 1, available=line["available"] * 0.9), [0], None
-    yield "a fixed point outside of its enclosure", changed(lines, 1, fixed_point=moved(line["fixed_point"], 1e-9)), [0], None
+    yield (
+        "a fixed point outside of its enclosure",
+        changed(lines, 1, fixed_point=moved(line["fixed_point"], 1e-9)),
+        [0],
+        None,
+    )
     yield "a wide enclosure of the fixed point", changed(lines, 1, fixed_point=[4.0, 5.0]), [0], None
 
 
@@ -181,7 +223,12 @@ def one_sided(lines):
     low, high = lines[2]["fixed_point"]
     yield "a trap a hundredth too long", changed(lines, 3, **longer(lines[3])), [2], None
     yield "a trap of two ulps", changed(lines, 3, right=math.nextafter(lines[3]["fixed_point"][1], 9)), [2], None
-    yield "traps of two ulps", [lines[0]] + [{**line, "right": math.nextafter(line["fixed_point"][1], 99)} for line in lines[1:]], None, None
+    yield (
+        "traps of two ulps",
+        [lines[0]] + [{**line, "right": math.nextafter(line["fixed_point"][1], 99)} for line in lines[1:]],
+        None,
+        None,
+    )
     yield "a trap that ends below its fixed point", changed(lines, 3, right=lines[3]["fixed_point"][0] - 0.1), [2], None
     yield "a fixed point outside of its enclosure", changed(lines, 2, fixed_point=[low - 1e-9, low]), [1], None
     yield "a wide enclosure of a fixed point", changed(lines, 2, fixed_point=[low - 0.1, high]), [1], None
@@ -193,11 +240,31 @@ def one_sided(lines):
 def crisis(lines):
     low, high = lines[5]["mass_ratio"]
     part = 0.05 * (high - low)
-    yield "an enclosure shrunk to a twentieth at its lower end", changed(lines, 5, mass_ratio=[high - part, high]), [4], "or"
-    yield "an enclosure shrunk to a twentieth at its upper end", changed(lines, 5, mass_ratio=[low, low + part]), [4], "or"
-    yield "a crisis moved by three times its width", changed(lines, 5, mass_ratio=[3 * high - 2 * low, 4 * high - 3 * low]), [4], None
+    yield (
+        "an enclosure shrunk to a twentieth at its lower end",
+        changed(lines, 5, mass_ratio=[high - part, high]),
+        [4],
+        "or",
+    )
+    yield (
+        "an enclosure shrunk to a twentieth at its upper end",
+        changed(lines, 5, mass_ratio=[low, low + part]),
+        [4],
+        "or",
+    )
+    yield (
+        "a crisis moved by three times its width",
+        changed(lines, 5, mass_ratio=[3 * high - 2 * low, 4 * high - 3 * low]),
+        [4],
+        None,
+    )
     # Every speed below alpha*_n falls below it at every mass ratio.
-    yield "a crisis too low, with a speed below the hump", changed(lines, 5, mass_ratio=[low - 1e-9, high - 1e-9], speed=1.0), [4], None
+    yield (
+        "a crisis too low, with a speed below the hump",
+        changed(lines, 5, mass_ratio=[low - 1e-9, high - 1e-9], speed=1.0),
+        [4],
+        None,
+    )
     yield "a speed beyond the contact part", changed(lines, 5, speed=19.0), [4], None
     yield "a number that no f64 is", changed(lines, 5, mass_ratio=[10**400, 10**400]), [4], None
     yield "an enclosure that says little", changed(lines, 5, mass_ratio=[1e-6, 0.9]), [4], None
@@ -214,12 +281,27 @@ def traps(lines):
     yield "a trap a hundredth too long", changed(lines, at, **longer(lines[at])), claims, None
     yield "a trap a hundredth too short", changed(lines, at, **longer(lines[at], 0.99)), claims, None
     yield "a trap that ends below its fixed point", changed(lines, at, right=1.0, beyond=1.0 + 1e-13), claims, None
-    yield "a speed beyond that does not fall", changed(lines, at, beyond=right + 1e-16, right=right - 1e-14), claims, None
+    yield (
+        "a speed beyond that does not fall",
+        changed(lines, at, beyond=right + 1e-16, right=right - 1e-14),
+        claims,
+        None,
+    )
     yield "a speed beyond the contact part", changed(lines, at, beyond=right + 10), claims, None
     yield "an end that is hardly enclosed", changed(lines, at, beyond=right + 1e-6), claims, None
-    yield "a mass ratio of another trap", changed(lines, at, mass_ratio=0.5 * (lines[at]["mass_ratio"] + lines[at + 1]["mass_ratio"])), claims, None
+    yield (
+        "a mass ratio of another trap",
+        changed(lines, at, mass_ratio=0.5 * (lines[at]["mass_ratio"] + lines[at + 1]["mass_ratio"])),
+        claims,
+        None,
+    )
     yield "a mass ratio above 1", changed(lines, 1000, mass_ratio=1.5), [], None
-    yield "a fixed point outside of its enclosure", changed(lines, at, fixed_point=moved(lines[at]["fixed_point"], 1e-9)), claims, None
+    yield (
+        "a fixed point outside of its enclosure",
+        changed(lines, at, fixed_point=moved(lines[at]["fixed_point"], 1e-9)),
+        claims,
+        None,
+    )
     yield "seven of eight humps", counted(lines[:7001]), [], None
     yield "every second mass ratio", counted([lines[0]] + lines[2::2]), [], None
     high = [line for line in lines[1:] if line["mass_ratio"] > 0.5]
@@ -232,34 +314,73 @@ def everything_hops(lines):
     claims, own = claims_of(lines, part), lines[part]
     wide = [1e-6, 0.1115]
     at_wide = lambda line: {**line, "mass_ratio": 0.1115} if line["kind"] != "crisis" else line
-    yield "the crisis widened to [1e-6, 0.1115]", [changed(lines, 0, statement=of_crisis(lines, wide))[0]] + [
-        at_wide(line) for line in changed(lines, 1, mass_ratio=wide)[1:]
-    ], [0], None
-    yield "the crisis widened a little", changed(lines, 1, mass_ratio=[lines[1]["mass_ratio"][0] - 1e-9, lines[1]["mass_ratio"][1]]), [0], None
+    yield (
+        "the crisis widened to [1e-6, 0.1115]",
+        [changed(lines, 0, statement=of_crisis(lines, wide))[0]]
+        + [at_wide(line) for line in changed(lines, 1, mass_ratio=wide)[1:]],
+        [0],
+        None,
+    )
+    yield (
+        "the crisis widened a little",
+        changed(lines, 1, mass_ratio=[lines[1]["mass_ratio"][0] - 1e-9, lines[1]["mass_ratio"][1]]),
+        [0],
+        None,
+    )
     (low, high), tenth = lines[1]["mass_ratio"], 0.05 * (lines[1]["mass_ratio"][1] - lines[1]["mass_ratio"][0])
     for what, pair in (("lower", [high - tenth, high]), ("upper", [low, low + tenth])):
         at_pair = lambda line: {**line, "mass_ratio": pair[1]} if line["kind"] != "crisis" else line
-        shrunk = [changed(lines, 0, statement=of_crisis(lines, pair))[0]] + [at_pair(line) for line in changed(lines, 1, mass_ratio=pair)[1:]]
+        shrunk = [changed(lines, 0, statement=of_crisis(lines, pair))[0]] + [
+            at_pair(line) for line in changed(lines, 1, mass_ratio=pair)[1:]
+        ]
         yield f"the crisis shrunk to a twentieth at its {what} end", shrunk, [0], "or"
     low, high = moved(lines[1]["mass_ratio"], 1e-6)
     at_moved = lambda line: {**line, "mass_ratio": high} if line["kind"] != "crisis" else line
-    yield "the crisis moved upwards", [changed(lines, 0, statement=of_crisis(lines, [low, high]))[0]] + [
-        at_moved(line) for line in changed(lines, 1, mass_ratio=[low, high])[1:]
-    ], [0], None
+    yield (
+        "the crisis moved upwards",
+        [changed(lines, 0, statement=of_crisis(lines, [low, high]))[0]]
+        + [at_moved(line) for line in changed(lines, 1, mass_ratio=[low, high])[1:]],
+        [0],
+        None,
+    )
     lower = moved(lines[1]["mass_ratio"], -1e-3)
     at_lower = lambda line: {**line, "mass_ratio": lower[1]} if line["kind"] != "crisis" else line
-    yield "a smaller range of M", [changed(lines, 0, statement=of_crisis(lines, lower))[0]] + [
-        at_lower(line) for line in changed(lines, 1, mass_ratio=lower)[1:]
-    ], [0], None
+    yield (
+        "a smaller range of M",
+        [changed(lines, 0, statement=of_crisis(lines, lower))[0]]
+        + [at_lower(line) for line in changed(lines, 1, mass_ratio=lower)[1:]],
+        [0],
+        None,
+    )
     yield "a bound a fifth higher", changed(lines, part, least_square=1.2 * own["least_square"]), claims, None
     yield "a bound below the fixed point", changed(lines, part, least_square=20.0), claims, None
     yield "a part made shorter", changed(lines, part, speeds=[own["speeds"][0], sum(own["speeds"]) / 2]), claims, None
     yield "a part made longer", changed(lines, part, speeds=[own["speeds"][0], own["speeds"][1] + 1e-3]), claims, None
     yield "a part at another mass ratio", changed(lines, part, mass_ratio=0.05), claims, None
-    yield "the bound on losses too low", changed(lines, losses, losses=0.9 * lines[losses]["losses"]), claims_of(lines, losses), None
-    yield "the square too large", changed(lines, losses, square=1.1 * lines[losses]["square"]), claims_of(lines, losses), None
-    yield "losses above the square", changed(lines, losses, losses=1.1 * lines[losses]["square"]), claims_of(lines, losses), None
-    yield "a square below the losses", changed(lines, losses, square=0.9 * lines[losses]["losses"]), claims_of(lines, losses), None
+    yield (
+        "the bound on losses too low",
+        changed(lines, losses, losses=0.9 * lines[losses]["losses"]),
+        claims_of(lines, losses),
+        None,
+    )
+    yield (
+        "the square too large",
+        changed(lines, losses, square=1.1 * lines[losses]["square"]),
+        claims_of(lines, losses),
+        None,
+    )
+    yield (
+        "losses above the square",
+        changed(lines, losses, losses=1.1 * lines[losses]["square"]),
+        claims_of(lines, losses),
+        None,
+    )
+    yield (
+        "a square below the losses",
+        changed(lines, losses, square=0.9 * lines[losses]["losses"]),
+        claims_of(lines, losses),
+        None,
+    )
     yield "losses from elsewhere on", changed(lines, losses, multiple_of_pi=10), claims_of(lines, losses), None
     yield "the last hump left out", counted([line for line in lines if line.get("n") != 8]), [], None
 
@@ -277,7 +398,12 @@ def rising(lines):
     claims = claims_of(lines, box)
     yield "a box made smaller", changed(lines, box, speeds=[low, 0.5 * (low + high)]), claims, None
     yield "a box made flatter", changed(lines, box, kappas=[first, 0.5 * (first + last)]), claims, None
-    yield "a box up to M = 1 next to the fixed point", changed(lines, first_of(lines, "rising-box"), kappas=[0.0, 1.0]), claims_of(lines, first_of(lines, "rising-box")), None
+    yield (
+        "a box up to M = 1 next to the fixed point",
+        changed(lines, first_of(lines, "rising-box"), kappas=[0.0, 1.0]),
+        claims_of(lines, first_of(lines, "rising-box")),
+        None,
+    )
     yield "a box of another window", changed(lines, box, n=2), claims, None
     yield "a window for all M up to 1", changed(lines, window, largest_mass_ratio=1.0), [], None
     yield "a window for M up to 1e-9", changed(lines, window, largest_mass_ratio=1e-9), [], None
@@ -294,10 +420,17 @@ def rising(lines):
 
 def measures(lines):
     gaps, before = lines[2]["gaps"], len(lines[1]["intervals"])
-    at, (left, right, (one, least), (other, more)) = next((at, gap) for at, gap in enumerate(gaps) if len(gap) == 4 and gap[1] - gap[0] > 1e-6)
+    at, (left, right, (one, least), (other, more)) = next(
+        (at, gap) for at, gap in enumerate(gaps) if len(gap) == 4 and gap[1] - gap[0] > 1e-6
+    )
     claim = [before + at]
     changed_to = lambda *gap: changed(lines, 2, gaps=gaps[:at] + list(gap) + gaps[at + 1 :])
-    yield "a length in a gap that is too large", changed_to([left, right, [one, least + 0.02 * (right - left)], [other, more]]), claim, None
+    yield (
+        "a length in a gap that is too large",
+        changed_to([left, right, [one, least + 0.02 * (right - left)], [other, more]]),
+        claim,
+        None,
+    )
     yield "lengths in a gap that are exchanged", changed_to([left, right, [one, more], [other, least]]), claim, None
     yield "lengths longer than their gap", changed_to([left, right, [one, 2 * (right - left)]]), [], None
     yield "a gap counted twice", changed_to(gaps[at], gaps[at]), [], None
@@ -321,10 +454,21 @@ def measures(lines):
     yield "another mass ratio", changed(lines, 1, mass_ratios=[0.3, 0.3]), [], None
     yield "a strip of mass ratios", changed(lines, 1, mass_ratios=[0.1, 0.2]), [], None
     yield "fractions of no humps", changed(lines, 3, humps=0), [], None
-    yield "fractions of four humps", [lines[0]] + [{**line, "humps": 4} if line["kind"] == "fraction" else line for line in lines[1:]], [], None
-    open_all = [{**line, "uniform": [0.0, 1.0], "by_humps": [0.0, 1.0]} if line.get("kind") == "fraction" else line for line in lines]
+    yield (
+        "fractions of four humps",
+        [lines[0]] + [{**line, "humps": 4} if line["kind"] == "fraction" else line for line in lines[1:]],
+        [],
+        None,
+    )
+    open_all = [
+        {**line, "uniform": [0.0, 1.0], "by_humps": [0.0, 1.0]} if line.get("kind") == "fraction" else line
+        for line in lines
+    ]
     yield "fractions between 0 and 1", open_all, [], None
-    largest = max((at for at, line in enumerate(lines) if line.get("kind") == "fraction"), key=lambda own: lines[own]["uniform"][0])
+    largest = max(
+        (at for at, line in enumerate(lines) if line.get("kind") == "fraction"),
+        key=lambda own: lines[own]["uniform"][0],
+    )
     for name in ("uniform", "by_humps"):
         low, high = lines[largest][name]
         yield f"{name} shrunk from above", changed(lines, largest, **{name: [low, 0.5 * (low + high)]}), [], None
@@ -348,11 +492,21 @@ def points(lines):
     yield "a trap a hundredth too long", changed(lines, at, traps=own), claims, None
     yield "a column at another mass ratio", changed(lines, at, mass_ratio=lines[at]["mass_ratio"] + 1e-4), claims, None
     for part in (1e-3, 1e-12, 1e-14):
-        yield f"speeds beside the middle by {part}", changed(lines, 2, speeds=[speed * (1 + part) for speed in lines[2]["speeds"]]), [], None
+        yield (
+            f"speeds beside the middle by {part}",
+            changed(lines, 2, speeds=[speed * (1 + part) for speed in lines[2]["speeds"]]),
+            [],
+            None,
+        )
     row = copy.deepcopy(lines[2]["speeds"])
     row[1] = math.nextafter(row[1], math.inf)
     yield "a speed an ulp beside the middle", changed(lines, 2, speeds=row), [], None
-    yield "a column an ulp beside the middle", changed(lines, at, mass_ratio=math.nextafter(lines[at]["mass_ratio"], 1e9)), claims, None
+    yield (
+        "a column an ulp beside the middle",
+        changed(lines, at, mass_ratio=math.nextafter(lines[at]["mass_ratio"], 1e9)),
+        claims,
+        None,
+    )
     yield "the window of another figure", changed(lines, 1, mass_ratios=[0.1, 0.2]), [], None
     yield "speeds of another window", changed(lines, 1, speeds=moved(lines[1]["speeds"], 1.0)), [], None
     yield "a grid of fewer columns", changed(lines, 1, columns=lines[1]["columns"] - 1), [], None
@@ -364,17 +518,29 @@ def cells(lines):
     own = lines[at]["intervals"]
     # One in the window, whose length counts.
     low, high = lines[1]["speeds"]
-    place = max((k for k, (left, right, fate) in enumerate(own) if right > low and left < high and fate != 0), key=lambda k: own[k][1] - own[k][0])
+    place = max(
+        (k for k, (left, right, fate) in enumerate(own) if right > low and left < high and fate != 0),
+        key=lambda k: own[k][1] - own[k][0],
+    )
     claim = [claims_of(lines, at)[place]]
     swapped = copy.deepcopy(own)
     swapped[place][2] = 0
     yield "a fate exchanged", changed(lines, at, intervals=swapped), claim, None
     # One below the window: no area tells it.
     for below, line in enumerate(lines):
-        if line.get("kind") == "basins" and len(line["intervals"]) > 1 and line["intervals"][1][1] < lines[1]["speeds"][0]:
+        if (
+            line.get("kind") == "basins"
+            and len(line["intervals"]) > 1
+            and line["intervals"][1][1] < lines[1]["speeds"][0]
+        ):
             other = copy.deepcopy(line["intervals"])
             other[1][2] = 0 if other[1][2] != 0 else GROUNDED
-            yield "a fate exchanged below the window", changed(lines, below, intervals=other), [claims_of(lines, below)[1]], None
+            yield (
+                "a fate exchanged below the window",
+                changed(lines, below, intervals=other),
+                [claims_of(lines, below)[1]],
+                None,
+            )
             break
     wider = copy.deepcopy(own)
     wider[place][1] = 0.5 * (wider[place][1] + wider[place + 1][0])
@@ -386,7 +552,12 @@ def cells(lines):
     low, high = lines[-1]["share"]
     yield "an area shrunk from above", changed(lines, len(lines) - 1, share=[low, 0.5 * (low + high)]), [], None
     yield "an area shrunk from below", changed(lines, len(lines) - 1, share=[0.5 * (low + high), high]), [], None
-    yield "areas that are open", [{**line, "share": [0.0, 1.0]} if line.get("kind") == "area" else line for line in lines], [], None
+    yield (
+        "areas that are open",
+        [{**line, "share": [0.0, 1.0]} if line.get("kind") == "area" else line for line in lines],
+        [],
+        None,
+    )
     edges = [first + 1e-9 for first in lines[2]["edges"]]
     edges[0], edges[-1] = lines[2]["edges"][0], lines[2]["edges"][-1]
     yield "rows of another height", changed(lines, 2, edges=edges), [], None
@@ -424,7 +595,9 @@ def by_name(files, theorem, lines):
     either = []
     for source in (of_the_header(theorem, lines), of_each_kind(theorem, lines), FALSE[theorem](lines)):
         for what, own, claims, texts in source:
-            passes, reason = files.answer(own, None if claims is None else list(claims), texts if isinstance(texts, dict) else None)
+            passes, reason = files.answer(
+                own, None if claims is None else list(claims), texts if isinstance(texts, dict) else None
+            )
             number += 1
             if texts == "or":
                 # Of an enclosure's two halves one may be true.
@@ -468,7 +641,8 @@ def number_at(value, path):
 
 
 def at_random(files, theorem, lines, count, seed):
-    """Changes one number of one line at random. Returns how many pass although they prove more than the true file, or a false claim."""
+    """Changes one number of one line at random. Returns how many pass although they prove more than the true file, or a
+    false claim."""
     dice = random.Random(f"{theorem} {seed}")
     truth = {}
     files.answer(lines, [], found=truth)
@@ -482,7 +656,16 @@ def at_random(files, theorem, lines, count, seed):
             new = dice.choice([old + 1, old - 1, 0, -old, 2 * old])
         else:
             part = 10.0 ** -dice.uniform(0, 16)
-            new = dice.choice([old * (1 + part), old * (1 - part), math.nextafter(old, math.inf), math.nextafter(old, -math.inf), -old, 0.0])
+            new = dice.choice(
+                [
+                    old * (1 + part),
+                    old * (1 - part),
+                    math.nextafter(old, math.inf),
+                    math.nextafter(old, -math.inf),
+                    -old,
+                    0.0,
+                ]
+            )
         if new == old:
             continue
         own = lines[:at] + [put(lines[at], path, new)] + lines[at + 1 :]
@@ -492,9 +675,11 @@ def at_random(files, theorem, lines, count, seed):
         if not passes:
             continue
         passed += 1
-        # All claims of the line hold in balls; other formulas must not find a point where one is false, and what the file proves is what it
-        # proved or less.
-        reason = refutes(own, at, places(own[at], path)) or (stronger(theorem, proved, truth) and "it proves more than is true")
+        # All claims of the line hold in balls; other formulas must not find a point where one is false, and what the
+        # file proves is what it proved or less.
+        reason = refutes(own, at, places(own[at], path)) or (
+            stronger(theorem, proved, truth) and "it proves more than is true"
+        )
         if reason:
             wrong += 1
             print(f"NOT REFUSED {theorem}, line {at + 1}, {path}: {old!r} as {new!r}: {said}; {reason}", flush=True)
@@ -520,7 +705,8 @@ def near(lines, at, path):
 
 
 def stronger(theorem, proved, truth):
-    """Whether a file proves more than the true one, by the relations of the manifest: longer traps, a larger range, another window."""
+    """Whether a file proves more than the true one, by the relations of the manifest: longer traps, a larger range,
+    another window."""
     for name, bound in STATEMENTS[theorem]["scopes"][0].items():
         if name == "scope":
             continue
@@ -530,8 +716,8 @@ def stronger(theorem, proved, truth):
         if len(own) != len(true):
             return True
         for a, b in zip(own, true):
-            # Beyond the digits to which the true number is known. An enclosure some ulps wide may lose one or two of them, and still
-            # contain the truth: its line is recomputed.
+            # Beyond the digits to which the true number is known. An enclosure some ulps wide may lose one or two of
+            # them, and still contain the truth: its line is recomputed.
             room = 0.5 if name.startswith("width") else 1e-2
             too_large, too_small = a > b + room * abs(b), a < b - room * abs(b)
             if relation == "is" and a != b or relation == "least" and too_large or relation == "most" and too_small:

@@ -1,7 +1,8 @@
 """What each basin has at least of the gaps between intervals of one fate, confirmed by the fates of parts of them.
 
-The prover has the lengths from the slope of F (docs/theory.md, Theorem 96). Here a gap is halved, the widest part first, until parts of
-each fate are as long as is said. A part has a fate if its images end in an interval of that fate, or on the ground.
+The prover has the lengths from the slope of F (docs/theory.md, Theorem 96). Here a gap is halved, the widest part
+first, until parts of each fate are as long as is said. A part has a fate if its images end in an interval of that fate,
+or on the ground.
 """
 
 import heapq

@@ -123,7 +123,9 @@ def verify(check):
         found = pool.map(flights, tests + fits, chunksize=50)
     wrong = 0
     with mp.workdps(DIGITS):
-        measured, fitted = (equations([f for hop in part for f in hop]) for part in (found[: len(tests)], found[len(tests) :]))
+        measured, fitted = (
+            equations([f for hop in part for f in hop]) for part in (found[: len(tests)], found[len(tests) :])
+        )
         for which, ours in enumerate(committed()):
             made = fit(fitted[which])
             differ = sum(float(a) != b for a, b in zip(made, ours)) + abs(len(made) - len(ours))

@@ -119,6 +119,7 @@ def first_landing(y, v):
     phi = atan2(v, y)
     gamma = acos(1 / radius)
     turn = 2 * mp.pi
+
     # Cell 2k is convex, from phi - gamma + 2 pi k; cell 2k + 1 is concave, from phi + gamma + 2 pi k.
     def start_of(cell):
         return phi + (gamma if cell % 2 else -gamma) + turn * (cell // 2)

@@ -1,15 +1,17 @@
 """On the left of alpha*_n the map rises, and for M <= 1 it falls with kappa, from the equations of both flights.
 
-As on the right (`right_of_star.py`) the time of the first flight is the parameter: tau = 2a - u, a = alpha*_n, u >= 0. With the E_k of that
-file, P = (a E_3(u) - u E_4(u))/(tau - sin tau), and c_1 = a E_2(u) - u E_3(u) + u P (1 - cos tau),
+As on the right (`right_of_star.py`) the time of the first flight is the parameter: tau = 2a - u, a = alpha*_n, u >= 0.
+With the E_k of that file, P = (a E_3(u) - u E_4(u))/(tau - sin tau), and c_1 = a E_2(u) - u E_3(u) + u P (1 - cos tau),
 
     alpha = a - u^3 P,    Gamma_1 = u^2 c_1,    d alpha/du = -u^2 c_1/(tau - sin tau)
 
-Gamma being the closing speed. In a window the landing is sudden (docs/theory.md, Theorem 8). The second flight starts from
+Gamma being the closing speed. In a window the landing is sudden (docs/theory.md, Theorem 8). The second flight starts
+from
 
     x = alpha tau - tau^2/2 = u X,  X = tau (1/2 - u^2 P),    V = alpha - tau + kappa Gamma_1
 
-and lands at the time s = u sigma, where G/(s^2 u) = X E_2(s) + V sigma E_3(s) - u sigma^2 E_4(s) is zero. There, with x from this equation,
+and lands at the time s = u sigma, where G/(s^2 u) = X E_2(s) + V sigma E_3(s) - u sigma^2 E_4(s) is zero. There, with x
+from this equation,
 
     Gamma_2 = u^2 c_2,    c_2 = sigma^2 [s (E_3 - E_1 E_4/E_2) - V (E_2 - E_1 E_3/E_2)]
 
@@ -18,8 +20,8 @@ No term is singular at u = 0. F = alpha^2 - mu (Gamma_1^2 + Gamma_2^2) with mu =
     -dF/du/u^2 = 2 alpha c_1/(tau - sin tau) + mu [4u (c_1^2 + c_2^2) + u^2 d(c_1^2 + c_2^2)/du]
     -dF/dkappa/u^4 = (1 - 2 kappa) (c_1^2 + c_2^2) + mu u^2 c_1 d(c_2^2)/dV
 
-F rises with alpha where the first is positive. For kappa <= 1/2 it falls with kappa where d(c_2^2)/dV is positive. Balls of u and kappa show
-both.
+F rises with alpha where the first is positive. For kappa <= 1/2 it falls with kappa where d(c_2^2)/dV is positive.
+Balls of u and kappa show both.
 """
 
 from collections import namedtuple
@@ -98,7 +100,8 @@ _rising = {}
 
 
 def rises(n, a, light):
-    """F rises on [a - REACH, a) for all M, or, if `light`, on [a - REACH_LIGHT, a) for all M <= 1, where it also falls with kappa."""
+    """F rises on [a - REACH, a) for all M, or, if `light`, on [a - REACH_LIGHT, a) for all M <= 1, where it also falls
+    with kappa."""
     key = n, light
     if key not in _rising:
         _rising[key] = found_to_rise(a, light)
@@ -186,8 +189,8 @@ def sharpened(sigma, a, u, kappa):
 def second_time(u, x, v):
     """sigma with its derivatives, or None.
 
-    G starts with G = G' = 0, is convex while the stretch is above 1, then concave for a time of at least pi. So it has one zero before s = pi at
-    most, the landing.
+    G starts with G = G' = 0, is convex while the stretch is above 1, then concave for a time of at least pi. So it has
+    one zero before s = pi at most, the landing.
     """
     u = Dual(u, 1)
 

@@ -1,18 +1,20 @@
-"""The bound of Theorem 68 of docs/theory.md a second time: the loss on the left of alpha*_n, from the equations of both flights.
+"""The bound of Theorem 68 of docs/theory.md a second time: the loss on the left of alpha*_n, from the equations of both
+flights.
 
 With u, kappa, P, c_1 and sigma of `left_of_star.py`, and v = |delta|^(1/3) = u P^(1/3),
 
     delta - delta' = mu u^4 (c_1^2 + c_2^2)/(alpha + f),    f^2 = alpha^2 - mu u^4 (c_1^2 + c_2^2)
     G = (delta - delta')/(10 lambda |delta|^(4/3)) = 4 (c_1^2 + c_2^2)/(5 a beta^4 P^(4/3) (alpha + f))
 
-G is analytic in u. The rest G - 1 - c_1' v - c_2' v^2, with the coefficients of Theorem 36, begins with u^3 by that theorem. So, by the maximum
-principle, on a disc |u| <= U the rest over u^3 is at most its largest value on the circle. There nothing cancels: complex balls, in a Taylor form of
-the second order by the angle and by kappa, enclose it. On the disc itself they only have to show that nothing is singular: that every divisor is
-away from zero, every root's argument has a positive real part, and the time sigma is the one zero near 3 of its equation.
+G is analytic in u. The rest G - 1 - c_1' v - c_2' v^2, with the coefficients of Theorem 36, begins with u^3 by that
+theorem. So, by the maximum principle, on a disc |u| <= U the rest over u^3 is at most its largest value on the circle.
+There nothing cancels: complex balls, in a Taylor form of the second order by the angle and by kappa, enclose it. On the
+disc itself they only have to show that nothing is singular: that every divisor is away from zero, every root's argument
+has a positive real part, and the time sigma is the one zero near 3 of its equation.
 
-`left_of_star.py` shows for the same n that delta falls with u, that this zero is the landing, and that contact follows it. Of the theorem's own
-derivation only Theorem 36 is used, to which `vanishes` compares the first coefficients: the rest of it expands the equations in the real time, in
-models with remainders, in another language.
+`left_of_star.py` shows for the same n that delta falls with u, that this zero is the landing, and that contact follows
+it. Of the theorem's own derivation only Theorem 36 is used, to which `vanishes` compares the first coefficients: the
+rest of it expands the equations in the real time, in models with remainders, in another language.
 """
 
 import argparse
@@ -118,7 +120,8 @@ def loss(a, beta, u, kappa, sigma_of):
 
 
 def newton(place, ball):
-    """Newton's step from a point over a ball, for the second flight. The slope's real part is negative on the convex ball, so that it has one zero."""
+    """Newton's step from a point over a ball, for the second flight. The slope's real part is negative on the convex
+    ball, so that it has one zero."""
 
     def step(x, v, u):
         order, ctx.cap = ctx.cap, 2
@@ -177,7 +180,9 @@ def on_arc(a, beta, radius, arc):
     def centred(x, v, u):
         """sigma over the whole arc, by its own slopes in the middle: twice as narrow and more."""
         bend = sigma_series(x, v, u)[2]
-        return sigma_series(x, v, u, sigma_by_angle[0] + sigma_by_angle[1] * UNIT + sigma_by_kappa[1] * UNIT + bend * UNIT)
+        return sigma_series(
+            x, v, u, sigma_by_angle[0] + sigma_by_angle[1] * UNIT + sigma_by_kappa[1] * UNIT + bend * UNIT
+        )
 
     # Any direction: each of the two first-order terms is a number of its size.
     angles, kappas = arc.low.union(arc.high), arc.kappa_low.union(arc.kappa_high)
@@ -186,7 +191,8 @@ def on_arc(a, beta, radius, arc):
 
 
 def holds(n, bound):
-    """Theorem 68 next to one alpha*_n, with another bound if one is given: the number of arcs, or None if it is open."""
+    """Theorem 68 next to one alpha*_n, with another bound if one is given: the number of arcs, or None if it is
+    open."""
     a = star(n)
     if not rises(n, a, False):
         return None
@@ -250,7 +256,8 @@ def least_p(a, radius):
 def vanishes(a, beta):
     """The first three coefficients at u = 0 are zero, as Theorem 36 says, as far as balls of points can show it.
 
-    They are of the first degree in kappa, which enters the second flight with u^2 and mu with u^4: its two ends tell for all.
+    They are of the first degree in kappa, which enters the second flight with u^2 and mu with u^4: its two ends tell
+    for all.
     """
     tiny = arb(2) ** (SPARE_BITS - ctx.prec)
     rests = [loss(a, beta, acb_series([0, 1]), acb_series([acb(kappa)]), sigma_series) for kappa in (0, 1)]
@@ -303,7 +310,11 @@ def main():
         arcs = holds(n, options.bound)
         if arcs is None:
             sys.exit(f"n = {n}: open")
-        print(f"n = {n}: |G - 1 - c_1 v - c_2 v^2| <= {options.bound} v^3 for all M and -10^-3 <= delta < 0, by {arcs} arcs", flush=True)
+        print(
+            f"n = {n}: |G - 1 - c_1 v - c_2 v^2| <= {options.bound} v^3 for all M and -10^-3 <= delta < 0, by {arcs}"
+            " arcs",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

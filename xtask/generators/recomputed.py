@@ -1,8 +1,10 @@
-"""The numbers of a certificate once more, by other formulas, without enclosures: half the time of flight, bisection, sums of losses, 200 bits.
+"""The numbers of a certificate once more, by other formulas, without enclosures: half the time of flight, bisection,
+sums of losses, 200 bits.
 
-The checker uses the equations of motion and balls. Here a landing is the root of V_Y(h) = V on one branch (docs/theory.md, Lemmas 5 and 15), and
-the next lift-off speed follows from the sum of the losses (Theorem 4). `refutes` tries points of what a line says, and adds its sums again. It proves nothing; a fault
-that the checker has in its formulas, signs or rules is seen here.
+The checker uses the equations of motion and balls. Here a landing is the root of V_Y(h) = V on one branch
+(docs/theory.md, Lemmas 5 and 15), and the next lift-off speed follows from the sum of the losses (Theorem 4). `refutes`
+tries points of what a line says, and adds its sums again. It proves nothing; a fault that the checker has in its
+formulas, signs or rules is seen here.
 """
 
 from functools import lru_cache
@@ -99,7 +101,8 @@ def square(speed, kappa):
 
 
 def fate(speed, mass_ratio):
-    """n, or grounded; None if it is open. An orbit that stays above alpha*_n as long as it is followed converges to it."""
+    """n, or grounded; None if it is open. An orbit that stays above alpha*_n as long as it is followed converges to
+    it."""
     kappa, speed = parameter(mass_ratio), point(speed)
     for _ in range(MOST_HOPS):
         if speed <= 1:
@@ -119,7 +122,8 @@ def fate(speed, mass_ratio):
     return None
 
 
-# An orbit that loses so little in a hop, and is so near above alpha*_n, is on its right. (On its left it is near the next one below.)
+# An orbit that loses so little in a hop, and is so near above alpha*_n, is on its right. (On its left it is near the
+# next one below.)
 SLOW, NEAR = 1e-4, 0.05
 
 
@@ -132,16 +136,24 @@ def trap(line):
     inside = between(line["fixed_point"][1], line["right"], POINTS)
     falls = [float(speed) for speed in inside[1:] if square(speed, kappa) < goal]
     beyond = line["beyond"] is not None and not square(line["beyond"], kappa) < goal
-    return f"f falls below alpha* at {falls[0]!r}" if falls else "beyond the trap f stays above alpha*" if beyond else None
+    return (
+        f"f falls below alpha* at {falls[0]!r}" if falls else "beyond the trap f stays above alpha*" if beyond else None
+    )
 
 
 def crisis(line):
     n, (low, high) = line["n"], line["mass_ratio"]
     goal, end = star(n) ** 2, (n + 1) * pi()
-    least = min(square(speed, parameter(low)) for speed in between(line["speed"] - 0.01, line["speed"] + 0.01, POINTS) if star(n) < speed < end)
+    least = min(
+        square(speed, parameter(low))
+        for speed in between(line["speed"] - 0.01, line["speed"] + 0.01, POINTS)
+        if star(n) < speed < end
+    )
     if least < goal:
         return f"at M = {low!r} f falls below alpha*_{n} already"
-    return None if square(line["speed"], parameter(high)) < goal else f"at M = {high!r} f does not fall below alpha*_{n}"
+    return (
+        None if square(line["speed"], parameter(high)) < goal else f"at M = {high!r} f does not fall below alpha*_{n}"
+    )
 
 
 def contact_part(line):
@@ -237,9 +249,14 @@ def known_lengths(lines, left, right):
 def fraction(lines, at):
     """What is known of a fate is not more than the upper bound, and with what is open not less than the lower one."""
     line = lines[at]
-    means = {"uniform": [(star(1), star(line["humps"] + 1))], "by_humps": [(star(n), star(n + 1)) for n in range(1, line["humps"] + 1)]}
+    means = {
+        "uniform": [(star(1), star(line["humps"] + 1))],
+        "by_humps": [(star(n), star(n + 1)) for n in range(1, line["humps"] + 1)],
+    }
     for name, windows in means.items():
-        known = sum(known_lengths(lines, *ends).get(line["fate"], arb(0)) / (ends[1] - ends[0]) for ends in windows) / len(windows)
+        known = sum(
+            known_lengths(lines, *ends).get(line["fate"], arb(0)) / (ends[1] - ends[0]) for ends in windows
+        ) / len(windows)
         low, high = line[name]
         if low > known + SUM_ROOM or high < known - SUM_ROOM:
             return f"{name}: {float(known)!r} is known"
@@ -262,11 +279,19 @@ SUM_ROOM = 1e-13
 
 
 def refutes(lines, at, places):
-    """Why a line is false, as far as points and sums show it; None if none of them does. `places` are those of its parts that are tried."""
+    """Why a line is false, as far as points and sums show it; None if none of them does. `places` are those of its
+    parts that are tried."""
     line = lines[at]
     before, ctx.prec = ctx.prec, BITS
     try:
-        alone = {"trap": trap, "crisis": crisis, "contact-part": contact_part, "rising-box": rising_box, "one-sudden": one_sudden, "losses": losses}
+        alone = {
+            "trap": trap,
+            "crisis": crisis,
+            "contact-part": contact_part,
+            "rising-box": rising_box,
+            "one-sudden": one_sudden,
+            "losses": losses,
+        }
         sums = {"fraction": fraction, "area": area}
         parts = {"points": points, "gaps": gaps}
         if line["kind"] in alone:
@@ -278,7 +303,8 @@ def refutes(lines, at, places):
         if line["kind"] == "basins":
             tried = (basins(line, place) for place in places)
             return next((reason for reason in tried if reason), None)
-        # The grid, speeds, windows of rising boxes and the number of cells are claims of the whole file: `stronger` compares them.
+        # The grid, speeds, windows of rising boxes and the number of cells are claims of the whole file: `stronger`
+        # compares them.
         return None
     finally:
         ctx.prec = before

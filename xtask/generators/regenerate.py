@@ -53,7 +53,9 @@ class Comparison:
 
     def report(self, total, seconds):
         verdict = "equal" if not self.wrong else f"{self.wrong} DIFFER"
-        print(f"{self.table.name}: {self.compared} of {total} records made again, {verdict} ({seconds:.0f} s)", flush=True)
+        print(
+            f"{self.table.name}: {self.compared} of {total} records made again, {verdict} ({seconds:.0f} s)", flush=True
+        )
 
 
 def check(number, pool):

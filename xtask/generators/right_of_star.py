@@ -1,15 +1,17 @@
 """On the right of alpha*_n the map stays above it, from the equations of the first flight alone.
 
-There the landing is a triple root in the limit, which signs do not enclose, and the loss is of the order (alpha - a)^(4/3), a = alpha*_n. So the
-time of flight is taken as the parameter, tau = 2a + t. A lift-off at alpha lands when tau^2/2 - 1 + cos tau = alpha Q with Q = tau - sin tau.
-Let N = tau^2/2 - 1 + cos tau - a Q, so that alpha - a = N/Q. As tan a = a, N and its first two derivatives vanish at t = 0, and its third
-derivative is sin t + a cos t. With E_k = sum over j of (-1)^j t^(2j) / (2j+k)! this gives
+There the landing is a triple root in the limit, which signs do not enclose, and the loss is of the order (alpha -
+a)^(4/3), a = alpha*_n. So the time of flight is taken as the parameter, tau = 2a + t. A lift-off at alpha lands when
+tau^2/2 - 1 + cos tau = alpha Q with Q = tau - sin tau. Let N = tau^2/2 - 1 + cos tau - a Q, so that alpha - a = N/Q. As
+tan a = a, N and its first two derivatives vanish at t = 0, and its third derivative is sin t + a cos t. With E_k = sum
+over j of (-1)^j t^(2j) / (2j+k)! this gives
 
     N = a t^3 E_3 + t^4 E_4,    N' = a t^2 E_2 + t^3 E_3
 
-without cancellation. The closing speed is tau - sin tau - alpha (1 - cos tau) = N' - (alpha - a) (1 - cos tau). On the contact part of hump n
-the first landing is the only one of the hop, and alpha rises with tau (docs/theory.md, Theorems 7 and 8). So f(alpha) > a if and only if
-mu times the closing speed squared is below alpha^2 - a^2. With P = (a E_3 + t E_4)/Q, alpha - a = t^3 P, this reads
+without cancellation. The closing speed is tau - sin tau - alpha (1 - cos tau) = N' - (alpha - a) (1 - cos tau). On the
+contact part of hump n the first landing is the only one of the hop, and alpha rises with tau (docs/theory.md, Theorems
+7 and 8). So f(alpha) > a if and only if mu times the closing speed squared is below alpha^2 - a^2. With P = (a E_3 + t
+E_4)/Q, alpha - a = t^3 P, this reads
 
     mu t (a E_2 + t E_3 - t P (1 - cos tau))^2 < P (2a + t^3 P)
 
@@ -23,9 +25,11 @@ from flint import arb, ctx
 
 # Terms of E_k. For t below LONGEST the first one left out is below 10^-20.
 TERMS = 16
-# Longest t. The contact part ends at a smaller one than 3.6 for n >= 1; for n = 0 at 2 pi, where balls no longer decide.
+# Longest t. The contact part ends at a smaller one than 3.6 for n >= 1; for n = 0 at 2 pi, where balls no longer
+# decide.
 LONGEST = 3.6
-# Most parts of the times of flight. Near the end of a trap both sides are nearly equal; what is left there is followed by a hop instead.
+# Most parts of the times of flight. Near the end of a trap both sides are nearly equal; what is left there is followed
+# by a hop instead.
 MOST_PARTS = 6
 # Steps to the time of a speed, and the part of it that is added for what they leave.
 STEPS, LATER = 6, 1e-6

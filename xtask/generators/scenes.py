@@ -1,11 +1,11 @@
 """Times of the events of scenes whose answers are known, and the state at the end (crates/hopper/hopper-studies).
 
-    ball          x'' = -9.81 from x = 1 at rest, x' -> -0.8 x' at x = 0; the first 40 impacts; at rest at t = 5
-    pendulum      x'' = -sin x from x = 2 at rest; x = 0 up to t = 400
-    turning points  the same pendulum; x = 1.9999
-    van der Pol   x'' = 5 (1 - x^2) x' - x from (2, 0); x = 0 up to t = 300
-    relay with hysteresis   x' = s + 0.3 from x = 1, s = -1; s changes its sign at s x = 0.01; up to t = 5
-    relay         x' = 0.3 - sgn x from x = 1; it reaches x = 0 and stays there
+ball          x'' = -9.81 from x = 1 at rest, x' -> -0.8 x' at x = 0; the first 40 impacts; at rest at t = 5
+pendulum      x'' = -sin x from x = 2 at rest; x = 0 up to t = 400
+turning points  the same pendulum; x = 1.9999
+van der Pol   x'' = 5 (1 - x^2) x' - x from (2, 0); x = 0 up to t = 300
+relay with hysteresis   x' = s + 0.3 from x = 1, s = -1; s changes its sign at s x = 0.01; up to t = 5
+relay         x' = 0.3 - sgn x from x = 1; it reaches x = 0 and stays there
 """
 
 from mpmath import asin, ellipf, ellipfun, ellipk, floor, mp, mpf, nstr, sin, sqrt
@@ -105,8 +105,4 @@ def scene(record):
     """One record: the scene's name, the times, the state at the end."""
     with mp.workdps(WORKING):
         times, end = SCENES[record["scene"]]()
-        return {
-            "scene": record["scene"],
-            "times": [nstr(t, PRINTED) for t in times],
-            "end": nstr(end, PRINTED),
-        }
+        return {"scene": record["scene"], "times": [nstr(t, PRINTED) for t in times], "end": nstr(end, PRINTED)}

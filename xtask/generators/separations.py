@@ -1,9 +1,11 @@
-"""Distances of the f64 to the multiples of pi and to the fixed points alpha*_n: the numbers of docs/theory.md, Lemma 65.
+"""Distances of the f64 to the multiples of pi and to the fixed points alpha*_n: the numbers of docs/theory.md, Lemma
+65.
 
-Multiples of pi: in the binade [2^E, 2^(E+1)) every f64 is a multiple of 2^(E-52). |m 2^(E-52) - n pi| is smallest, over all
-m and all n up to a limit, at the last convergent of pi/2^(E-52) whose denominator is within this limit.
+Multiples of pi: in the binade [2^E, 2^(E+1)) every f64 is a multiple of 2^(E-52). |m 2^(E-52) - n pi| is smallest, over
+all m and all n up to a limit, at the last convergent of pi/2^(E-52) whose denominator is within this limit.
 
-Fixed points: alpha*_n for each n, in whole numbers of 2^-FRACTION, and its distance to the nearest multiple of 2^(E-52).
+Fixed points: alpha*_n for each n, in whole numbers of 2^-FRACTION, and its distance to the nearest multiple of
+2^(E-52).
 """
 
 from mpmath import atan, floor, mp, mpf, nint, nstr, pi
@@ -17,14 +19,15 @@ LEAST_QUOTIENT = 100
 NEAREST_FIXED_POINT = mpf("5.3e-24")
 FIXED_POINTS = 3_000_000
 FIXED_POINTS_OF_A_SAMPLE = 20_000
-# Largest expected number of wrong decisions beyond FIXED_POINTS, and the relative error of the computed alpha*_n behind it.
+# Largest expected number of wrong decisions beyond FIXED_POINTS, and the relative error of the computed alpha*_n behind
+# it.
 EXPECTED = mpf("0.008")
 FIXED_POINT_ERROR = mpf(2) ** -101
 LARGEST_SPEED = 2**43
 
 FRACTION = 256
-# alpha*_n comes from the contraction below this n, and from the series of Lemma 40 up to q^-9 from it on. The series errs by
-# at most 5.177 q^-11 (Theorem 71), which is 2e-38 here.
+# alpha*_n comes from the contraction below this n, and from the series of Lemma 40 up to q^-9 from it on. The series
+# errs by at most 5.177 q^-11 (Theorem 71), which is 2e-38 here.
 SERIES_FROM = 1000
 SERIES = ((1, 1), (2, 3), (13, 15), (146, 105), (781, 315))
 
@@ -102,8 +105,8 @@ def fixed_points(most):
 
 
 def expected():
-    """Expected number of f64 between alpha*_n and its computed value, for all n from FIXED_POINTS on, if distances are spread
-    evenly: the sum of error/spacing."""
+    """Expected number of f64 between alpha*_n and its computed value, for all n from FIXED_POINTS on, if distances are
+    spread evenly: the sum of error/spacing."""
     total, low = mpf(0), FIXED_POINTS * pi
     while low < LARGEST_SPEED:
         binade = int(floor(mp.log(low, 2)))
@@ -119,8 +122,11 @@ def verify(check):
         found = multiples()
         nearest, n, _ = min(found)
         quotient = min(quotient for _, _, quotient in found)
-        print(f"  multiples of pi: nearest {nstr(nearest, 4)} (n = {n}), at least {nstr(quotient, 3)} errors; "
-              f"at E = 42 {nstr(found[-1][0], 3)}", flush=True)
+        print(
+            f"  multiples of pi: nearest {nstr(nearest, 4)} (n = {n}), at least {nstr(quotient, 3)} errors; "
+            f"at E = 42 {nstr(found[-1][0], 3)}",
+            flush=True,
+        )
         wrong = (nearest < NEAREST_MULTIPLE) + (quotient < LEAST_QUOTIENT)
         most = FIXED_POINTS_OF_A_SAMPLE if check else FIXED_POINTS
         least, n = fixed_points(most)

@@ -41,8 +41,10 @@ def interpolate(function, terms=TERMS):
 
 def worst(function, coefficients, power):
     """Largest error of z^power times the polynomial: in sin r relative to r, in cos r absolutely."""
+
     def error(z):
         return abs(mp.polyval([mpf(c) for c in reversed(coefficients)], z) - function(z)) * z**power
+
     return max(error(end() * k / PLACES) for k in range(1, PLACES + 1))
 
 
@@ -60,17 +62,23 @@ def verify(_check):
             made, committed = interpolate(function), numbers(name)
             equal = sum(a == b for a, b in zip(made, committed)) if len(made) == len(committed) else 0
             wrong += equal < len(made)
-            print(f"  {name}: {equal} of {len(made)} coefficients equal; "
-                  f"error committed {nstr(worst(function, committed, power), 3)}, "
-                  f"made {nstr(worst(function, made, power), 3)}, "
-                  f"with {TERMS - 1} terms {nstr(worst(function, interpolate(function, TERMS - 1), power), 3)}")
+            print(
+                f"  {name}: {equal} of {len(made)} coefficients equal; "
+                f"error committed {nstr(worst(function, committed, power), 3)}, "
+                f"made {nstr(worst(function, made, power), 3)}, "
+                f"with {TERMS - 1} terms {nstr(worst(function, interpolate(function, TERMS - 1), power), 3)}"
+            )
     with mp.workdps(400):
         parts = [float(pi), float(pi - float(pi))]
         parts.append(float(pi - parts[0] - parts[1]))
         # std::f64::consts::PI stands in the source instead of the first part.
         quarter = int(nint(pi / 4 * mpf(2) ** 1024))
         words = [quarter >> 64 * k & (2**64 - 1) for k in range(16)]
-        for name, kind, made in (("HALF_PI", "f64", half_pi()), ("PI_PARTS", "f64", parts[1:]), ("QUARTER_PI", "u64", words)):
+        for name, kind, made in (
+            ("HALF_PI", "f64", half_pi()),
+            ("PI_PARTS", "f64", parts[1:]),
+            ("QUARTER_PI", "u64", words),
+        ):
             committed = [x for x in numbers(name, kind) if x != 64]
             print(f"  {name}: {sum(a == b for a, b in zip(made, committed))} of {len(made)} parts equal")
             wrong += made != committed

@@ -1,8 +1,9 @@
 """The sentence that a certificate proves, against the one that it prints and against the ones that are wanted.
 
-`statements.json` is the manifest: for each theorem the text of its statement, with the numbers that a file must show in braces, and its
-scopes: what a file must prove at least, such as the ranges of n and M, the widths, the window. What a file *proves* is derived from its lines
-alone (`derived` of the classes in `whole_theorems.py`). A file whose text says another number, or that falls short of every scope, is refused.
+`statements.json` is the manifest: for each theorem the text of its statement, with the numbers that a file must show in
+braces, and its scopes: what a file must prove at least, such as the ranges of n and M, the widths, the window. What a
+file *proves* is derived from its lines alone (`derived` of the classes in `whole_theorems.py`). A file whose text says
+another number, or that falls short of every scope, is refused.
 """
 
 import json
@@ -44,14 +45,19 @@ def compare(header, derived):
         if name == "stated_mass_ratio":
             # It is printed with fewer digits, rounded down.
             if not stated <= derived["largest_mass_ratio"] <= stated + 1e-14:
-                raise Refuted(f"line 1: the statement says M <= {stated!r}, and the lines prove M <= {derived['largest_mass_ratio']!r}")
+                raise Refuted(
+                    f"line 1: the statement says M <= {stated!r}, and the lines prove M <="
+                    f" {derived['largest_mass_ratio']!r}"
+                )
             continue
         proved = derived[name] if index is None else derived[name][index]
         if stated != proved:
             raise Refuted(f"line 1: the statement says {stated!r}, and the lines prove {proved!r} ({name})")
     misses = []
     for scope in STATEMENTS[theorem]["scopes"]:
-        missed = [text for name, bound in scope.items() if name != "scope" for text in short_of(name, bound, derived[name])]
+        missed = [
+            text for name, bound in scope.items() if name != "scope" for text in short_of(name, bound, derived[name])
+        ]
         if not missed:
             return scope["scope"]
         misses.append(f"{scope['scope']}: {missed[0]}")
@@ -60,7 +66,7 @@ def compare(header, derived):
 
 def short_of(name, bound, proved):
     """Why a number, or a list of numbers, falls short of a bound."""
-    (relation, wanted), = bound.items()
+    ((relation, wanted),) = bound.items()
     if isinstance(wanted, list):
         if not isinstance(proved, (list, tuple)) or len(proved) != len(wanted):
             yield f"{name} is {proved!r}, not {wanted!r}"
@@ -68,7 +74,11 @@ def short_of(name, bound, proved):
         pairs = list(zip(proved, wanted))
     else:
         pairs = [(proved, wanted)]
-    holds = {"is": lambda own, other: own == other, "least": lambda own, other: own >= other, "most": lambda own, other: own <= other}
+    holds = {
+        "is": lambda own, other: own == other,
+        "least": lambda own, other: own >= other,
+        "most": lambda own, other: own <= other,
+    }
     if not all(holds[relation](own, other) for own, other in pairs):
         yield f"{name} is {proved!r}, and should be {'' if relation == 'is' else 'at ' + relation + ' '}{wanted!r}"
 

@@ -30,8 +30,8 @@ VANISHES = mpfr("1e-11")
 FEW = mpfr("1e-10")
 # More steps mean that the method does not converge.
 MOST_STEPS = 12
-# The degree of the quadrature that a step over a kink is compared with, and its first stage after that at the start: the
-# stages before have lower orders.
+# The degree of the quadrature that a step over a kink is compared with, and its first stage after that at the start:
+# the stages before have lower orders.
 ROBUST = 3
 FIRST_ROBUST = 3
 # The interpolants are tabulated at this many Chebyshev nodes of the step (ode/chebyshev.rs).
@@ -43,8 +43,8 @@ OUT = ROOT / "target" / "regenerate"
 # with the weights), the file.
 PAIRS = (("9(8)", 9, 8, 5, "nine.in"), ("6(5)", 6, 6, 8, "six.in"))
 HEADER = """\
-// J. H. Verner's "efficient" pair of orders {orders}: {stages} stages, and {more} more for its interpolant of order {inside}.
-//
+// J. H. Verner's "efficient" pair of orders {orders}: {stages} stages, and {more} more for its interpolant of order
+{inside}. //
 // Made by `xtask/generators/verner.py` (`cargo xtask regenerate --only verner`); not edited by hand.
 Scheme {{
 """
@@ -100,7 +100,7 @@ def read(name, order):
     of_pair, free = free, []
     nodes += [place(text) for text in published["c"][stages:]]
     rows += [] if same else [weights]
-    rows += [row(texts) for texts in published["a"][len(rows):]]
+    rows += [row(texts) for texts in published["a"][len(rows) :]]
     inside = [[place(text) for text in texts] for texts in published["inside"]]
     return Pair(order, stages, nodes, rows, weights, lower, inside, values, of_pair, free)
 
@@ -126,9 +126,14 @@ def row_conditions(pair, stages):
     The conditions of the trees leave one parameter of a pair free, a node of many digits. The orders of the stages
     determine it.
     """
-    return [(stage, power) for stage in stages if stage > 0 for power in range(pair.order)
-            if abs(row_residual(pair, pair.values, stage, power))
-            < VANISHES * node(pair, pair.values, stage) ** (power + 1) / (power + 1)]
+    return [
+        (stage, power)
+        for stage in stages
+        if stage > 0
+        for power in range(pair.order)
+        if abs(row_residual(pair, pair.values, stage, power))
+        < VANISHES * node(pair, pair.values, stage) ** (power + 1) / (power + 1)
+    ]
 
 
 def pair_residuals(pair, values, found, conditions):
@@ -216,8 +221,9 @@ def polish(values, free, residuals):
         if lower is None:
             units, columns = [values[k] for k in free], jacobian(values, free, residuals, now)
             damping = sum(map(mul, now, now))
-            lower = factor([[product(a, b) + (damping if a is b else 0) for b in columns[: i + 1]]
-                            for i, a in enumerate(columns)])
+            lower = factor(
+                [[product(a, b) + (damping if a is b else 0) for b in columns[: i + 1]] for i, a in enumerate(columns)]
+            )
         right = [-sum(map(mul, column, now), mpfr(0)) for column, _ in columns]
         for k, unit, step in zip(free, units, solve(lower, right)):
             values[k] += unit * step
@@ -305,8 +311,11 @@ def source(name, inside, kink_ratio, pair):
     nodes = [(1 + gmpy2.cos(gmpy2.const_pi() * (2 * j + 1) / (2 * NODES))) / 2 for j in range(NODES)]
     columns = []
     for s in nodes:
-        terms = [(i, sum((values[k] * s ** (power + 1) for power, k in enumerate(row) if k >= 0), mpfr(0)))
-                 for i, row in enumerate(pair.inside) if row]
+        terms = [
+            (i, sum((values[k] * s ** (power + 1) for power, k in enumerate(row) if k >= 0), mpfr(0)))
+            for i, row in enumerate(pair.inside)
+            if row
+        ]
         columns.append(dense(with_first(terms, s), total))
     for row in zip(*columns):
         text += "        [\n" + lines(map(number, row), 12) + "        ],\n" if any(row) else "        [0.0; 16],\n"

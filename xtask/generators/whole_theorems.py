@@ -1,7 +1,7 @@
 """What joins the lines of a certificate: no line may be missing, strips and boxes leave no gap, and sums are as said.
 
-Each theorem has a class: the kinds of lines that it may have, `add` for each line, `end` after the last, and what its claims together prove:
-`derived`, numbers that `statements.py` compares and prints, and `means`, the words for them.
+Each theorem has a class: the kinds of lines that it may have, `add` for each line, `end` after the last, and what its
+claims together prove: `derived`, numbers that `statements.py` compares and prints, and `means`, the words for them.
 """
 
 import math
@@ -137,7 +137,10 @@ class Traps(Whole):
         super().end()
         require(len(set(self.counts)) == 1, f"humps have {self.counts} mass ratios")
 
-    means = "ends of traps, for n from 1, at so many mass ratios each from the lowest to the highest, with these largest steps and widths"
+    means = (
+        "ends of traps, for n from 1, at so many mass ratios each from the lowest to the highest, with these largest"
+        " steps and widths"
+    )
 
     def derived(self):
         return {
@@ -161,9 +164,12 @@ class EverythingHops(Whole):
     def add_crisis(self, line):
         require(self.lines == 1 and line["n"] == 1, "the crisis of hump 1 comes first")
         self.crisis = pair(line["mass_ratio"])
-        require(0 < self.crisis[0] and self.crisis[1] - self.crisis[0] <= CRISIS_WIDTH, "the crisis is not enclosed to 1e-13")
-        # The parts are at the upper end, which is the worst for all below (Theorem 4); the hump of the crisis is above alpha*_1 at its
-        # lower end only.
+        require(
+            0 < self.crisis[0] and self.crisis[1] - self.crisis[0] <= CRISIS_WIDTH,
+            "the crisis is not enclosed to 1e-13",
+        )
+        # The parts are at the upper end, which is the worst for all below (Theorem 4); the hump of the crisis is above
+        # alpha*_1 at its lower end only.
         self.mass_ratio = self.crisis[1]
 
     def add_contact_part(self, line):
@@ -192,7 +198,10 @@ class EverythingHops(Whole):
         require(self.losses == self.hump + 1, "the bound on losses does not begin where the humps end")
         require(self.hump <= RISING_WINDOWS and self.mass_ratio <= RISING_MASS_RATIO, "`rising` has no such windows")
 
-    means = "f >= alpha*_1 from alpha*_1 up, for M up to the largest mass ratio, the lower end of the crisis (windows by `rising`; from loss_bound pi on Lemma 32)"
+    means = (
+        "f >= alpha*_1 from alpha*_1 up, for M up to the largest mass ratio, the lower end of the crisis (windows by"
+        " `rising`; from loss_bound pi on Lemma 32)"
+    )
 
     def derived(self):
         low, high = self.crisis
@@ -228,12 +237,17 @@ class Rising(Whole):
             last = max(box[3] for box in boxes)
             require(arb(last) >= parameter(largest), f"window {n} is not covered up to M = {largest!r}")
             gap = uncovered((low, high, 0.0, last), boxes)
-            require(gap is None, f"the boxes of window {n} leave a gap: speeds {gap and gap[:2]}, kappa {gap and gap[2:]}")
+            require(
+                gap is None, f"the boxes of window {n} leave a gap: speeds {gap and gap[:2]}, kappa {gap and gap[2:]}"
+            )
 
     means = "f rises in these windows up to these mass ratios (up to alpha*_n)"
 
     def derived(self):
-        return {"windows": [n for n, *_ in self.windows], "largest_mass_ratios": [largest for _, largest, *_ in self.windows]}
+        return {
+            "windows": [n for n, *_ in self.windows],
+            "largest_mass_ratios": [largest for _, largest, *_ in self.windows],
+        }
 
 
 def uncovered(region, boxes):
@@ -262,7 +276,9 @@ def implied(claimed, lengths, fate, whole):
     low, high = map(arb, claimed)
     open_length = whole - sum(lengths.values(), arb(0))
     own = lengths.get(fate, arb(0))
-    require(low * whole <= own and own + open_length <= high * whole, f"the intervals do not show the share of {fate!r}")
+    require(
+        low * whole <= own and own + open_length <= high * whole, f"the intervals do not show the share of {fate!r}"
+    )
 
 
 class Measures(Whole):
@@ -359,11 +375,14 @@ def require_edge(value, ends, at, count, what):
     """`value` is at this part of the way between the ends, up to some ulps."""
     first, last = map(Fraction, ends)
     wanted = first + (last - first) * at / count
-    require(abs(Fraction(value) - wanted) <= EDGE_ULPS * Fraction(math.ulp(max(map(abs, ends)))), f"{value!r} is not {what}")
+    require(
+        abs(Fraction(value) - wanted) <= EDGE_ULPS * Fraction(math.ulp(max(map(abs, ends)))), f"{value!r} is not {what}"
+    )
 
 
 def require_middle(value, ends, at, count):
-    """`value` is the double of the middle of a pixel: three roundings, in this order. Beside it the fate may be another one."""
+    """`value` is the double of the middle of a pixel: three roundings, in this order. Beside it the fate may be another
+    one."""
     wanted = ends[0] + (ends[1] - ends[0]) * ((at + 0.5) / count)
     require(value == wanted, f"{value!r} is not in the middle of a pixel, {wanted!r}")
 
@@ -382,7 +401,12 @@ class Raster(Whole):
         require(line["columns"] >= 1 and line["rows"] >= 1, "no pixels")
 
     def derived(self):
-        return {"mass_ratios": list(self.ratios), "speeds": list(self.speeds), "columns": self.grid["columns"], "rows": self.grid["rows"]}
+        return {
+            "mass_ratios": list(self.ratios),
+            "speeds": list(self.speeds),
+            "columns": self.grid["columns"],
+            "rows": self.grid["rows"],
+        }
 
 
 class RasterPoints(Raster):

@@ -39,7 +39,8 @@ fn answer(mut stream: TcpStream, folder: &Path) -> std::io::Result<()> {
         return stream.write_all(head.as_bytes());
     };
     let head = format!(
-        "HTTP/1.1 200 OK\r\nContent-Type: {}\r\nContent-Length: {}\r\nCache-Control: no-cache\r\nConnection: close\r\n\r\n",
+        "HTTP/1.1 200 OK\r\nContent-Type: {}\r\nContent-Length: {}\r\nCache-Control: no-cache\r\nConnection: \
+         close\r\n\r\n",
         content_type(&file),
         body.len()
     );

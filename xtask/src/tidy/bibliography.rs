@@ -80,7 +80,8 @@ mod tests {
     use super::*;
 
     fn breaches(text: &str) -> Vec<(usize, String)> {
-        let entries = "@article{A,\n  author = {M{\\\"u}ller, B.},\n  year = {1995}\n}\n\n@book{B,\n  author = {Leine},\n  year = {2004}\n}\n";
+        let entries = "@article{A,\n  author = {M{\\\"u}ller, B.},\n  year = {1995}\n}\n\n@book{B,\n  author = \
+                       {Leine},\n  year = {2004}\n}\n";
         let mut found = Vec::new();
         let file = Source::new("x.rs", text);
         check(&Source::new(BIBLIOGRAPHY, entries), &[file], &[], &mut found);

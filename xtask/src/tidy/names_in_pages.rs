@@ -107,7 +107,8 @@ mod tests {
     fn a_test_that_does_not_exist_is_a_breach() {
         let table = |test: &str| {
             format!(
-                "| paper | here | tested in |\n|---|---|---|\n| x | `y` | `door.rs`: `{test}` |\n\n| a | b |\n|---|---|\n| `c` | `d` |\n"
+                "| paper | here | tested in |\n|---|---|---|\n| x | `y` | `door.rs`: `{test}` |\n\n| a | b \
+                 |\n|---|---|\n| `c` | `d` |\n"
             )
         };
         assert_eq!(rules(PAPER_MAP, &table("the_door_opens")), [""; 0]);

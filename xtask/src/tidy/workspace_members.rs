@@ -42,7 +42,8 @@ mod tests {
 
     #[test]
     fn every_crate_must_be_listed_in_the_workspace() {
-        let listed = "[workspace]\n# why\nmembers = [\n  \"crates/w/a\", # here\n  \"xtask\",\n]\nexclude = [\"crates/w/b\"]\n";
+        let listed = "[workspace]\n# why\nmembers = [\n  \"crates/w/a\", # here\n  \"xtask\",\n]\nexclude = \
+                      [\"crates/w/b\"]\n";
         assert_eq!(rules(listed), [""; 0]);
         let missing = rules("[workspace]\nmembers = [\"crates/w/a\"]\n");
         assert!(missing.len() == 1 && missing[0].starts_with("crates/w/b/Cargo.toml: not in"));

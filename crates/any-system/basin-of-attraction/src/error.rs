@@ -34,7 +34,8 @@ pub enum Error {
     },
     /// An interval that orbits leave, given as a trap.
     #[error(
-        "[{left}, {right}] is no trap: the map takes its point {at} to {image:?} (`None`: the orbit ends there, and others \
+        "[{left}, {right}] is no trap: the map takes its point {at} to {image:?} (`None`: the orbit ends there, and \
+         others \
          do not). Give an interval whose image lies in it, or one on which the map has no value"
     )]
     NotATrap {
@@ -49,7 +50,8 @@ pub enum Error {
     },
     /// A point that the branches do not know.
     #[error(
-        "the map has the value {value} at {at}, and the branches do not take it there, or take it at another point as well: \
+        "the map has the value {value} at {at}, and the branches do not take it there, or take it at another point as \
+         well: \
          a branch is missing. Search with more samples, or divide the window at the turning points"
     )]
     BranchMissed {
@@ -60,7 +62,8 @@ pub enum Error {
     },
     /// Limits of a refinement that are negative or NaN.
     #[error(
-        "a refinement to an undecided length of {undecided} and intervals of {shortest}: both must be 0 or larger, and the \
+        "a refinement to an undecided length of {undecided} and intervals of {shortest}: both must be 0 or larger, and \
+         the \
          shortest interval finite"
     )]
     BadRefinement {
@@ -71,7 +74,8 @@ pub enum Error {
     },
     /// A raster without pixels, or with more than the largest number of pixels.
     #[error(
-        "a raster of {columns} × {rows} pixels: it must have between 1 and 2³⁴ pixels, and two across and up if the ends of \
+        "a raster of {columns} × {rows} pixels: it must have between 1 and 2³⁴ pixels, and two across and up if the \
+         ends of \
          its ranges are to be pixels"
     )]
     BadRaster {
@@ -82,7 +86,8 @@ pub enum Error {
     },
     /// Pixels of a line that have no length in `f64`, or too many of them.
     #[error(
-        "{pixels} pixels from {left} to {right}: there must be between 1 and 2²⁶, and different `f64` at their ends; take fewer \
+        "{pixels} pixels from {left} to {right}: there must be between 1 and 2²⁶, and different `f64` at their ends; \
+         take fewer \
          pixels, or a wider window"
     )]
     BadPixels {
@@ -95,7 +100,8 @@ pub enum Error {
     },
     /// Intervals that overlap, or are not in increasing order.
     #[error(
-        "an interval ends at {first_right}, and the next one begins at {second_left}: give disjoint intervals from left to right"
+        "an interval ends at {first_right}, and the next one begins at {second_left}: give disjoint intervals from \
+         left to right"
     )]
     UnsortedIntervals {
         /// Right end of the first.
@@ -171,7 +177,8 @@ pub enum Error {
     },
     /// Points that lie in no box.
     #[error(
-        "{bad} of {points} points, counted from {left}, lie in no box, because their distance is no finite number: leave \
+        "{bad} of {points} points, counted from {left}, lie in no box, because their distance is no finite number: \
+         leave \
          these points out, and count them apart"
     )]
     BadPoints {
@@ -190,7 +197,8 @@ pub enum Error {
     },
     /// A grid of state space that has no cells, or too many to number.
     #[error(
-        "{cells} cells along each of {dimension} sides: there must be at least 1 cell, at most {most} sides, and fewer than 2⁶⁴ \
+        "{cells} cells along each of {dimension} sides: there must be at least 1 cell, at most {most} sides, and fewer \
+         than 2⁶⁴ \
          cells in all"
     )]
     BadStateGrid {
@@ -211,7 +219,8 @@ pub enum Error {
     },
     /// More attractors than labels.
     #[error(
-        "more than {most} attractors: the cells are finer than the attractors, so that parts of one count apart; take fewer cells"
+        "more than {most} attractors: the cells are finer than the attractors, so that parts of one count apart; take \
+         fewer cells"
     )]
     TooManyAttractors {
         /// The largest number.
@@ -222,7 +231,8 @@ pub enum Error {
     NoDimension,
     /// So many pairs have an undecided point that their number decides the exponent.
     #[error(
-        "{open} pairs have an undecided point, and {uncertain} pairs are uncertain: an exponent needs ten times more uncertain \
+        "{open} pairs have an undecided point, and {uncertain} pairs are uncertain: an exponent needs ten times more \
+         uncertain \
          pairs than open ones. Raise the budget of the labelling"
     )]
     TooManyOpenPairs {
@@ -233,7 +243,8 @@ pub enum Error {
     },
     /// So few uncertain pairs, or all of them at one distance, that they give no bound on the exponent.
     #[error(
-        "{uncertain} uncertain pairs give no bound on the exponent: at least {fewest} are needed, at two distances or more; \
+        "{uncertain} uncertain pairs give no bound on the exponent: at least {fewest} are needed, at two distances or \
+         more; \
          take more pairs, or larger distances"
     )]
     TooFewUncertainPairs {
@@ -244,7 +255,8 @@ pub enum Error {
     },
     /// Points to which no power law can be fitted.
     #[error(
-        "a power law cannot be fitted to these {points} points: at least 3 are needed, with different positive scales, and \
+        "a power law cannot be fitted to these {points} points: at least 3 are needed, with different positive scales, \
+         and \
          finite values that are not negative"
     )]
     BadFit {
@@ -253,7 +265,8 @@ pub enum Error {
     },
     /// Replicates of a measurement with different scales.
     #[error(
-        "replicate {replicate}, counted from 0, has other scales than replicate 0: measure every replicate at the same scales"
+        "replicate {replicate}, counted from 0, has other scales than replicate 0: measure every replicate at the same \
+         scales"
     )]
     UnlikeReplicates {
         /// The first replicate with other scales.
@@ -277,7 +290,8 @@ pub enum Error {
     },
     /// Random balls that do not fit into the region, or have too few points.
     #[error(
-        "balls of radius {radius} with {points} points: the radius must be positive and below half of the shortest side, \
+        "balls of radius {radius} with {points} points: the radius must be positive and below half of the shortest \
+         side, \
          {narrowest}; there must be at least 2 points"
     )]
     BadBalls {
@@ -290,7 +304,8 @@ pub enum Error {
     },
     /// Too few random balls on a boundary.
     #[error(
-        "{mixed} of {balls} random balls have more than one basin: at least {fewest} are needed; take more balls, or larger ones"
+        "{mixed} of {balls} random balls have more than one basin: at least {fewest} are needed; take more balls, or \
+         larger ones"
     )]
     TooFewMixedBalls {
         /// Balls with more than one basin.
@@ -336,8 +351,10 @@ pub enum Error {
     },
     /// Limits with which a curve of parameters cannot be divided.
     #[error(
-        "{first_steps} first steps, halved until fractions differ by {difference} or by {relative} of their value, down to steps of \
-         {shortest}, with {budget} parameters: there must be a first step, the differences and the shortest step must be positive \
+        "{first_steps} first steps, halved until fractions differ by {difference} or by {relative} of their value, \
+         down to steps of \
+         {shortest}, with {budget} parameters: there must be a first step, the differences and the shortest step must \
+         be positive \
          (the relative one may be 0), and the budget at least {fewest}"
     )]
     BadCurveLimits {
@@ -356,7 +373,8 @@ pub enum Error {
     },
     /// Basins in different windows, or in windows of length 0.
     #[error(
-        "basins in [{left}, {right}] and in [{other_left}, {other_right}]: both must have the same window, of a positive length; cut \
+        "basins in [{left}, {right}] and in [{other_left}, {other_right}]: both must have the same window, of a \
+         positive length; cut \
          them with `within`"
     )]
     OtherWindow {

@@ -1,8 +1,9 @@
 //! Basin fractions along a curve of parameters.
 //!
-//! The curve is divided at the parameters that the caller knows to be special, and each part into equal steps of a largest length. A step whose ends have
-//! too different fractions is halved, the worst one first. Where halving does not help, the reason is reported: at a jump of the
-//! fractions the step becomes as short as allowed, with ranges that exclude each other.
+//! The curve is divided at the parameters that the caller knows to be special, and each part into equal steps of a
+//! largest length. A step whose ends have too different fractions is halved, the worst one first. Where halving does
+//! not help, the reason is reported: at a jump of the fractions the step becomes as short as allowed, with ranges that
+//! exclude each other.
 
 use crate::attractor_match::match_attractors;
 use crate::error::Error;
@@ -27,8 +28,9 @@ pub enum Matching {
 /// How finely a curve of parameters is divided.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurveLimits {
-    /// Equal steps into which the curve would be divided at first without known parameters; with them no first step is longer. A peak
-    /// between two parameters with equal fractions is not seen: the first steps must be shorter than the narrowest peak.
+    /// Equal steps into which the curve would be divided at first without known parameters; with them no first step is
+    /// longer. A peak between two parameters with equal fractions is not seen: the first steps must be shorter than the
+    /// narrowest peak.
     pub first_steps: usize,
     /// A step is fine enough if every fraction changes by at most this,
     pub difference: f64,
@@ -43,8 +45,8 @@ pub struct CurveLimits {
 }
 
 impl Default for CurveLimits {
-    /// Sixteen first steps, halved until every fraction changes by at most 0.02, down to 10⁻⁶, with at most a thousand parameters,
-    /// matched by label.
+    /// Sixteen first steps, halved until every fraction changes by at most 0.02, down to 10⁻⁶, with at most a thousand
+    /// parameters, matched by label.
     ///
     /// A curve is then drawn to a hundredth of its height. Smaller differences take more parameters, in proportion.
     fn default() -> Self {
@@ -62,7 +64,8 @@ impl Default for CurveLimits {
 /// Why a step with too different fractions was not halved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UnresolvedReason {
-    /// The step is the shortest allowed one, and the ranges exclude each other: the fractions jump, or have a kink there.
+    /// The step is the shortest allowed one, and the ranges exclude each other: the fractions jump, or have a kink
+    /// there.
     Jump,
     /// The ranges at both ends have numbers in common: better fractions would be needed to see a change.
     Uncertain,
@@ -87,7 +90,8 @@ pub struct UnresolvedStep {
     pub reason: UnresolvedReason,
 }
 
-/// An attractor that matches none at the next parameter, or none at the one before. Only [`Matching::Nearest`] reports these.
+/// An attractor that matches none at the next parameter, or none at the one before. Only [`Matching::Nearest`] reports
+/// these.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UnmatchedAttractor {
     /// The parameter before.
@@ -166,10 +170,10 @@ impl FractionsAlong {
 
 /// The basin fractions at the parameters of a curve, so close together that neighbours agree as `limits` say.
 ///
-/// `fractions` gives them at a parameter of `range`. For a curve in a space of several parameters it is a function of the
-/// curve's own parameter. `known` are parameters where the fractions have a jump or a kink, such as crises: they are among
-/// the parameters, so that no step crosses one. `fractions` is called for one parameter after the other, in an order that depends on
-/// the fractions only.
+/// `fractions` gives them at a parameter of `range`. For a curve in a space of several parameters it is a function of
+/// the curve's own parameter. `known` are parameters where the fractions have a jump or a kink, such as crises: they
+/// are among the parameters, so that no step crosses one. `fractions` is called for one parameter after the other, in
+/// an order that depends on the fractions only.
 ///
 /// ```
 /// use basin_of_attraction::{CurveLimits, Fractions, Interval, Label, fractions_along, region_fractions};
@@ -186,8 +190,8 @@ impl FractionsAlong {
 ///
 /// # Errors
 /// [`Error::BadInterval`] for a range that is reversed, of length 0, or not finite; [`Error::BadCurveLimits`] for no first step, a
-/// difference or a shortest step that is not positive, or a budget below the number of the first parameters; [`Error::TooManySamples`]
-/// for more than ten million of these; [`Error::BadPoint`] for a known parameter that is not finite; [`Error::TooManyAttractors`] if
+/// difference or a shortest step that is not positive, or a budget below the number of the first parameters;
+/// [`Error::TooManySamples`] for more than ten million of these; [`Error::BadPoint`] for a known parameter that is not finite; [`Error::TooManyAttractors`] if
 /// attractors that appear and vanish use up all labels; errors of `fractions`.
 pub fn fractions_along<E: From<Error>>(
     range: Interval,
@@ -283,8 +287,8 @@ fn excess(before: FractionRange, after: FractionRange, limits: &CurveLimits) -> 
     (after.value - before.value).abs() / allowed
 }
 
-/// The step between two parameters, if a fraction changes by more than is allowed. A step that may be halved has the reason
-/// [`UnresolvedReason::Budget`]: it is what remains if the budget ends.
+/// The step between two parameters, if a fraction changes by more than is allowed. A step that may be halved has the
+/// reason [`UnresolvedReason::Budget`]: it is what remains if the budget ends.
 fn too_large(
     one: &(f64, Fractions),
     other: &(f64, Fractions),
@@ -338,8 +342,8 @@ fn partners(
     others.chain(pairs).chain(vanished).chain(appeared).collect()
 }
 
-/// Gives each attractor one label at all parameters, and reports those that appear or vanish. One that vanished and comes back has a
-/// new label.
+/// Gives each attractor one label at all parameters, and reports those that appear or vanish. One that vanished and
+/// comes back has a new label.
 fn with_common_labels(
     points: &mut [(f64, Fractions)],
     matching: Matching,

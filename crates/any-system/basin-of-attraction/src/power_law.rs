@@ -9,23 +9,25 @@
 //!   drift         the law holds in the limit of small scales        slopes of parts of the range differ
 //! ```
 //!
-//! The exponent is the slope of the line through (ln scale, ln mean value) with weights that fall to 0 at both ends of the range:
-//! an oscillation then has little effect on it. Its interval adds, as independent errors,
+//! The exponent is the slope of the line through (ln scale, ln mean value) with weights that fall to 0 at both ends of
+//! the range: an oscillation then has little effect on it. Its interval adds, as independent errors,
 //!
 //! ```text
 //!   h² = (t s)² + (√2 d)²
 //! ```
 //!
-//! - t s is Student's interval over replicates. A replicate v_j enters by its effect on the slope, Σ c_j v_j/m_j, where m_j is the
-//!   mean at scale j. Values of one replicate may be correlated as they like, and may be 0.
+//! - t s is Student's interval over replicates. A replicate v_j enters by its effect on the slope, Σ c_j v_j/m_j, where
+//!   m_j is the mean at scale j. Values of one replicate may be correlated as they like, and may be 0.
 //! - d is the largest difference between the slopes of five halves of the range, from the coarse half to the fine half.
 //!
-//! Why d bounds oscillation: over half the range the slope is wrong by more than over the whole range, and the five halves see
-//! different phases. Few scales sample an oscillation coarsely: of 5574 intervals for random sets, ranges and 8 to 40 scales 4 missed.
+//! Why d bounds oscillation: over half the range the slope is wrong by more than over the whole range, and the five
+//! halves see different phases. Few scales sample an oscillation coarsely: of 5574 intervals for random sets, ranges
+//! and 8 to 40 scales 4 missed.
 //!
-//! Why √2 d bounds drift: let the distance of the slope from its limit at least halve over half the range, so that it falls by a
-//! factor ρ ≤ 1/√2 over a quarter. The coarse, the middle and the fine half are wrong by δ/ρ, δ and δρ, and the whole range by about
-//! δ. So d = δ/ρ − δρ ≥ δ/√2. A drift that falls more slowly, and that is larger than [`STEADY`] and than chance, gives no interval.
+//! Why √2 d bounds drift: let the distance of the slope from its limit at least halve over half the range, so that it
+//! falls by a factor ρ ≤ 1/√2 over a quarter. The coarse, the middle and the fine half are wrong by δ/ρ, δ and δρ, and
+//! the whole range by about δ. So d = δ/ρ − δρ ≥ δ/√2. A drift that falls more slowly, and that is larger than
+//! [`STEADY`] and than chance, gives no interval.
 
 use crate::confidence_interval::{ConfidenceInterval, student_quantile};
 use crate::error::Error;
@@ -90,9 +92,9 @@ pub enum NoInterval {
 
 /// Fits a power law to replicates, each a list of (scale, value).
 ///
-/// A replicate is one complete measurement: the box counts at all scales for one random offset of the boxes, or the uncertain
-/// fractions at all scales for one seed. The scales are the same in all replicates. Values of single replicates may be 0. An
-/// exponent without an interval can be had from one replicate.
+/// A replicate is one complete measurement: the box counts at all scales for one random offset of the boxes, or the
+/// uncertain fractions at all scales for one seed. The scales are the same in all replicates. Values of single
+/// replicates may be 0. An exponent without an interval can be had from one replicate.
 ///
 /// ```
 /// // Ten measurements of a law with exponent 2. Each value is wrong by up to 5 %.
@@ -107,8 +109,8 @@ pub enum NoInterval {
 ///
 /// # Errors
 /// [`Error::BadFit`] for fewer than three points in a replicate, scales that are not positive or whose logarithms are equal, and values
-/// that are negative or not finite; [`Error::UnlikeReplicates`] for replicates with different scales; [`Error::NothingFound`] if the
-/// value is 0 in all replicates at some scale.
+/// that are negative or not finite; [`Error::UnlikeReplicates`] for replicates with different scales;
+/// [`Error::NothingFound`] if the value is 0 in all replicates at some scale.
 pub fn power_law<R: AsRef<[(f64, f64)]>>(replicates: &[R]) -> Result<PowerLaw, Error> {
     let measured = Measured::new(replicates)?;
     let places = &measured.places;
@@ -126,8 +128,9 @@ pub fn power_law<R: AsRef<[(f64, f64)]>>(replicates: &[R]) -> Result<PowerLaw, E
     })
 }
 
-/// A smaller change of the slope is no drift: the interval contains it. A smaller number would refuse exact data for an oscillation
-/// of a Cantor set over few scales, whose slopes differ by 0.02. A larger one would give wide intervals instead of a reason.
+/// A smaller change of the slope is no drift: the interval contains it. A smaller number would refuse exact data for an
+/// oscillation of a Cantor set over few scales, whose slopes differ by 0.02. A larger one would give wide intervals
+/// instead of a reason.
 const STEADY: f64 = 0.05;
 
 /// With fewer scales a half of the range has fewer than four, and its slope depends on two of them.
@@ -136,14 +139,15 @@ const FEWEST_SCALES: usize = 8;
 /// A half of an uneven range may have fewer scales than half of them. With two the slope would be that of a pair.
 const FEWEST_SCALES_IN_HALF: usize = 3;
 
-/// Over fewer decades a half of the range is shorter than two periods of a set with the ratio 1/5, and the five halves do not
-/// bound its oscillation.
+/// Over fewer decades a half of the range is shorter than two periods of a set with the ratio 1/5, and the five halves
+/// do not bound its oscillation.
 const FEWEST_DECADES: f64 = 3.0;
 
 /// The number of decades may be too small by rounding, some ulps of it.
 const ROUNDING_OF_DECADES: f64 = 1e-9;
 
-/// Student's quantile for fewer replicates is above 3, and the spread of so few is too uncertain to weigh the scales with.
+/// Student's quantile for fewer replicates is above 3, and the spread of so few is too uncertain to weigh the scales
+/// with.
 const FEWEST_REPLICATES: usize = 5;
 
 /// Halves of the range whose slopes are compared. With three, the phases of an oscillation could agree.
@@ -215,8 +219,8 @@ impl Measured {
         })
     }
 
-    /// The part of the range from `start` to `end`, in units of the range, in ln scale. The range extends beyond its first and last
-    /// scale by half a spacing, so that these have a weight.
+    /// The part of the range from `start` to `end`, in units of the range, in ln scale. The range extends beyond its
+    /// first and last scale by half a spacing, so that these have a weight.
     fn window(&self, start: f64, end: f64) -> (f64, f64) {
         let (first, last) = (self.places[0], self.places[self.places.len() - 1]);
         let half = 0.5 * (last - first) / (self.places.len() - 1) as f64;
@@ -232,9 +236,10 @@ impl Measured {
 
     /// The slope over a window.
     ///
-    /// The weight of a scale is sin² of its place in the window, over the variance of its height. sin² and its slope vanish at the
-    /// ends: an oscillation with m periods in the window changes the slope by 1/m³ of its amplitude, not by 1/m as with equal
-    /// weights. A variance from few replicates may be small by chance, so that a floor is added: the median of those above 0.
+    /// The weight of a scale is sin² of its place in the window, over the variance of its height. sin² and its slope
+    /// vanish at the ends: an oscillation with m periods in the window changes the slope by 1/m³ of its amplitude, not
+    /// by 1/m as with equal weights. A variance from few replicates may be small by chance, so that a floor is added:
+    /// the median of those above 0.
     fn slope(&self, (start, end): (f64, f64)) -> Slope {
         let mut variances: Vec<f64> =
             self.variances.iter().copied().filter(|variance| *variance > 0.0).collect();

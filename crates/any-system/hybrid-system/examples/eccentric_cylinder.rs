@@ -36,7 +36,8 @@ fn main() -> Result<(), Error> {
         }
         let energy = cylinder.energy(&end);
         println!(
-            "{restitution:>4} {rolling_resistance:>4} {impacts:>8} {contact:>13} {energy:>13.9}  {mode:?}, angular velocity {:.1e}",
+            "{restitution:>4} {rolling_resistance:>4} {impacts:>8} {contact:>13} {energy:>13.9}  {mode:?}, angular \
+             velocity {:.1e}",
             end[3]
         );
     }

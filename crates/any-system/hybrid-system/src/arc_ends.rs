@@ -16,8 +16,8 @@ use crate::system::{FlowFrom, HybridSystem, Reset};
 use crate::time_sum::TimeSum;
 use crate::zeno::ZenoLimit;
 
-/// The rate of a guard at its crossing is taken over this part of its flight, along the flow behind it. Over a shorter part
-/// rounding would show, over a longer one the bend.
+/// The rate of a guard at its crossing is taken over this part of its flight, along the flow behind it. Over a shorter
+/// part rounding would show, over a longer one the bend.
 const NEXT_PART: f64 = 0.01;
 
 /// A flight whose duration is wrong by so much of itself is lost. A larger number would take the next flights for what
@@ -54,8 +54,8 @@ impl<T: HybridSystem> Execution<'_, T> {
                 (duration, time_rounding),
             )?;
         }
-        // The sum of the rounded duration may miss the time of a clock, or the limit, by a rounding. The clock would then
-        // have its time once more, or a time that is over.
+        // The sum of the rounded duration may miss the time of a clock, or the limit, by a rounding. The clock would
+        // then have its time once more, or a time that is over.
         let mut time = self.at.time.plus(duration);
         let latest = clock.map_or(self.limits.time, |clock| clock.time);
         let is_tick = clock.is_some_and(|clock| clock.surface == surface);
@@ -136,8 +136,8 @@ impl<T: HybridSystem> Execution<'_, T> {
     }
 
     /// The error of the time of an event by the rounding of the state at which a stop or an observer has divided its
-    /// flight: near a Zeno limit the velocity is small, and the height as rounded. Zero for a flight that is not divided.
-    /// A flight of which rounding hides a part that counts is lost, with all that would have come behind it.
+    /// flight: near a Zeno limit the velocity is small, and the height as rounded. Zero for a flight that is not
+    /// divided. A flight of which rounding hides a part that counts is lost, with all that would have come behind it.
     fn error_by_division(&self, surface: T::Surface, before: &T::State, duration: f64) -> f64 {
         let divided = self.at.history.since_event;
         if divided == 0.0 {

@@ -9,8 +9,8 @@
 //! | within the error of the limit, a guard | at the start of the next arc, if that has the guard | the same |
 //! | within the error of the limit, a clock | at the limit's state, behind such guards | on the straight path |
 //!
-//! A guard belongs to the events that lead to the limit if it has had two within three periods. It is looked at now and at
-//! the limit: two zeros on the way, after the last event that can be followed, are not seen.
+//! A guard belongs to the events that lead to the limit if it has had two within three periods. It is looked at now and
+//! at the limit: two zeros on the way, after the last event that can be followed, are not seen.
 
 use crate::arrival::Arrival;
 use crate::crossing::{
@@ -102,8 +102,8 @@ impl<T: HybridSystem> Execution<'_, T> {
         }
     }
 
-    /// The guards that change their side, in a direction that counts, between now and a Zeno limit, and whose events do not
-    /// lead there.
+    /// The guards that change their side, in a direction that counts, between now and a Zeno limit, and whose events do
+    /// not lead there.
     fn passing(&self, limit: &Limit<T>) -> PassingGuards<T::Surface> {
         let flow = self.flow();
         // The state at the limit is extrapolated as far as the time.

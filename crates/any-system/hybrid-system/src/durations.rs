@@ -1,8 +1,8 @@
 //! The durations of the last arcs: do they have a sum although there is no end of them?
 //!
-//! Two records are kept: the last few durations, for series that fall fast, and marks at which the durations have fallen to
-//! a half since the mark before, for series that fall slowly. An arc of no duration is not recorded: several events
-//! at one instant are one event here.
+//! Two records are kept: the last few durations, for series that fall fast, and marks at which the durations have
+//! fallen to a half since the mark before, for series that fall slowly. An arc of no duration is not recorded: several
+//! events at one instant are one event here.
 
 mod remainder;
 
@@ -26,8 +26,8 @@ const MARKS: usize = 8;
 /// Rounding of a duration and of the state after it, relative, in ulps: each of the two is rounded once or twice.
 const ROUNDING_ULPS: f64 = 4.0;
 
-/// A duration below this many times its error is lost. A number near 1 would come too late: the durations may then no longer
-/// fall at all. A larger number stops earlier than rounding demands.
+/// A duration below this many times its error is lost. A number near 1 would come too late: the durations may then no
+/// longer fall at all. A larger number stops earlier than rounding demands.
 const LOST: f64 = 4.0;
 
 /// An event at which durations have fallen to a half since the mark before.
@@ -159,8 +159,8 @@ impl Durations {
         self.stated_error(back) + ROUNDING_ULPS * f64::EPSILON * self.duration(back)
     }
 
-    /// What the durations behind the newest one add up to, if they fall by a factor from each to the next as the last four
-    /// from the four one earlier; 0 if they do not fall.
+    /// What the durations behind the newest one add up to, if they fall by a factor from each to the next as the last
+    /// four from the four one earlier; 0 if they do not fall.
     pub(crate) fn expected(&self) -> f64 {
         let sum = |from: usize| -> f64 {
             (from..from + LONGEST_PERIOD).map(|back| self.duration(back)).sum()

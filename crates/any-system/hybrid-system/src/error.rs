@@ -22,7 +22,8 @@ pub enum Error {
     },
     /// The bounds that a model gives on a guard are those of another function.
     #[error(
-        "the bounds of guard {surface} at the start are {low} to {high}, and its value is {value}: give those of its function",
+        "the bounds of guard {surface} at the start are {low} to {high}, and its value is {value}: give those of its \
+         function",
         value = Number(*.value), low = Number(*.low), high = Number(*.high)
     )]
     WrongBounds {
@@ -46,7 +47,8 @@ pub enum Error {
     },
     /// A guard must be sampled, because the model gives no bounds on it, and there is no sampling interval.
     #[error(
-        "guard {surface} has neither bounds nor a solution: set a sampling interval in the limits of the execution, or by \
+        "guard {surface} has neither bounds nor a solution: set a sampling interval in the limits of the execution, or \
+         by \
          `sampled` for `Model::run`"
     )]
     NoSamplingInterval {
@@ -76,7 +78,8 @@ pub enum Error {
     },
     /// A guard under bounds starts at zero, and rounding hides to which side it leaves.
     #[error(
-        "rounding hides to which side the guard leaves its zero at the start: derivative {order} is {value}; move the state \
+        "rounding hides to which side the guard leaves its zero at the start: derivative {order} is {value}; move the \
+         state \
          off the surface in the reset, or decide in `HybridSystem::leaving_side`",
         value = Number(*.value)
     )]
@@ -118,7 +121,8 @@ pub enum Error {
     },
     /// Too many events in a row without time passing.
     #[error(
-        "{events} events in a row at time {time}, and the resets lead back to each other: {cycle}. Let a reset move the \
+        "{events} events in a row at time {time}, and the resets lead back to each other: {cycle}. Let a reset move \
+         the \
          state away from the surface, or declare a guard that only watches an observer",
         time = Number(*.time)
     )]
@@ -148,7 +152,8 @@ pub enum Error {
     },
     /// The model's own search has found no event of a surface, and the state at the end of the arc is beyond it.
     #[error(
-        "first_crossing of the model has missed an event of the surface {surface} in mode {mode}: after {duration} the guard \
+        "first_crossing of the model has missed an event of the surface {surface} in mode {mode}: after {duration} the \
+         guard \
          is {value}, with an error of {error}. Let it return the first event of all guards, or call default_search",
         duration = Number(*.duration), value = Number(*.value), error = Number(*.error)
     )]
@@ -193,7 +198,8 @@ pub enum Error {
     },
     /// Two surfaces are reached at one instant: there is no derivative.
     #[error(
-        "no sensitivity at time {time}: the surface {surface} is reached at the same instant as another one, and nearby \
+        "no sensitivity at time {time}: the surface {surface} is reached at the same instant as another one, and \
+         nearby \
          orbits reach them in either order. Take the derivative from another start",
         time = Number(*.time)
     )]
@@ -279,7 +285,8 @@ pub enum Error {
     },
     /// The budgets of an execution end before its search for the next event makes any progress.
     #[error(
-        "a budget of {intervals} intervals and {steps} steps ends before the search up to {horizon} makes progress: set \
+        "a budget of {intervals} intervals and {steps} steps ends before the search up to {horizon} makes progress: \
+         set \
          larger budgets, or a shorter horizon",
         horizon = Number(*.horizon)
     )]

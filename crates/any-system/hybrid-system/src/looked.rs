@@ -17,7 +17,8 @@ impl Looked {
             Looked::Sampled => "sample more often, or give the guard bounds",
             Looked::ByFlow => "give the guard bounds, or the mode a field",
             Looked::OnSteps => {
-                "if it rests on its surface, give the rest a mode of its own, or `rest` after a Zeno limit; if its bounces \
+                "if it rests on its surface, give the rest a mode of its own, or `rest` after a Zeno limit; if its \
+                 bounces \
                  fade, a smaller tolerance shows their limit; if its far side is allowed, declare it a `crossing`"
             }
         }

@@ -67,15 +67,15 @@ impl<X> ZenoLimit<X> {
 /// Surfaces that are kept without allocating.
 const FEW: usize = 4;
 
-/// A surface that has had two events within so many periods is one of those whose events lead to the limit: one event in a
-/// period, and room for the error of its length. An observer of something else may have had one event.
+/// A surface that has had two events within so many periods is one of those whose events lead to the limit: one event
+/// in a period, and room for the error of its length. An observer of something else may have had one event.
 const PERIODS: usize = 3;
 
 /// Rounding of the times that are compared.
 const TIME_ULPS: f64 = 4.0;
 
-/// The largest factor by which the time to a limit shrinks in one period, for the error of the state. At a factor nearer to 1 the
-/// estimate has no digits.
+/// The largest factor by which the time to a limit shrinks in one period, for the error of the state. At a factor
+/// nearer to 1 the estimate has no digits.
 const LARGEST_RATIO: f64 = 1.0 - 1e-9;
 
 /// States that are kept: those of two of the longest periods.
@@ -172,8 +172,8 @@ impl<S: Copy + PartialEq, X: StateVector> History<S, X> {
         back.map(|back| self.durations.duration(back)).sum()
     }
 
-    /// An estimate of the error of each component of the state at a limit: its steps over the last two periods should be in
-    /// the ratio of the periods. Without a state so early it is the last step.
+    /// An estimate of the error of each component of the state at a limit: its steps over the last two periods should
+    /// be in the ratio of the periods. Without a state so early it is the last step.
     pub(crate) fn error_of_state(&self, limit: &ZenoLimit<X>) -> Option<X> {
         let period = limit.period;
         let now = self.state(0)?;

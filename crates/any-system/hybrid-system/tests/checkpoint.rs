@@ -156,8 +156,8 @@ fn a_dimension_chosen_at_run_time() {
     assert!(restored_at_every_arc(&decay, (), start, Limits::sampled(9.0, 100, 0.1)) > 5);
 }
 
-/// A jump lands beyond the surface that it has crossed. As a crossing it is no event there, as a guard without a word it
-/// is an error, and both are so from every checkpoint.
+/// A jump lands beyond the surface that it has crossed. As a crossing it is no event there, as a guard without a word
+/// it is an error, and both are so from every checkpoint.
 #[test]
 fn a_state_beyond_its_surface() {
     let sinking =

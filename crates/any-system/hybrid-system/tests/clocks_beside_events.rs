@@ -1,5 +1,5 @@
-//! Clocks, crossings and stops within some ulps of each other: each tick comes once, at its time, and a run ends where it was
-//! told to.
+//! Clocks, crossings and stops within some ulps of each other: each tick comes once, at its time, and a run ends where
+//! it was told to.
 
 use hybrid_system::*;
 
@@ -13,8 +13,8 @@ fn ulps(x: f64, count: i64) -> f64 {
     f64::from_bits(x.to_bits().wrapping_add_signed(count))
 }
 
-/// x = t with observers of two levels, each as a signal, and two clocks of one tick each. Stops at these times: the ticks as
-/// (surface, time).
+/// x = t with observers of two levels, each as a signal, and two clocks of one tick each. Stops at these times: the
+/// ticks as (surface, time).
 fn ticks(levels: [f64; 2], clocks: [f64; 2], stops: &[f64]) -> Vec<(usize, f64)> {
     let signal = move |level: f64| {
         move |(), x: &State<1>| Some(QuasiPolynomial::polynomial(&[x[0] - level, 1.0]))
@@ -65,8 +65,8 @@ fn clocks_and_stops_within_ulps_of_a_crossing_lose_and_double_nothing() {
     }
 }
 
-/// A stop between two observers that are both on their way to their zeros, some ulps behind it: the search of each of them
-/// once began the other's anew, for ever.
+/// A stop between two observers that are both on their way to their zeros, some ulps behind it: the search of each of
+/// them once began the other's anew, for ever.
 #[cfg(feature = "ode")]
 #[test]
 fn two_observers_on_their_way_at_a_stop_end_the_search() {

@@ -312,8 +312,8 @@ fn a_dimension_chosen_at_run_time_gives_the_same_bits() {
     }
 }
 
-/// The warning of the guide: u̇ = −|u| never changes its sign, and its numerical solution does. A guard at the border of the
-/// domain says so.
+/// The warning of the guide: u̇ = −|u| never changes its sign, and its numerical solution does. A guard at the border
+/// of the domain says so.
 #[test]
 fn a_loose_integration_leaves_its_domain_unless_a_guard_ends_it_there() {
     let field = |(), u: &State<1>| [-u[0].abs()];

@@ -11,8 +11,8 @@ enum Mode {
 }
 use Mode::{Flies, Rests};
 
-/// The state is (height, velocity, time), the force is `rate` times the time. It lifts off once. How often it does if the run
-/// stops at these times: the names of the events.
+/// The state is (height, velocity, time), the force is `rate` times the time. It lifts off once. How often it does if
+/// the run stops at these times: the names of the events.
 fn events(weight: f64, rate: f64, tolerance: f64, stops: &[f64]) -> Vec<&'static str> {
     let body = Model::integrated(move |mode, x: &State<3>| match mode {
         Rests => [0.0, 0.0, 1.0],
@@ -63,8 +63,8 @@ fn a_stop_shortly_behind_the_lift_off_is_no_landing() {
     }
 }
 
-/// The height h + t²(T − t) leaves its level without a rate, and comes back at T, in a flight that is 10³ roundings high and
-/// more. It is met there, and not taken for noise of the departure.
+/// The height h + t²(T − t) leaves its level without a rate, and comes back at T, in a flight that is 10³ roundings
+/// high and more. It is met there, and not taken for noise of the departure.
 #[test]
 fn a_return_soon_after_a_departure_without_a_rate_is_met() {
     for level in [0.0_f64, 0.3, 1.0, 37.0] {

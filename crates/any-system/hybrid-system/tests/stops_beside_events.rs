@@ -170,8 +170,8 @@ fn known_until(events: &[Found]) -> f64 {
     events.iter().find(|event| event.2 > 0.1 * CLOSE).map_or(END, |event| event.1) - CLOSE
 }
 
-/// A scene, its start, and its events without a stop; `None` where two different zeros are too close to be told apart by
-/// runs with different steps.
+/// A scene, its start, and its events without a stop; `None` where two different zeros are too close to be told apart
+/// by runs with different steps.
 fn random_scene(random: &mut Random) -> Option<(Scene, [f64; 2], Vec<Found>)> {
     let search =
         [Search::Integrated(1e-12), Search::Integrated(1e-8), Search::Sampled, Search::Signal];

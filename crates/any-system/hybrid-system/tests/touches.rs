@@ -168,8 +168,8 @@ fn a_search_by_too_many_samples_is_unfinished() {
     assert!((time - 1.0).abs() < 1e-12 && state[0] == 3.5 + time);
 }
 
-/// Two levels just below the top of a sine: the second one is some 30 ulps below it. Its crossings are found, or the graze is
-/// said, although the first level's event is next to it.
+/// Two levels just below the top of a sine: the second one is some 30 ulps below it. Its crossings are found, or the
+/// graze is said, although the first level's event is next to it.
 #[test]
 fn a_graze_next_to_another_event_is_not_lost() {
     let (first, top) = (1.75 - 5.782e-13, 1.75);

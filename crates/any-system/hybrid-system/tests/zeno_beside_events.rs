@@ -9,8 +9,8 @@ fn flight(x: &Ball, t: f64) -> [f64; 2] {
     [x[0] + t * (x[1] - t / 2.0), x[1] - t]
 }
 
-/// Every bounce is a landing from above, at a floor whose height hides the last ones. A bounce that rounding hides is no
-/// event at once.
+/// Every bounce is a landing from above, at a floor whose height hides the last ones. A bounce that rounding hides is
+/// no event at once.
 #[test]
 fn a_floor_at_any_height_is_landed_on_from_above() {
     for (floor, exactly) in
@@ -209,8 +209,8 @@ macro_rules! timed_ball {
     };
 }
 
-/// An observer before the limit has its one event within its stated error, also where the bounces are lost in the errors
-/// of an integration.
+/// An observer before the limit has its one event within its stated error, also where the bounces are lost in the
+/// errors of an integration.
 #[cfg(feature = "ode")]
 #[test]
 fn an_observer_before_a_limit_is_not_lost() {
@@ -277,8 +277,8 @@ fn an_observer_crossed_again_before_a_limit_is_not_lost() {
     }
 }
 
-/// Near a limit the height as rounded is a large part of a bounce, and a weak bounce lasts longer by what is left of its
-/// height: whatever divides the last flights, the limit is within its error.
+/// Near a limit the height as rounded is a large part of a bounce, and a weak bounce lasts longer by what is left of
+/// its height: whatever divides the last flights, the limit is within its error.
 #[test]
 fn a_limit_is_within_its_error_whatever_divides_the_last_flights() {
     for floor in [0.0, 1.0, 25.0] {
@@ -319,8 +319,8 @@ where
     }
 }
 
-/// The durations may show a limit that the flow has passed, within its error: the limit is now, and the clock goes on from
-/// the present state.
+/// The durations may show a limit that the flow has passed, within its error: the limit is now, and the clock goes on
+/// from the present state.
 #[cfg(feature = "ode")]
 #[test]
 fn a_limit_before_the_present_does_not_turn_the_clock_back() {

@@ -301,8 +301,8 @@ fn periods_of_up_to_four_events_are_recognised() {
     }
 }
 
-/// A ball on a floor that moves up at 1/4, e = 1/2: the limit is at 3. A stop among the last bounces rounds a height of the
-/// size of 1, although the ball is 10⁻¹⁶ above the floor.
+/// A ball on a floor that moves up at 1/4, e = 1/2: the limit is at 3. A stop among the last bounces rounds a height of
+/// the size of 1, although the ball is 10⁻¹⁶ above the floor.
 #[test]
 fn a_stop_in_a_late_flight_is_in_the_bound_of_the_limit() {
     let ball =

@@ -1,4 +1,5 @@
-"""Draws every picture of the gallery: python draw_all.py FOLDER. Without a folder, into docs/figures/python of the repository."""
+"""Draws every picture of the gallery: python draw_all.py FOLDER. Without a folder, into docs/figures/python of the
+repository."""
 
 import os
 import runpy

@@ -7,7 +7,8 @@ create_exception!(
     passive_hopper,
     UndecidedError,
     PyArithmeticError,
-    "What happens cannot be decided: a hop with 1024 bits (sudden or not, on which branch, or grounded or not), or an event of a \
+    "What happens cannot be decided: a hop with 1024 bits (sudden or not, on which branch, or grounded or not), or an \
+     event of a \
      hybrid system that rounding hides."
 );
 

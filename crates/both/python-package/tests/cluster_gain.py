@@ -1,7 +1,8 @@
 """What K worker processes gain on this computer: python cluster_gain.py SIDE ROUNDS prints a table for K = 1, 2 and 4.
 
-The clusters take turns, and the least time of all rounds counts: other processes disturb some of them. A time is that of the call, with its look
-for finished regions and the digest at the end, which one process makes. The cluster is there before it.
+The clusters take turns, and the least time of all rounds counts: other processes disturb some of them. A time is that
+of the call, with its look for finished regions and the digest at the end, which one process makes. The cluster is there
+before it.
 """
 
 import sys
@@ -44,7 +45,10 @@ def main():
             least[workers] = min(least.get(workers, (seconds, used)), (seconds, used))
     if len(digests) != 1:
         sys.exit(f"the digests differ: {digests}")
-    print(f"{side}² pixels, the least of {rounds}:\n\n| workers | time | gain | CPU time of the workers |\n|---:|---:|---:|---:|")
+    print(
+        f"{side}² pixels, the least of {rounds}:\n\n| workers | time | gain | CPU time of the workers"
+        " |\n|---:|---:|---:|---:|"
+    )
     for workers, (seconds, used) in least.items():
         print(f"| {workers} | {seconds:.1f} s | {least[1][0] / seconds:.2f} | {used:.1f} s |")
 

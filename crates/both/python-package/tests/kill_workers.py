@@ -25,7 +25,8 @@ def cluster():
 
 
 def one_trial(folder, seed):
-    """The digest of a raster during which two workers are killed, the number of killed ones, and the times of the kills in seconds."""
+    """The digest of a raster during which two workers are killed, the number of killed ones, and the times of the kills
+    in seconds."""
     from distributed import Client
 
     moments = random.Random(seed)
@@ -46,7 +47,9 @@ def one_trial(folder, seed):
         pids = sorted(client.run(os.getpid).values())
         killer = threading.Thread(target=kill)
         killer.start()
-        found = hopper.basins(**JOB, store=Path(folder) / f"trial_{seed}.zarr", client=client, progress=lambda *_: begun.set())
+        found = hopper.basins(
+            **JOB, store=Path(folder) / f"trial_{seed}.zarr", client=client, progress=lambda *_: begun.set()
+        )
         begun.set()
         killer.join()
     return found.attrs["sha256"], len(kills), kills

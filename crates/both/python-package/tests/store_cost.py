@@ -1,4 +1,5 @@
-"""CPU time, memory and bytes of rasters in Zarr stores: python store_cost.py SIDE …, each in a process of its own. For Linux."""
+"""CPU time, memory and bytes of rasters in Zarr stores: python store_cost.py SIDE …, each in a process of its own. For
+Linux."""
 
 import resource
 import subprocess

@@ -21,7 +21,9 @@ DATASETS = {
     "basins": lambda path: hopper.basins(M=(0.2, 1.0), shape=(8, 8)),
     "store": in_a_store,
     "motion": lambda path: hopper.motion(7.0, hops=3),
-    "basins_of": lambda path: labelling.basins_of(lambda x, y: x > y, {"x": (0, 1), "y": (0, 1)}, shape=(4, 4), names={1: "above α; (é)"}),
+    "basins_of": lambda path: labelling.basins_of(
+        lambda x, y: x > y, {"x": (0, 1), "y": (0, 1)}, shape=(4, 4), names={1: "above α; (é)"}
+    ),
 }
 
 

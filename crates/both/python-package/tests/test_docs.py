@@ -25,7 +25,10 @@ def test_the_lines_of_the_readme_run(tmp_path, monkeypatch):
     assert sorted(file.name for file in tmp_path.iterdir()) == ["basins.png", "hopper.gif"]
 
 
-@pytest.mark.parametrize("page, number", [("docs/python.md", 0), ("docs/python.md", 1), ("docs/python.md", 2), ("crates/both/python-package/README.md", 0)])
+@pytest.mark.parametrize(
+    "page, number",
+    [("docs/python.md", 0), ("docs/python.md", 1), ("docs/python.md", 2), ("crates/both/python-package/README.md", 0)],
+)
 def test_the_examples_of_the_pages_run(page, number, tmp_path):
     found = blocks(page)
     assert len(found) == {"docs/python.md": 3, "crates/both/python-package/README.md": 1}[page]

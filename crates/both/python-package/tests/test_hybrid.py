@@ -78,8 +78,20 @@ def test_terminal_guards_observers_and_clocks():
     system = HybridSystem(
         flow=lambda mode, x, t: x + t,
         guards=[
-            Guard("seen", lambda x: x[0] - 1, "rising", role="observer", signal=lambda m, x: QuasiPolynomial.polynomial([x[0] - 1, 1])),
-            Guard("end", lambda x: x[0] - 3, "rising", role="terminal", signal=lambda m, x: QuasiPolynomial.polynomial([x[0] - 3, 1])),
+            Guard(
+                "seen",
+                lambda x: x[0] - 1,
+                "rising",
+                role="observer",
+                signal=lambda m, x: QuasiPolynomial.polynomial([x[0] - 1, 1]),
+            ),
+            Guard(
+                "end",
+                lambda x: x[0] - 3,
+                "rising",
+                role="terminal",
+                signal=lambda m, x: QuasiPolynomial.polynomial([x[0] - 3, 1]),
+            ),
             Clock("tick", period=0.75, first=0.5, reset=lambda mode, x: ("ticked", x)),
             Clock("list", times=[0.25, 2.5]),
             Clock("asked", times=lambda after: 1.5 if after < 1.5 else None),
@@ -147,7 +159,9 @@ def test_without_filippov_it_ends_at_the_belt():
         HybridSystem(flow=lambda mode, x, t: x, slide="filippov")
     with pytest.raises(ValueError, match="'filippov', not \"fillipov\""):
         HybridSystem(field=lambda mode, x: x, slide="fillipov")
-    sliding = next(arc.mode for arc in belt(slide="filippov").run([-1.0, 0.0], mode=1, time=9) if isinstance(arc.mode, SlidingMode))
+    sliding = next(
+        arc.mode for arc in belt(slide="filippov").run([-1.0, 0.0], mode=1, time=9) if isinstance(arc.mode, SlidingMode)
+    )
     with pytest.raises(ValueError, match="starts in a mode of the model"):
         belt(slide="filippov").run([0.0, 1.0], mode=sliding, time=1)
 
@@ -208,7 +222,9 @@ def test_derivatives_pass_events():
 def test_a_parameter_is_a_component_that_does_not_change():
     falls = HybridSystem(
         field=lambda mode, x: [x[1], -x[2], 0.0],
-        guards=[Guard("floor", lambda x: x[0], "falling", role="switch", reset=lambda mode, x: (mode, [0.0, -x[1], x[2]]))],
+        guards=[
+            Guard("floor", lambda x: x[0], "falling", role="switch", reset=lambda mode, x: (mode, [0.0, -x[1], x[2]]))
+        ],
         tolerance=1e-12,
     )
     arc = next(falls.run([1.0, 0.0, 2.0], time=5))
@@ -222,7 +238,8 @@ def test_derivatives_pass_a_sliding_motion():
     for arc in belt(slide="filippov").run([-1.0, 0.0], mode=1, time=3):
         arcs.append(arc)
     assert any(isinstance(arc.mode, SlidingMode) for arc in arcs)
-    # The velocity of the start is forgotten along the belt, but for its effect on the place; on the belt no change of the velocity is left.
+    # The velocity of the start is forgotten along the belt, but for its effect on the place; on the belt no change of
+    # the velocity is left.
     found = sensitivity(arcs)
     assert found[1] == pytest.approx([0, 0], abs=1e-7)
     assert found.shape == (2, 2) and abs(found[0]).max() > 0.1
@@ -235,7 +252,9 @@ def test_derivatives_that_do_not_exist_are_told():
     # The top of a throw touches its surface: nearby throws miss it.
     top = Guard("top", lambda x: x[0] - 0.5, "rising", touch="event", reset=lambda mode, x: ("down", x), modes=["up"],
                 signal=lambda mode, x: QuasiPolynomial.polynomial([x[0] - 0.5, x[1], -0.5]))  # fmt: skip
-    thrown = HybridSystem(flow=lambda mode, x, t: [x[0] + t * (x[1] - t / 2), x[1] - t], field=lambda mode, x: [x[1], -1.0], guards=[top])
+    thrown = HybridSystem(
+        flow=lambda mode, x, t: [x[0] + t * (x[1] - t / 2), x[1] - t], field=lambda mode, x: [x[1], -1.0], guards=[top]
+    )
     touch = next(thrown.run([0.0, 1.0], mode="up", time=2))
     assert touch.event.kind == "touch"
     with pytest.raises(ValueError, match="changes at a rate of 0"):
@@ -356,7 +375,14 @@ def test_a_jump_beyond_a_guard_needs_a_word():
     def steps(role):
         guards = [
             Guard("leap", lambda x: x[0] - 1, "rising", reset=lambda mode, x: ("after", [x[0]]), modes=["before"]),
-            Guard("past", lambda x: x[0] - 0.5, "rising", reset=lambda mode, x: ("end", [x[0]]), modes=["after"], role=role),
+            Guard(
+                "past",
+                lambda x: x[0] - 0.5,
+                "rising",
+                reset=lambda mode, x: ("end", [x[0]]),
+                modes=["after"],
+                role=role,
+            ),
         ]
         system = HybridSystem(field=lambda mode, x: [1.0], guards=guards)
         return [arc.event.surface for arc in system.run([0.0], mode="before", time=3) if arc.event]

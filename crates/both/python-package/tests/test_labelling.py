@@ -14,7 +14,12 @@ def checkerboard(side=64, cell=8):
 
 
 def test_the_codes_are_those_of_the_library():
-    assert (labelling.UNDECIDED, labelling.UNDECIDED_PRECISION, labelling.UNDECIDED_MAP, labelling.OUTSIDE) == (65535, 65533, 65532, 65530)
+    assert (labelling.UNDECIDED, labelling.UNDECIDED_PRECISION, labelling.UNDECIDED_MAP, labelling.OUTSIDE) == (
+        65535,
+        65533,
+        65532,
+        65530,
+    )
     assert labelling.ESCAPED == 65529
 
 
@@ -76,7 +81,9 @@ def test_a_smooth_boundary_has_the_exponent_one():
 def test_basins_of_a_labelling_are_a_dataset():
     pytest.importorskip("xarray")
     calls = []
-    found = basins_of(lambda x, y: x > y, {"a": (0, 1), "b": (0, 2)}, shape=(6, 4), progress=lambda *done: calls.append(done))
+    found = basins_of(
+        lambda x, y: x > y, {"a": (0, 1), "b": (0, 2)}, shape=(6, 4), progress=lambda *done: calls.append(done)
+    )
     assert found.label.dims == ("a", "b") and found.label.dtype == np.uint16
     assert np.array_equal(found.label, (found.a > found.b).astype("uint16"))
     assert found.a.values == pytest.approx((np.arange(6) + 0.5) / 6)

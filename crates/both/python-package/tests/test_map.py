@@ -34,7 +34,9 @@ def test_arrays_of_every_layout_and_length_are_the_same(lift_off_map):
     speeds = np.linspace(4.5, 20, 150_001)
     images, status = lift_off_map.images(speeds, status=True)
     assert np.array_equal(lift_off_map(speeds), images, equal_nan=True)
-    assert np.array_equal(np.concatenate([lift_off_map(part) for part in np.array_split(speeds, 7)]), images, equal_nan=True)
+    assert np.array_equal(
+        np.concatenate([lift_off_map(part) for part in np.array_split(speeds, 7)]), images, equal_nan=True
+    )
     assert np.array_equal(status == 0, ~np.isnan(images))
     locked = speeds.copy()
     locked.flags.writeable = False
@@ -72,7 +74,9 @@ def test_nan_is_grounded_and_stays(lift_off_map):
     # What the map gives, the fates take.
     speeds = np.linspace(4.5, 20, 1000)
     after = heavy.fates(heavy(speeds))
-    assert np.array_equal(after[np.isnan(heavy(speeds))] == grounded.max(), np.full(np.isnan(heavy(speeds)).sum(), True))
+    assert np.array_equal(
+        after[np.isnan(heavy(speeds))] == grounded.max(), np.full(np.isnan(heavy(speeds)).sum(), True)
+    )
     assert heavy.fates([np.nan, 7.0])[1] == heavy.fates([7.0])[0]
     assert (heavy.fate(np.nan).name, heavy.fate(np.nan).hops) == ("grounded", 0)
     assert heavy.slopes(np.nan) is None
@@ -145,7 +149,14 @@ def test_a_map_is_copied_and_sent_to_other_processes(lift_off_map):
         assert other.mass_ratio == lift_off_map.mass_ratio and other(7.0) == lift_off_map(7.0)
 
 
-@pytest.mark.parametrize("call", [lambda m: m.fate(4.4), lambda m: m.fates(np.linspace(4.3, 4.4, 30_000)), lambda m: hopper.LiftOffMap(0.2).orbit(4.55, 10**9)])
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda m: m.fate(4.4),
+        lambda m: m.fates(np.linspace(4.3, 4.4, 30_000)),
+        lambda m: hopper.LiftOffMap(0.2).orbit(4.55, 10**9),
+    ],
+)
 def test_ctrl_c_ends_long_orbits(call, ctrl_c):
     # A light upper mass loses so little in a hop that orbits take their whole budget of hops.
     m = hopper.LiftOffMap(1e9)

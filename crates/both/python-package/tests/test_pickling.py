@@ -1,4 +1,5 @@
-"""Results, and what has no function of the user, go through pickle and copy and compare; the rest refuses and names the function."""
+"""Results, and what has no function of the user, go through pickle and copy and compare; the rest refuses and names the
+function."""
 
 import copy
 import multiprocessing
@@ -49,8 +50,12 @@ OBJECTS = {
     "LabelImage": lambda: labelling.label_image(IMAGE),
     "BoxCount": lambda: labelling.label_image(IMAGE).boxes(2),
     "Interval": lambda: labelling.label_image(IMAGE).fractions()[1],
-    "UncertaintyExponent": lambda: labelling.uncertainty_exponent(lambda x, y: x > y, [(0, 1), (0, 1)], [1e-3, 1e-2, 1e-1], count=2000),
-    "QuasiPolynomial": lambda: hybrid.QuasiPolynomial.polynomial([0, -4, 0.5]) * hybrid.QuasiPolynomial.sine(5, 1.1).damped(0.3),
+    "UncertaintyExponent": lambda: labelling.uncertainty_exponent(
+        lambda x, y: x > y, [(0, 1), (0, 1)], [1e-3, 1e-2, 1e-1], count=2000
+    ),
+    "QuasiPolynomial": (
+        lambda: hybrid.QuasiPolynomial.polynomial([0, -4, 0.5]) * hybrid.QuasiPolynomial.sine(5, 1.1).damped(0.3)
+    ),
     "Clock of a period": lambda: hybrid.Clock("tick", period=0.5, first=0.25, modes=["a", ("b", 1)]),
     "Clock of times": lambda: hybrid.Clock("tick", times=[1.0, 2.5]),
     "Event": lambda: next(ball().run([1.0, 0.0], time=3)).event,

@@ -32,7 +32,11 @@ def test_a_store_gives_the_same_dataset(tmp_path):
     xarray.testing.assert_identical(memory, stored.load())
     xarray.testing.assert_identical(memory, xarray.open_zarr(tmp_path / "basins.zarr").load())
     assert memory.attrs["sha256"] == hashlib.sha256(memory.label.values).hexdigest()
-    assert memory.alpha.attrs["units"] == "1" and "m2 g omega/k" in memory.alpha.attrs["long_name"] and "basins(M=(0.15, 0.9)" in memory.attrs["command"]
+    assert (
+        memory.alpha.attrs["units"] == "1"
+        and "m2 g omega/k" in memory.alpha.attrs["long_name"]
+        and "basins(M=(0.15, 0.9)" in memory.attrs["command"]
+    )
     # A finished store is not computed again.
     before = files(tmp_path / "basins.zarr")
     hopper.basins(**JOB, store=tmp_path / "basins.zarr", progress=lambda *done: pytest.fail("computed again"))
@@ -287,7 +291,11 @@ def test_a_full_disk_leaves_nothing_that_reads_as_finished(tmp_path):
     disk.mkdir()
     # 160 KiB hold the description of the store and some regions, and not all ten.
     mount = ["mount", "-t", "tmpfs", "-o", "size=160k", "tmpfs", str(disk)]
-    if not sys.platform.startswith("linux") or os.geteuid() != 0 or subprocess.run(mount, capture_output=True).returncode != 0:
+    if (
+        not sys.platform.startswith("linux")
+        or os.geteuid() != 0
+        or subprocess.run(mount, capture_output=True).returncode != 0
+    ):
         pytest.skip("SKIPPED the full disk: a small tmpfs needs Linux and root")
     store = disk / "basins.zarr"
     job = {"M": (0.1, 0.4), "shape": (640, 4000)}
@@ -311,7 +319,11 @@ def test_a_store_on_a_read_only_disk_opens_if_it_is_finished(tmp_path):
     disk = tmp_path / "disk"
     disk.mkdir()
     mount = ["mount", "-t", "tmpfs", "-o", "size=4m", "tmpfs", str(disk)]
-    if not sys.platform.startswith("linux") or os.geteuid() != 0 or subprocess.run(mount, capture_output=True).returncode != 0:
+    if (
+        not sys.platform.startswith("linux")
+        or os.geteuid() != 0
+        or subprocess.run(mount, capture_output=True).returncode != 0
+    ):
         pytest.skip("SKIPPED the read-only disk: a tmpfs needs Linux and root")
     store = disk / "basins.zarr"
     remounted = lambda how: subprocess.run([*mount[:4], f"remount,{how}", *mount[5:]], check=True)
@@ -343,7 +355,9 @@ def hopper_program():
 def test_the_arrays_of_the_program_have_the_same_labels(tmp_path):
     program = hopper_program()
     if program is None:
-        pytest.skip("SKIPPED the arrays of the program: build it with `cargo build -p hopper`, or name it with HOPPER_PROGRAM")
+        pytest.skip(
+            "SKIPPED the arrays of the program: build it with `cargo build -p hopper`, or name it with HOPPER_PROGRAM"
+        )
     window = ["--mass-ratio", "0.15", "0.9", "--speed", "4.5", "12", "--pixels", "150", "80"]
     subprocess.run([program, "basins", *window, "--out", str(tmp_path / "basins"), "--quiet"], check=True)
     labels = np.load(tmp_path / "basins" / "basin.npy")

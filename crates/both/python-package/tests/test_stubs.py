@@ -47,14 +47,18 @@ def signatures():
         if isinstance(node, ast.FunctionDef) and not node.decorator_list:
             yield node.name, node, getattr(_native, node.name)
         for method in node.body if isinstance(node, ast.ClassDef) else []:
-            plain = isinstance(method, ast.FunctionDef) and not method.decorator_list and not method.name.startswith("_")
+            plain = (
+                isinstance(method, ast.FunctionDef) and not method.decorator_list and not method.name.startswith("_")
+            )
             if plain:
                 yield f"{node.name}.{method.name}", method, getattr(getattr(_native, node.name), method.name)
             elif isinstance(method, ast.FunctionDef) and method.name == "__init__" and node.name != "UndecidedError":
                 yield node.name, method, getattr(_native, node.name)
 
 
-@pytest.mark.parametrize("name, stub, function", list(signatures()), ids=lambda part: part if isinstance(part, str) else "")
+@pytest.mark.parametrize(
+    "name, stub, function", list(signatures()), ids=lambda part: part if isinstance(part, str) else ""
+)
 def test_arguments_have_the_names_of_the_module(name, stub, function):
     found = [parameter for parameter in inspect.signature(function).parameters if parameter != "self"]
     assert arguments(stub) == found

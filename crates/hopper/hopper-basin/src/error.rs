@@ -119,7 +119,8 @@ pub enum Error {
     },
     /// No boundary point that comes to a fixed point is near a speed.
     #[error(
-        "no speed within {within:e} of {alpha:?} comes to a fixed point exactly in at most {hops} hops; give a speed nearer to the edge"
+        "no speed within {within:e} of {alpha:?} comes to a fixed point exactly in at most {hops} hops; give a speed \
+         nearer to the edge"
     )]
     NoEdge {
         /// The speed given.
@@ -163,7 +164,8 @@ pub enum Error {
     },
     /// A depth at which no window about an edge is drawn.
     #[error(
-        "a window about an edge needs a depth of at least 0 that is finite, and 1 to {most} pixels each way, not {depth}, {columns} and {rows}"
+        "a window about an edge needs a depth of at least 0 that is finite, and 1 to {most} pixels each way, not \
+         {depth}, {columns} and {rows}"
     )]
     EdgeFrame {
         /// −log₁₀ of the half height.
@@ -177,7 +179,8 @@ pub enum Error {
     },
     /// Limits with which no pixel can be covered.
     #[error(
-        "a coverage to a tolerance of {tolerance} from {samples} samples in a pixel: give a tolerance above 0 and below 1, such as \
+        "a coverage to a tolerance of {tolerance} from {samples} samples in a pixel: give a tolerance above 0 and \
+         below 1, such as \
          0.004, and at least one sample"
     )]
     CoverageLimits {

@@ -26,21 +26,35 @@ export function planeAxes(view, size, fixedPoints) {
   const box = inner(size);
   const parts = [];
   const bottom = MARGIN.top + box.height;
-  const horizontal = view.logarithmic ? logTicks(view.x, box.width / (80 * unit)) : ticks(view.x, box.width / (90 * unit));
+  const horizontal = view.logarithmic
+    ? logTicks(view.x, box.width / (80 * unit))
+    : ticks(view.x, box.width / (90 * unit));
   for (const { at, label } of horizontal.marks) {
     const x = MARGIN.left + place(view, at, 0, box).left;
-    parts.push({ line: [x, bottom, x, bottom + 5 * unit] }, { text: label, x, y: bottom + 18 * unit, anchor: "middle" });
+    parts.push(
+      { line: [x, bottom, x, bottom + 5 * unit] },
+      { text: label, x, y: bottom + 18 * unit, anchor: "middle" },
+    );
   }
   const vertical = ticks(view.alpha, box.height / (60 * unit));
   for (const { at, label } of vertical.marks) {
     const y = MARGIN.top + place(view, 0, at, box).top;
-    parts.push({ line: [MARGIN.left - 5 * unit, y, MARGIN.left, y] }, { text: label, x: MARGIN.left - 8 * unit, y: y + 4 * unit, anchor: "end" });
+    parts.push(
+      { line: [MARGIN.left - 5 * unit, y, MARGIN.left, y] },
+      { text: label, x: MARGIN.left - 8 * unit, y: y + 4 * unit, anchor: "end" },
+    );
   }
   fixedPoints.forEach((alpha, n) => {
     if (n === 0 || !(alpha > view.alpha[0] && alpha < view.alpha[1])) return;
     const y = MARGIN.top + place(view, 0, alpha, box).top;
     parts.push({ line: [size.width - MARGIN.right - 9 * unit, y, size.width - MARGIN.right, y], inside: true });
-    parts.push({ text: star(n), x: size.width - MARGIN.right - 12 * unit, y: y - 3 * unit, anchor: "end", inside: true });
+    parts.push({
+      text: star(n),
+      x: size.width - MARGIN.right - 12 * unit,
+      y: y - 3 * unit,
+      anchor: "end",
+      inside: true,
+    });
   });
   const m = horizontal.base ? `mass ratio M = ${horizontal.base}` : "mass ratio M = m₂/m₁";
   const alpha = vertical.base ? `lift-off speed α = ${vertical.base}` : "lift-off speed α (m₂gω/k)";
@@ -72,12 +86,29 @@ export function deepAxes(depth, slant, size) {
     const label = part === 0 ? "0" : `${part < 0 ? "−" : "+"}${Math.abs(part)}`;
     const x = MARGIN.left + ((part + 1) / 2) * box.width;
     const y = MARGIN.top + ((1 - part) / 2) * box.height;
-    parts.push({ line: [x, bottom, x, bottom + 5 * unit] }, { text: label, x, y: bottom + 18 * unit, anchor: "middle" });
-    parts.push({ line: [MARGIN.left - 5 * unit, y, MARGIN.left, y] }, { text: label, x: MARGIN.left - 8 * unit, y: y + 4 * unit, anchor: "end" });
+    parts.push(
+      { line: [x, bottom, x, bottom + 5 * unit] },
+      { text: label, x, y: bottom + 18 * unit, anchor: "middle" },
+    );
+    parts.push(
+      { line: [MARGIN.left - 5 * unit, y, MARGIN.left, y] },
+      { text: label, x: MARGIN.left - 8 * unit, y: y + 4 * unit, anchor: "end" },
+    );
   }
   const scale = powerOfTen(-depth);
-  parts.push({ text: `M − M₀ in units of ${powerOfTen(-depth + Math.log10(slant))}`, x: MARGIN.left + box.width / 2, y: bottom + 36 * unit, anchor: "middle" });
-  parts.push({ text: `α − p in units of ${scale}`, x: 14 * unit, y: MARGIN.top + box.height / 2, anchor: "middle", turned: true });
+  parts.push({
+    text: `M − M₀ in units of ${powerOfTen(-depth + Math.log10(slant))}`,
+    x: MARGIN.left + box.width / 2,
+    y: bottom + 36 * unit,
+    anchor: "middle",
+  });
+  parts.push({
+    text: `α − p in units of ${scale}`,
+    x: 14 * unit,
+    y: MARGIN.top + box.height / 2,
+    anchor: "middle",
+    turned: true,
+  });
   return parts;
 }
 
@@ -99,14 +130,21 @@ export function paintAxes(context, parts, pageInk) {
     if (part.line) {
       const [x0, y0, x1, y1] = part.line;
       context.lineWidth = (part.inside ? 2 : 1) * unit;
-      context.beginPath(); context.moveTo(x0, y0); context.lineTo(x1, y1); context.stroke();
+      context.beginPath();
+      context.moveTo(x0, y0);
+      context.lineTo(x1, y1);
+      context.stroke();
       continue;
     }
     context.save();
     context.translate(part.x, part.y);
     if (part.turned) context.rotate(-Math.PI / 2);
     context.textAlign = part.anchor === "middle" ? "center" : part.anchor;
-    if (part.inside) { context.strokeStyle = "#fff"; context.lineWidth = 3 * unit; context.strokeText(part.text, 0, 0); }
+    if (part.inside) {
+      context.strokeStyle = "#fff";
+      context.lineWidth = 3 * unit;
+      context.strokeText(part.text, 0, 0);
+    }
     context.fillText(part.text, 0, 0);
     context.restore();
   }
@@ -114,12 +152,14 @@ export function paintAxes(context, parts, pageInk) {
 
 export function svgAxes(parts) {
   const escape = (text) => text.replace(/[&<>]/g, (sign) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[sign]);
-  return parts.map((part) => {
-    if (part.line) {
-      const [x1, y1, x2, y2] = part.line;
-      return `<line x1="${x1}" y1="${y1}" x2="${x2}" y2="${y2}" stroke="#000"/>`;
-    }
-    const turn = part.turned ? ` transform="rotate(-90 ${part.x} ${part.y})"` : "";
-    return `<text x="${part.x}" y="${part.y}" text-anchor="${part.anchor}"${turn}>${escape(part.text)}</text>`;
-  }).join("\n");
+  return parts
+    .map((part) => {
+      if (part.line) {
+        const [x1, y1, x2, y2] = part.line;
+        return `<line x1="${x1}" y1="${y1}" x2="${x2}" y2="${y2}" stroke="#000"/>`;
+      }
+      const turn = part.turned ? ` transform="rotate(-90 ${part.x} ${part.y})"` : "";
+      return `<text x="${part.x}" y="${part.y}" text-anchor="${part.anchor}"${turn}>${escape(part.text)}</text>`;
+    })
+    .join("\n");
 }

@@ -2,8 +2,13 @@
 import { pretty, show, star } from "./numbers.js";
 import { Drawing } from "./svg.js";
 
-const shares = (fractions) => `<p>${fractions.map(({ name, color, lower, upper }) =>
-  `<i class="swatch" style="background:${color}"></i>${pretty(name)} ${show(100 * lower, 5)}${upper - lower > 1e-6 ? `…${show(100 * upper, 5)}` : ""} %`).join("<br>")}</p>`;
+const shares = (fractions) =>
+  `<p>${fractions
+    .map(
+      ({ name, color, lower, upper }) =>
+        `<i class="swatch" style="background:${color}"></i>${pretty(name)} ${show(100 * lower, 5)}${upper - lower > 1e-6 ? `…${show(100 * upper, 5)}` : ""} %`,
+    )
+    .join("<br>")}</p>`;
 
 const triples = (parts) => Array.from({ length: parts.length / 3 }, (_, k) => parts.slice(3 * k, 3 * k + 3));
 
@@ -14,7 +19,8 @@ export function showCircle({ n, parts, boundary, undecided, fractions, ground },
   };
   const wedge = ([from, to, label]) => {
     const color = colorOf(label);
-    if (to - from >= 1 - 1e-12) return `<circle cx="200" cy="130" r="95" fill="none" stroke="${color}" stroke-width="50"/>`;
+    if (to - from >= 1 - 1e-12)
+      return `<circle cx="200" cy="130" r="95" fill="none" stroke="${color}" stroke-width="50"/>`;
     const large = to - from > 0.5 ? 1 : 0;
     return `<path d="M${at(from, 120)}A120 120 0 ${large} 1 ${at(to, 120)}L${at(to, 70)}A70 70 0 ${large} 0 ${at(from, 70)}Z" fill="${color}"/>`;
   };
@@ -28,7 +34,15 @@ export function showCircle({ n, parts, boundary, undecided, fractions, ground },
 }
 
 export function showIntervals({ from, to, parts, ground, undecided, compared, wrong, fractions }, m, colorOf) {
-  const drawing = new Drawing({ x: [from, to], y: [0, 1], height: 110, xName: "α", yName: "", title: `The basins at M = ${m}`, margin: [12, 34] });
+  const drawing = new Drawing({
+    x: [from, to],
+    y: [0, 1],
+    height: 110,
+    xName: "α",
+    yName: "",
+    title: `The basins at M = ${m}`,
+    margin: [12, 34],
+  });
   for (const [left, right, label] of triples(parts)) drawing.band(left, right, colorOf(label));
   drawing.axes = drawing.axes.filter((axis) => !axis.includes('text-anchor="end"'));
   return `${drawing.markup()}<p class="soft">${parts.length / 3} intervals; the length ${show(undecided, 3)} is undecided. ${ground === "proved" ? "The branches of the map are proved" : "The sudden windows stay undecided at this M"};

@@ -30,18 +30,38 @@ export class Core {
 
   /** The mass ratios of the columns of a tile, then the speeds of its rows from below. */
   places({ logarithmic, x, alpha, columns, rows }) {
-    return new Float64Array(this.#answer(this.exports.places(Number(logarithmic), ...x, ...alpha, columns, rows)).buffer);
+    return new Float64Array(
+      this.#answer(this.exports.places(Number(logarithmic), ...x, ...alpha, columns, rows)).buffer,
+    );
   }
 
-  legend() { return this.#json(this.exports.legend()); }
-  point(m, alpha, hops) { return this.#json(this.exports.point(m, alpha, hops)); }
-  proof(m, alpha) { return this.#json(this.exports.proof(m, alpha)); }
-  map(m, from, to, points) { return this.#json(this.exports.map(m, from, to, points)); }
-  motion(m, alpha, hops) { return new Float64Array(this.#answer(this.exports.motion(m, alpha, hops)).buffer); }
-  units(m, mass, stiffness, gravity) { return this.#json(this.exports.units(m, mass, stiffness, gravity)); }
-  circle(m, n) { return this.#json(this.exports.circle(m, n)); }
-  intervals(m, first, last) { return this.#json(this.exports.intervals(m, first, last)); }
-  openDepth(m, alpha) { return this.#json(this.exports.open_depth(m, alpha)); }
+  legend() {
+    return this.#json(this.exports.legend());
+  }
+  point(m, alpha, hops) {
+    return this.#json(this.exports.point(m, alpha, hops));
+  }
+  proof(m, alpha) {
+    return this.#json(this.exports.proof(m, alpha));
+  }
+  map(m, from, to, points) {
+    return this.#json(this.exports.map(m, from, to, points));
+  }
+  motion(m, alpha, hops) {
+    return new Float64Array(this.#answer(this.exports.motion(m, alpha, hops)).buffer);
+  }
+  units(m, mass, stiffness, gravity) {
+    return this.#json(this.exports.units(m, mass, stiffness, gravity));
+  }
+  circle(m, n) {
+    return this.#json(this.exports.circle(m, n));
+  }
+  intervals(m, first, last) {
+    return this.#json(this.exports.intervals(m, first, last));
+  }
+  openDepth(m, alpha) {
+    return this.#json(this.exports.open_depth(m, alpha));
+  }
   /** The frame about the opened boundary point, or about the one at (m, alpha): a worker that replaces a dead one opens it again. */
   depthFrame(depth, columns, rows, m, alpha) {
     if (m !== undefined) this.openDepth(m, alpha);

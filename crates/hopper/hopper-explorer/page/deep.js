@@ -43,7 +43,10 @@ export class Deep {
     const { depth, about } = state.depth;
     const here = this.frames.filter((frame) => frame.depth === depth);
     const pixels = here.length === 0 ? QUICK : here.some((frame) => frame.pixels === FINE) ? 0 : FINE;
-    if (pixels === 0) { this.plane.canvas.dispatchEvent(new Event("complete")); return; }
+    if (pixels === 0) {
+      this.plane.canvas.dispatchEvent(new Event("complete"));
+      return;
+    }
     this.busy = true;
     try {
       const data = await this.desk.ask("depthFrame", depth, pixels, pixels, about.massRatio, about.alpha);
@@ -81,19 +84,28 @@ export class Deep {
       context.drawImage(frame.bitmap, middle.left - width / 2, middle.top - height / 2, width, height);
     }
     if (this.parts.failed) hatch(context, MARGIN.left, MARGIN.top, box.width, box.height, true);
-    for (const [color, width] of [["#fff", 4], ["#000", 1.6]]) {
+    for (const [color, width] of [
+      ["#fff", 4],
+      ["#000", 1.6],
+    ]) {
       context.strokeStyle = color;
       context.lineWidth = width;
-      context.beginPath(); context.arc(middle.left, middle.top, 7, 0, 2 * Math.PI); context.stroke();
+      context.beginPath();
+      context.arc(middle.left, middle.top, 7, 0, 2 * Math.PI);
+      context.stroke();
     }
   }
 
-  axes(size) { return deepAxes(state.depth.depth, state.depth.about.slant, size); }
+  axes(size) {
+    return deepAxes(state.depth.depth, state.depth.about.slant, size);
+  }
 
   /** The view in words. */
   words() {
     const { depth, about } = state.depth;
-    return `Half height ${powerOfTen(-depth)} about p = ${show(about.alpha, 12)} at M = ${show(about.massRatio, 8)}: a boundary point that ` +
-      `comes to the fixed point ${pretty(`α*_${about.n}`)} in ${about.hops} hops`;
+    return (
+      `Half height ${powerOfTen(-depth)} about p = ${show(about.alpha, 12)} at M = ${show(about.massRatio, 8)}: a boundary point that ` +
+      `comes to the fixed point ${pretty(`α*_${about.n}`)} in ${about.hops} hops`
+    );
   }
 }

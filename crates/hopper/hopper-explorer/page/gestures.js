@@ -16,14 +16,18 @@ export function gestures(canvas, { zoom, move, click, hover, box }) {
   const fingers = new Map();
   let start = null;
 
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    // With Shift a wheel scrolls sideways in some browsers.
-    const turned = (event.deltaY || event.deltaX) * (event.deltaMode === 1 ? 30 : 1);
-    // Pinching a touchpad is a wheel with Ctrl, in smaller steps.
-    const factor = Math.exp(turned * WHEEL * (event.ctrlKey ? 5 : 1));
-    zoom(at(event), event.shiftKey ? 1 : factor, event.altKey ? 1 : factor);
-  }, { passive: false });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      // With Shift a wheel scrolls sideways in some browsers.
+      const turned = (event.deltaY || event.deltaX) * (event.deltaMode === 1 ? 30 : 1);
+      // Pinching a touchpad is a wheel with Ctrl, in smaller steps.
+      const factor = Math.exp(turned * WHEEL * (event.ctrlKey ? 5 : 1));
+      zoom(at(event), event.shiftKey ? 1 : factor, event.altKey ? 1 : factor);
+    },
+    { passive: false },
+  );
 
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
@@ -65,9 +69,15 @@ export function gestures(canvas, { zoom, move, click, hover, box }) {
   /** Two fingers zoom each axis by the change of their distance along it; along an axis on which they are close, both alike. */
   function pinch(before, now, other) {
     const middle = { left: (now.left + other.left) / 2, top: (now.top + other.top) / 2 };
-    const both = Math.hypot(before.left - other.left, before.top - other.top) / Math.hypot(now.left - other.left, now.top - other.top);
+    const both =
+      Math.hypot(before.left - other.left, before.top - other.top) /
+      Math.hypot(now.left - other.left, now.top - other.top);
     const along = (old, fresh) => (Math.min(Math.abs(old), Math.abs(fresh)) > 60 ? Math.abs(old / fresh) : both);
-    zoom(middle, along(before.left - other.left, now.left - other.left), along(before.top - other.top, now.top - other.top));
+    zoom(
+      middle,
+      along(before.left - other.left, now.left - other.left),
+      along(before.top - other.top, now.top - other.top),
+    );
     move((now.left - before.left) / 2, (now.top - before.top) / 2);
   }
 }

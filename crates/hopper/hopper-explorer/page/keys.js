@@ -1,10 +1,22 @@
 // Every action has a key. Keys are not taken from inputs.
 
 export const KEYS = [
-  ["arrows", "move by a tenth of the window"], ["+ −", "zoom both axes"], ["X x", "zoom M in, out"], ["A a", "zoom α in, out"],
-  ["Enter", "pin the middle"], ["H", "the whole window"], ["L", "M linear or logarithmic"], ["1 2 3 4", "fate, hops, coverage, proofs"],
-  ["D", "deep zoom to the nearest edge"], ["Esc", "leave the deep zoom, the tour"], ["space", "play or pause"], [", .", "one frame back, on"],
-  ["T", "tour; N and P: next and previous stop"], ["S", "save"], ["C", "link"], ["?", "this help"],
+  ["arrows", "move by a tenth of the window"],
+  ["+ −", "zoom both axes"],
+  ["X x", "zoom M in, out"],
+  ["A a", "zoom α in, out"],
+  ["Enter", "pin the middle"],
+  ["H", "the whole window"],
+  ["L", "M linear or logarithmic"],
+  ["1 2 3 4", "fate, hops, coverage, proofs"],
+  ["D", "deep zoom to the nearest edge"],
+  ["Esc", "leave the deep zoom, the tour"],
+  ["space", "play or pause"],
+  [", .", "one frame back, on"],
+  ["T", "tour; N and P: next and previous stop"],
+  ["S", "save"],
+  ["C", "link"],
+  ["?", "this help"],
 ];
 
 export function keys(actions) {

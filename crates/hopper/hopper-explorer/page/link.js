@@ -4,7 +4,10 @@ import { layers, state } from "./state.js";
 import { isView } from "./view.js";
 
 function write({ view, layer, pin, hops, depth }) {
-  const parts = [`${view.logarithmic ? "log" : "lin"}=${[...view.x, ...view.alpha].join(",")}`, `layer=${layers[layer].key}`];
+  const parts = [
+    `${view.logarithmic ? "log" : "lin"}=${[...view.x, ...view.alpha].join(",")}`,
+    `layer=${layers[layer].key}`,
+  ];
   if (pin) parts.push(`pin=${pin.m},${pin.alpha}`, `hops=${hops}`);
   if (depth) parts.push(`depth=${depth.m},${depth.alpha},${depth.depth}`);
   return `#${parts.join("&")}`;

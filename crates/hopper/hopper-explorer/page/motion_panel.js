@@ -1,4 +1,5 @@
-// The hopper in motion: both masses and the spring, with both heights against time. Units are the model's, or metres and seconds.
+// The hopper in motion: both masses and the spring, with both heights against time. Units are the model's, or metres
+// and seconds.
 import { parse, show } from "./numbers.js";
 import { change, say, state } from "./state.js";
 import { Drawing } from "./svg.js";
@@ -30,7 +31,9 @@ panel.innerHTML = `<h2>The hopper hops</h2>
     <input id="time" type="range" min="0" max="1" step="any" value="0" aria-label="Time">
     <label>hops <input id="hops" type="number" min="1" max="99" class="short"></label></div>
   <div class="row"><label><input id="slow" type="checkbox" checked> slow near the ground</label>
-    <label>units <select id="hopper">${Object.keys(HOPPERS).map((name) => `<option>${name}</option>`).join("")}<option>my own</option></select></label></div>
+    <label>units <select id="hopper">${Object.keys(HOPPERS)
+      .map((name) => `<option>${name}</option>`)
+      .join("")}<option>my own</option></select></label></div>
   <div class="row" id="own" hidden><label>kg <input class="short" id="mass" value="0.1" inputmode="decimal"></label>
     <label>N/m <input class="short" id="stiffness" value="120" inputmode="decimal"></label>
     <label>m/s² <input class="short" id="gravity" value="9.80665" inputmode="decimal"></label></div>
@@ -51,18 +54,27 @@ const field = (k, which) => samples[1 + FIELDS * k + which];
 /** The samples of a motion, as they came from the core; null for none. `measure` draws them. */
 export function showMotion(found) {
   samples = found;
-  if (!samples) { play(false); stage = null; ["stage", "now"].forEach((id) => part(id).replaceChildren()); return; }
+  if (!samples) {
+    play(false);
+    stage = null;
+    ["stage", "now"].forEach((id) => part(id).replaceChildren());
+    return;
+  }
   time = Math.min(time, field(count() - 1, 0));
 }
 
-export function start(asked) { desk = asked; part("hops").value = state.hops; }
+export function start(asked) {
+  desk = asked;
+  part("hops").value = state.hops;
+}
 
 /** The sample before a time, and the part of the way to the next one. */
 function at(when) {
   let [low, high] = [0, count() - 1];
   while (high - low > 1) {
     const middle = (low + high) >> 1;
-    if (field(middle, 0) <= when) low = middle; else high = middle;
+    if (field(middle, 0) <= when) low = middle;
+    else high = middle;
   }
   const length = field(high, 0) - field(low, 0);
   const along = length > 0 ? Math.min((when - field(low, 0)) / length, 1) : 0;
@@ -100,19 +112,44 @@ function extremes(value) {
 function draw() {
   if (!samples) return;
   const [length, second] = units ? [units.length, units.time] : [1, 1];
-  const curve = (which) => extremes((k) => field(k, which)).map((k) => [field(k, 0) * second, field(k, which) * length]);
+  const curve = (which) =>
+    extremes((k) => field(k, which)).map((k) => [field(k, 0) * second, field(k, which) * length]);
   const [upper, lower] = [curve(3), curve(5)];
   const values = [...upper, ...lower].map(([, y]) => y);
   const [low, high] = [Math.min(...values), Math.max(...values)];
   const end = field(count() - 1, 0) * second;
-  const drawing = new Drawing({ x: [0, end || 1], y: [low - 0.06 * (high - low), high + 0.08 * (high - low)], height: 300, margin: [170, 34],
-    xName: units ? "time (s)" : "time τ (1/ω)", yName: "", title: `Heights of both masses over ${state.hops} hops` });
-  drawing.curve([[0, 0], [end, 0]], "currentColor", 0.5).curve(upper, "var(--upper)").curve(lower, "var(--lower)");
+  const drawing = new Drawing({
+    x: [0, end || 1],
+    y: [low - 0.06 * (high - low), high + 0.08 * (high - low)],
+    height: 300,
+    margin: [170, 34],
+    xName: units ? "time (s)" : "time τ (1/ω)",
+    yName: "",
+    title: `Heights of both masses over ${state.hops} hops`,
+  });
+  drawing
+    .curve(
+      [
+        [0, 0],
+        [end, 0],
+      ],
+      "currentColor",
+      0.5,
+    )
+    .curve(upper, "var(--upper)")
+    .curve(lower, "var(--lower)");
   const all = events();
   for (const event of all) if (event.sudden) drawing.dot(event.time * second, 0, "var(--lower)", 4);
   // The spring keeps a part of its length where it is shortest; the relaxed length is not a number of the model.
   const stretch = (k) => field(k, 3) - field(k, 5);
-  stage = { drawing, second, length, shortest: Math.min(...extremes(stretch).map(stretch)), highest: Math.max(...upper.map(([, y]) => y / length)), events: all };
+  stage = {
+    drawing,
+    second,
+    length,
+    shortest: Math.min(...extremes(stretch).map(stretch)),
+    highest: Math.max(...upper.map(([, y]) => y / length)),
+    events: all,
+  };
   const cursor = `<line id="cursor" y1="${drawing.top}" y2="${drawing.bottom}" stroke="currentColor" stroke-opacity=".6"/>`;
   const machine = `<g stroke="currentColor" fill="none"><path d="M10 282h110M14 290l8-8m4 8l8-8m4 8l8-8m4 8l8-8m4 8l8-8m4 8l8-8m4 8l8-8m4 8l8-8"/>
     <path id="spring" stroke-width="1.6"/><rect id="lower" width="52" rx="2" fill="var(--lower)"/><rect id="upper" width="52" rx="2" fill="var(--upper)"/></g>
@@ -140,7 +177,10 @@ function place() {
   set("lower", { x: 39, y: lowerTop, height: lowerBlock });
   set("upper", { x: 39, y: upperBottom - upperBlock, height: upperBlock });
   const turns = 9;
-  const zigzag = Array.from({ length: turns }, (_, k) => `${65 + (k % 2 ? 9 : -9)} ${upperBottom + ((lowerTop - upperBottom) * (k + 0.5)) / turns}`);
+  const zigzag = Array.from(
+    { length: turns },
+    (_, k) => `${65 + (k % 2 ? 9 : -9)} ${upperBottom + ((lowerTop - upperBottom) * (k + 0.5)) / turns}`,
+  );
   set("spring", { d: `M65 ${upperBottom}L${zigzag.join("L")}L65 ${lowerTop}` });
   const [x] = stage.drawing.at(time * stage.second, 0);
   set("cursor", { x1: x, x2: x });
@@ -148,10 +188,13 @@ function place() {
   const hop = field(now.low, 1) + 1;
   const unit = units ? [" s", " m"] : ["", ""];
   const sudden = stage.events.filter((event) => event.sudden).length;
-  part("now").textContent = `${now.flies ? "In the air" : "On the ground"}, hop ${hop}. Time ${show(time * stage.second, 4)}${unit[0]}, upper mass at ` +
+  part("now").textContent =
+    `${now.flies ? "In the air" : "On the ground"}, hop ${hop}. Time ${show(time * stage.second, 4)}${unit[0]}, upper mass at ` +
     `${show(now.upper * stage.length, 4)}${unit[1]}, lower mass at ${show(now.lower * stage.length, 4)}${unit[1]}. ` +
     `${sudden === 0 ? "No sudden lift-off" : `${sudden} sudden lift-off${sudden === 1 ? "" : "s"} (red dots)`}${samples[0] ? "; the hopper stays on the ground" : ""}.` +
-    (units ? ` Lift-off at ${show(state.pin.alpha * units.speed, 4)} m/s; masses ${show(units.upperMass, 3)} kg above, ${show(units.lowerMass, 3)} kg below.` : "");
+    (units
+      ? ` Lift-off at ${show(state.pin.alpha * units.speed, 4)} m/s; masses ${show(units.upperMass, 3)} kg above, ${show(units.lowerMass, 3)} kg below.`
+      : "");
 }
 
 /** What the panel shows at a time, for tests. */
@@ -186,7 +229,11 @@ export function step(frames) {
 part("play").onclick = () => play();
 part("back").onclick = () => step(-1);
 part("forth").onclick = () => step(1);
-part("time").oninput = ({ target }) => { play(false); time = Number(target.value); place(); };
+part("time").oninput = ({ target }) => {
+  play(false);
+  time = Number(target.value);
+  place();
+};
 part("hops").onchange = ({ target }) => {
   const hops = parse(target.value);
   if (Number.isInteger(hops) && hops >= 1 && hops <= 99) change({ hops });
@@ -197,12 +244,20 @@ part("hops").onchange = ({ target }) => {
 export async function measure() {
   const chosen = part("hopper").value;
   part("own").hidden = chosen !== "my own";
-  const numbers = chosen === "my own" ? ["mass", "stiffness", "gravity"].map((id) => parse(part(id).value)) : HOPPERS[chosen];
+  const numbers =
+    chosen === "my own" ? ["mass", "stiffness", "gravity"].map((id) => parse(part(id).value)) : HOPPERS[chosen];
   units = null;
   if (numbers && state.pin) {
     if (numbers.some((number) => number === null)) say("Mass, stiffness and gravity are positive numbers.");
-    else try { units = await desk.ask("units", state.pin.m, ...numbers); } catch (error) { say(error.message); }
+    else
+      try {
+        units = await desk.ask("units", state.pin.m, ...numbers);
+      } catch (error) {
+        say(error.message);
+      }
   }
   draw();
 }
-["hopper", "mass", "stiffness", "gravity"].forEach((id) => { part(id).onchange = measure; });
+["hopper", "mass", "stiffness", "gravity"].forEach((id) => {
+  part(id).onchange = measure;
+});

@@ -2,7 +2,12 @@
 
 /** A number in any of the usual ways: 0.2, 0,2, 1e-3, 1,5·10^-3, ².  Null for anything else. */
 export function parse(text) {
-  const plain = text.trim().replace(/\s|_/g, "").replace("−", "-").replace(/[·×*]10\^?/, "e").replace(",", ".");
+  const plain = text
+    .trim()
+    .replace(/\s|_/g, "")
+    .replace("−", "-")
+    .replace(/[·×*]10\^?/, "e")
+    .replace(",", ".");
   return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(plain) && Number.isFinite(Number(plain)) ? Number(plain) : null;
 }
 
@@ -32,7 +37,8 @@ export function ticks([low, high], most) {
   const places = [];
   for (let k = first; k * step <= high && places.length < 50; k++) places.push(k * step);
   const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  if (decimals <= 6) return { base: null, marks: places.map((at) => ({ at, label: at.toFixed(decimals).replace("-", "−") })) };
+  if (decimals <= 6)
+    return { base: null, marks: places.map((at) => ({ at, label: at.toFixed(decimals).replace("-", "−") })) };
   const base = places[0] ?? low;
   const marks = places.map((at) => ({ at, label: `${Math.round((at - base) / unit)}` }));
   return { base: `${base.toFixed(Math.min(decimals, 17))} + … · 10${superscript(power)}`, marks };

@@ -1,4 +1,5 @@
-// The canvas: tiles of the plane, axes, the pin. It asks for coarse tiles first, then for fine ones, and gives up what is out of view.
+// The canvas: tiles of the plane, axes, the pin. It asks for coarse tiles first, then for fine ones, and gives up what
+// is out of view.
 import { MARGIN, fitLetters, inner, paintAxes, planeAxes } from "./axes.js";
 import { state, say } from "./state.js";
 import { COARSE, QUICK, SIZE, TileStore, coarsePixels, isShares, keyOf, needed, windowOf } from "./tiles.js";
@@ -12,20 +13,28 @@ export class Plane {
     this.legend = legend;
     this.store = new TileStore();
     this.asked = new Map(); // keys of tiles in work
-    this.focus = null;      // where the next tile is wanted first
+    this.focus = null; // where the next tile is wanted first
     this.frames = 0;
-    this.overlay = null;    // what draws instead of the plane
+    this.overlay = null; // what draws instead of the plane
     new ResizeObserver(() => this.refresh()).observe(canvas);
   }
 
   /** Size in CSS pixels. */
-  get size() { return { width: this.canvas.clientWidth, height: this.canvas.clientHeight }; }
-  get box() { return inner(this.size); }
+  get size() {
+    return { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+  }
+  get box() {
+    return inner(this.size);
+  }
 
   refresh() {
     if (this.waiting) return;
     this.waiting = true;
-    requestAnimationFrame(() => { this.waiting = false; this.draw(); if (!this.overlay) this.#request(); });
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.draw();
+      if (!this.overlay) this.#request();
+    });
   }
 
   #pixels() {
@@ -42,17 +51,27 @@ export class Plane {
   }
 
   #request() {
-    const centre = { x: (state.view.x[0] + state.view.x[1]) / 2, alpha: (state.view.alpha[0] + state.view.alpha[1]) / 2 };
+    const centre = {
+      x: (state.view.x[0] + state.view.x[1]) / 2,
+      alpha: (state.view.alpha[0] + state.view.alpha[1]) / 2,
+    };
     const focus = this.focus ?? centre;
     const pixels = this.#pixels();
     const missing = needed(state.view, state.layer, pixels, focus).filter((tile) => !this.store.isFine(tile));
-    const coarse = missing.filter((tile) => !this.store.isCoarse(tile)).map((tile) => ({ ...tile, pixels: coarsePixels(tile.layer) }));
-    const quick = isShares(state.layer) ? coarse.map((tile) => ({ ...tile, layer: QUICK, pixels: COARSE })).filter((tile) => !this.store.isCoarse(tile)) : [];
+    const coarse = missing
+      .filter((tile) => !this.store.isCoarse(tile))
+      .map((tile) => ({ ...tile, pixels: coarsePixels(tile.layer) }));
+    const quick = isShares(state.layer)
+      ? coarse.map((tile) => ({ ...tile, layer: QUICK, pixels: COARSE })).filter((tile) => !this.store.isCoarse(tile))
+      : [];
     const wanted = [...quick, ...coarse, ...missing.map((tile) => ({ ...tile, pixels: SIZE }))];
     const nameOf = (tile) => `${keyOf(tile)}/${tile.pixels}`;
     const keys = new Set(wanted.map(nameOf));
     for (const [key, id] of this.asked) {
-      if (!keys.has(key)) { this.asked.delete(key); this.pool.stop(id); }
+      if (!keys.has(key)) {
+        this.asked.delete(key);
+        this.pool.stop(id);
+      }
     }
     // Two in work for each worker: the queue stays short, and follows the view.
     const free = 2 * this.pool.members.length - this.asked.size;
@@ -149,7 +168,18 @@ function paintTiles(context, plane, box) {
     const [left, top] = [snap(MARGIN.left + from.left), snap(MARGIN.top + from.top)];
     const [right, bottom] = [snap(MARGIN.left + to.left), snap(MARGIN.top + to.top)];
     context.imageSmoothingEnabled = (right - left) * ratio < SIZE;
-    if (picture) context.drawImage(picture.bitmap, picture.left, picture.top, picture.size, picture.size, left, top, right - left, bottom - top);
+    if (picture)
+      context.drawImage(
+        picture.bitmap,
+        picture.left,
+        picture.top,
+        picture.size,
+        picture.size,
+        left,
+        top,
+        right - left,
+        bottom - top,
+      );
     const failed = plane.store.hasFailed(tile);
     if (failed || !picture) hatch(context, left, top, right - left, bottom - top, failed);
   }
@@ -157,13 +187,18 @@ function paintTiles(context, plane, box) {
 
 function paintPin(context, box) {
   const { left, top } = place(state.view, toX(state.view, state.pin.m), state.pin.alpha, box);
-  for (const [color, width] of [["#fff", 4], ["#000", 1.6]]) {
+  for (const [color, width] of [
+    ["#fff", 4],
+    ["#000", 1.6],
+  ]) {
     context.strokeStyle = color;
     context.lineWidth = width;
     context.beginPath();
     context.arc(MARGIN.left + left, MARGIN.top + top, 7, 0, 2 * Math.PI);
-    context.moveTo(MARGIN.left + left - 12, MARGIN.top + top); context.lineTo(MARGIN.left + left - 4, MARGIN.top + top);
-    context.moveTo(MARGIN.left + left + 4, MARGIN.top + top); context.lineTo(MARGIN.left + left + 12, MARGIN.top + top);
+    context.moveTo(MARGIN.left + left - 12, MARGIN.top + top);
+    context.lineTo(MARGIN.left + left - 4, MARGIN.top + top);
+    context.moveTo(MARGIN.left + left + 4, MARGIN.top + top);
+    context.lineTo(MARGIN.left + left + 12, MARGIN.top + top);
     context.stroke();
   }
 }

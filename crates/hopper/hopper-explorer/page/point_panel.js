@@ -16,13 +16,16 @@ for (const input of [m, alpha]) {
     typed.delete(input);
     const numbers = [m, alpha].map(({ value }) => parse(value));
     if (numbers.every((number) => number > 0)) change({ pin: { m: numbers[0], alpha: numbers[1] }, depth: null });
-    else if (input.value.trim() && !(parse(input.value) > 0)) say(`“${input.value}” is not a positive number. Examples: 0.2 or 0,2 or 2e-1.`);
+    else if (input.value.trim() && !(parse(input.value) > 0))
+      say(`“${input.value}” is not a positive number. Examples: 0.2 or 0,2 or 2e-1.`);
   });
 }
 
 /** Writes the pinned numbers, but not over a text that someone is typing. */
 export function showPin() {
-  const show = (input, number) => { if (!typed.has(input)) input.value = number === undefined ? "" : String(number); };
+  const show = (input, number) => {
+    if (!typed.has(input)) input.value = number === undefined ? "" : String(number);
+  };
   show(m, state.pin?.m);
   show(alpha, state.pin?.alpha);
 }
@@ -30,28 +33,36 @@ export function showPin() {
 /** Why the fate is known, in words. */
 function reason({ fate, hops, trap, reason: unknown, grounded, arithmetic, errors }) {
   const after = hops === 0 ? "The start is already" : `After ${hops} hop${hops === 1 ? "" : "s"} the speed is`;
-  const sure = `Every decision is larger than its error bound; the orbit shown has ${arithmetic} and an error of at most ` +
+  const sure =
+    `Every decision is larger than its error bound; the orbit shown has ${arithmetic} and an error of at most ` +
     `${show(Math.max(...errors), 2)}.`;
   if (unknown) return `Undecided: ${unknown}.`;
-  if (!trap) return `${hops === 1 ? "The first hop" : `Hop ${hops}`} is the last one: too little energy is left to lift off again. ${sure}`;
-  const inside = trap.n === 0
-    ? `${after} in the trap of 0, up to ${show(trap.right)}: the hops become lower and lower but never stop.`
-    : `${after} in the trap of ${star(trap.n)}, from ${show(trap.left, 9)} to ${show(trap.right, 9)}. No orbit leaves it: the hopper hops for ever.`;
+  if (!trap)
+    return `${hops === 1 ? "The first hop" : `Hop ${hops}`} is the last one: too little energy is left to lift off again. ${sure}`;
+  const inside =
+    trap.n === 0
+      ? `${after} in the trap of 0, up to ${show(trap.right)}: the hops become lower and lower but never stop.`
+      : `${after} in the trap of ${star(trap.n)}, from ${show(trap.left, 9)} to ${show(trap.right, 9)}. No orbit leaves it: the hopper hops for ever.`;
   return `${inside} ${grounded ? "" : sure}`;
 }
 
 export function showFate(found) {
   const { fate, orbit } = found;
   const [first] = orbit;
-  const slopes = first?.slope === null || !first ? "" :
-    `<p class="soft">∂α′/∂α = ${show(first.slope)}, ∂α′/∂M = ${show(first.massRatioSlope)}</p>`;
+  const slopes =
+    first?.slope === null || !first
+      ? ""
+      : `<p class="soft">∂α′/∂α = ${show(first.slope)}, ∂α′/∂M = ${show(first.massRatioSlope)}</p>`;
   document.getElementById("fate").innerHTML =
     `<p class="verdict"><i class="swatch" style="background:${fate.color}"></i>${pretty(fate.name)}</p><p>${reason(found)}</p><p id="proof"></p>${slopes}`;
 }
 
 /** Whether the fate is proved. */
 export function showProof({ fate }, { fate: proved }) {
-  const text = !proved ? (fate.label < 65533 ? "Computed, not proved: enclosures of the orbit do not lead into a proved trap." : "")
+  const text = !proved
+    ? fate.label < 65533
+      ? "Computed, not proved: enclosures of the orbit do not lead into a proved trap."
+      : ""
     : `Proved${proved.label === fate.label ? "" : `: ${pretty(proved.name)}`}, by enclosures of the whole orbit with rounding outwards.`;
   document.getElementById("proof").textContent = text;
 }
@@ -69,11 +80,18 @@ const AFTER = 4;
 
 export function showOrbit({ orbit, errors, grounded, hops }) {
   const listed = orbit.slice(0, Math.max(hops, 1) + AFTER);
-  const row = (hop, k) => `<tr><td>${k}</td><td>${show(hop.speed, 10)}</td><td>${k < errors.length ? show(errors[k], 2) : "–"}</td>` +
+  const row = (hop, k) =>
+    `<tr><td>${k}</td><td>${show(hop.speed, 10)}</td><td>${k < errors.length ? show(errors[k], 2) : "–"}</td>` +
     `<td>${hop.sudden}</td><td>${show(hop.energyLoss, 5)}</td><td>${show(hop.slope, 5)}</td></tr>` +
-    (hop.sudden > 0 ? hop.landings.map((landing, at) =>
-      `<tr class="soft"><td></td><td>landing ${at + 1}${landing.sudden ? ", sudden lift-off" : ""}</td><td></td><td></td>` +
-      `<td>${show(landing.energyLoss, 5)}</td><td></td></tr>`).join("") : "");
+    (hop.sudden > 0
+      ? hop.landings
+          .map(
+            (landing, at) =>
+              `<tr class="soft"><td></td><td>landing ${at + 1}${landing.sudden ? ", sudden lift-off" : ""}</td><td></td><td></td>` +
+              `<td>${show(landing.energyLoss, 5)}</td><td></td></tr>`,
+          )
+          .join("")
+      : "");
   document.querySelector("#orbit div").innerHTML =
     `<div class="wide"><table><thead><tr><th>hop</th><th>α</th><th>error ≤</th><th>sudden</th><th>energy lost</th><th>∂α′/∂α</th></tr></thead>` +
     `<tbody>${listed.map(row).join("")}</tbody></table></div>${grounded ? "<p>The last hop ends on the ground.</p>" : '<p class="soft">And so on.</p>'}`;

@@ -1,4 +1,5 @@
-// Workers for tiles, and one for the panels. A worker that dies or stays silent is replaced, and its job goes to the next one.
+// Workers for tiles, and one for the panels. A worker that dies or stays silent is replaced, and its job goes to the
+// next one.
 import { Refusal } from "./core.js";
 
 /** Milliseconds without a word after which a worker is replaced. A strip that takes longer is given up after a second try. */
@@ -32,7 +33,13 @@ export class Pool {
   /** Sends a message as soon as the module is there; messages keep their order. */
   #tell(member, message) {
     const { worker } = member;
-    this.module.then((module) => { worker.postMessage(message(module)); member.heard = performance.now(); }, () => {});
+    this.module.then(
+      (module) => {
+        worker.postMessage(message(module));
+        member.heard = performance.now();
+      },
+      () => {},
+    );
   }
 
   #hear(member, { id, progress, found, error, refused }) {

@@ -24,7 +24,11 @@ export function parameters(deep) {
 async function complete(plane, deep, wait) {
   for (;;) {
     const { all, there, failed } = plane.parts;
-    if (there + failed >= all) return { words: parameters(deep) + (failed ? `; unfinished: ${failed} of ${all} parts failed` : ""), source: address() };
+    if (there + failed >= all)
+      return {
+        words: parameters(deep) + (failed ? `; unfinished: ${failed} of ${all} parts failed` : ""),
+        source: address(),
+      };
     if (!wait(`Waiting for the picture: ${there} of ${all} parts …`)) throw new Error("given up");
     await new Promise((done) => setTimeout(done, 100));
   }
@@ -47,7 +51,19 @@ export async function svg(plane, deep, wait) {
   const ratio = plane.canvas.width / size.width;
   const inside = document.createElement("canvas");
   [inside.width, inside.height] = [box.width * ratio, box.height * ratio].map(Math.round);
-  inside.getContext("2d").drawImage(plane.canvas, MARGIN.left * ratio, MARGIN.top * ratio, inside.width, inside.height, 0, 0, inside.width, inside.height);
+  inside
+    .getContext("2d")
+    .drawImage(
+      plane.canvas,
+      MARGIN.left * ratio,
+      MARGIN.top * ratio,
+      inside.width,
+      inside.height,
+      0,
+      0,
+      inside.width,
+      inside.height,
+    );
   const escape = (text) => text.replace(/[&<>]/g, (sign) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[sign]);
   const text = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${size.width} ${size.height}" font-family="sans-serif" font-size="${letterSize()}">
 <title>${escape(words)}</title><desc>${escape(source)}</desc><rect width="100%" height="100%" fill="#fff"/>
@@ -61,8 +77,12 @@ ${svgAxes(axesOf(plane))}
 /** A table of pixels' middles with their values, computed for exactly this window. */
 export async function csv(pool, desk, deep) {
   if (state.depth) throw new Error("the deep view has shares, no table; save it as PNG or SVG");
-  if (isShares(state.layer)) throw new Error(`the layer "${layers[state.layer].name}" has shares, no table; show fates or hops to save one`);
-  const { view: { x, alpha, logarithmic }, layer } = state;
+  if (isShares(state.layer))
+    throw new Error(`the layer "${layers[state.layer].name}" has shares, no table; show fates or hops to save one`);
+  const {
+    view: { x, alpha, logarithmic },
+    layer,
+  } = state;
   // Now: the view may have changed when the answers come.
   const lines = [`# ${parameters(deep)}`, `# ${address()}`, `M,alpha,${layers[layer].columns}`];
   const job = { layer, logarithmic, x, alpha, columns: TABLE, rows: TABLE, values: true, strip: stripOf(layer) };
@@ -71,7 +91,8 @@ export async function csv(pool, desk, deep) {
   // A label with a flag has a bit above its code.
   const valueOf = layers[layer].columns.includes(",") ? (value) => `${value & 0xffff},${value >> 16}` : String;
   for (let column = 0; column < TABLE; column++) {
-    for (let row = 0; row < TABLE; row++) lines.push(`${places[column]},${places[TABLE + row]},${valueOf(values[column * TABLE + row])}`);
+    for (let row = 0; row < TABLE; row++)
+      lines.push(`${places[column]},${places[TABLE + row]},${valueOf(values[column * TABLE + row])}`);
   }
   return new Blob([lines.join("\n"), "\n"], { type: "text/csv" });
 }
@@ -80,7 +101,17 @@ export async function csv(pool, desk, deep) {
 export function orbitCsv(found, deep) {
   if (!state.pin || !found) throw new Error("pin a point first");
   const rows = found.orbit.map((hop, k) =>
-    [k, hop.speed, found.errors[k] ?? "", hop.sudden, hop.flightTime, hop.energyLoss, hop.slope ?? "", hop.massRatioSlope ?? ""].join(","));
+    [
+      k,
+      hop.speed,
+      found.errors[k] ?? "",
+      hop.sudden,
+      hop.flightTime,
+      hop.energyLoss,
+      hop.slope ?? "",
+      hop.massRatioSlope ?? "",
+    ].join(","),
+  );
   const head = "hop,speed,error,sudden_lift_offs,flight_time,energy_loss,slope,mass_ratio_slope";
   return new Blob([[`# ${parameters(deep)}`, `# ${address()}`, head, ...rows].join("\n"), "\n"], { type: "text/csv" });
 }

@@ -3,9 +3,9 @@
 export const state = {
   view: { logarithmic: false, x: [0, 1], alpha: [4.4, 20.5] },
   layer: 0,
-  pin: null,      // { m, alpha }
-  hops: 6,        // hops of the motion
-  depth: null,    // { m, alpha, depth, about }: the deep view
+  pin: null, // { m, alpha }
+  hops: 6, // hops of the motion
+  depth: null, // { m, alpha, depth, about }: the deep view
 };
 
 /** The layers, as the libraries list them: key, name, kind, cost. The core fills it before anything is drawn. */
@@ -21,13 +21,16 @@ export function change(fields) {
   Object.assign(state, fields);
   const first = waiting.size === 0;
   Object.keys(fields).forEach((name) => waiting.add(name));
-  if (first) queueMicrotask(() => {
-    const names = waiting;
-    waiting = new Set();
-    listeners.forEach((callback) => callback(names));
-  });
+  if (first)
+    queueMicrotask(() => {
+      const names = waiting;
+      waiting = new Set();
+      listeners.forEach((callback) => callback(names));
+    });
 }
 
 const said = document.getElementById("say");
 /** A line for everyone, also for screen readers. */
-export const say = (text) => { if (said.textContent !== text) said.textContent = text; };
+export const say = (text) => {
+  if (said.textContent !== text) said.textContent = text;
+};

@@ -12,15 +12,21 @@ export class Drawing {
     this.axes = [];
     for (const { at, label } of ticks(x, 6).marks) {
       const [px] = this.at(at, y[0]);
-      this.axes.push(`<path d="M${px} ${this.bottom}v4" stroke="currentColor"/><text x="${px}" y="${this.bottom + 15}" text-anchor="middle">${label}</text>`);
+      this.axes.push(
+        `<path d="M${px} ${this.bottom}v4" stroke="currentColor"/><text x="${px}" y="${this.bottom + 15}" text-anchor="middle">${label}</text>`,
+      );
     }
     for (const { at, label } of ticks(y, height / 45).marks) {
       const [, py] = this.at(x[0], at);
-      this.axes.push(`<path d="M${this.left} ${py}h-4" stroke="currentColor"/><text x="${this.left - 6}" y="${py + 4}" text-anchor="end">${label}</text>`);
+      this.axes.push(
+        `<path d="M${this.left} ${py}h-4" stroke="currentColor"/><text x="${this.left - 6}" y="${py + 4}" text-anchor="end">${label}</text>`,
+      );
     }
     const middle = (this.top + this.bottom) / 2;
     this.axes.push(`<text x="${(this.left + this.right) / 2}" y="${height - 4}" text-anchor="middle">${xName}</text>`);
-    this.axes.push(`<text x="10" y="${middle}" text-anchor="middle" transform="rotate(-90 10 ${middle})">${yName}</text>`);
+    this.axes.push(
+      `<text x="10" y="${middle}" text-anchor="middle" transform="rotate(-90 10 ${middle})">${yName}</text>`,
+    );
   }
 
   at(x, y) {
@@ -32,7 +38,9 @@ export class Drawing {
   curve(points, color, width = 1.4, more = "") {
     if (points.length > 1) {
       const path = points.map(([x, y]) => this.at(x, y).join(" ")).join("L");
-      this.parts.push(`<path d="M${path}" fill="none" stroke="${color}" stroke-width="${width}" stroke-linejoin="round" ${more}/>`);
+      this.parts.push(
+        `<path d="M${path}" fill="none" stroke="${color}" stroke-width="${width}" stroke-linejoin="round" ${more}/>`,
+      );
     }
     return this;
   }
@@ -40,7 +48,10 @@ export class Drawing {
   band(from, to, color, more = "") {
     const [left] = this.at(Math.max(from, this.x[0]), 0);
     const [right] = this.at(Math.min(to, this.x[1]), 0);
-    if (right >= left) this.parts.push(`<rect x="${left}" y="${this.top}" width="${Math.max(right - left, 0.8)}" height="${this.bottom - this.top}" fill="${color}" ${more}/>`);
+    if (right >= left)
+      this.parts.push(
+        `<rect x="${left}" y="${this.top}" width="${Math.max(right - left, 0.8)}" height="${this.bottom - this.top}" fill="${color}" ${more}/>`,
+      );
     return this;
   }
 
@@ -59,10 +70,12 @@ export class Drawing {
   /** The drawing as markup; `extra` lies inside the frame. */
   markup(extra = "") {
     const clip = `clip${Math.random().toString(36).slice(2)}`;
-    return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${WIDTH} ${this.height}" role="img"><title>${this.title}</title>` +
+    return (
+      `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${WIDTH} ${this.height}" role="img"><title>${this.title}</title>` +
       `<clipPath id="${clip}"><rect x="${this.left}" y="${this.top}" width="${this.right - this.left}" height="${this.bottom - this.top}"/></clipPath>` +
       `<g clip-path="url(#${clip})">${this.parts.join("")}${extra}</g>` +
       `<rect x="${this.left}" y="${this.top}" width="${this.right - this.left}" height="${this.bottom - this.top}" fill="none" stroke="currentColor"/>` +
-      `${this.axes.join("")}</svg>`;
+      `${this.axes.join("")}</svg>`
+    );
   }
 }

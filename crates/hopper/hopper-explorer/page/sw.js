@@ -1,11 +1,44 @@
 // Works offline: what was loaded once is kept. With a network, the newest files are taken.
 const CACHE = "hopper-explorer";
-const FILES = ["./", "index.html", "style.css", "icon.svg", "core.wasm", "main.js", "core.js", "worker.js", "pool.js", "view.js", "tiles.js", "plane.js",
-  "axes.js", "numbers.js", "gestures.js", "keys.js", "deep.js", "state.js", "link.js", "svg.js", "point_panel.js", "map_panel.js", "motion_panel.js",
-  "circle_panel.js", "save.js", "png_text.js", "same.js", "tour.js", "dialogs.js"];
+const FILES = [
+  "./",
+  "index.html",
+  "style.css",
+  "icon.svg",
+  "core.wasm",
+  "main.js",
+  "core.js",
+  "worker.js",
+  "pool.js",
+  "view.js",
+  "tiles.js",
+  "plane.js",
+  "axes.js",
+  "numbers.js",
+  "gestures.js",
+  "keys.js",
+  "deep.js",
+  "state.js",
+  "link.js",
+  "svg.js",
+  "point_panel.js",
+  "map_panel.js",
+  "motion_panel.js",
+  "circle_panel.js",
+  "save.js",
+  "png_text.js",
+  "same.js",
+  "tour.js",
+  "dialogs.js",
+];
 
 self.addEventListener("install", (event) => {
-  event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll(FILES)).then(() => self.skipWaiting()));
+  event.waitUntil(
+    caches
+      .open(CACHE)
+      .then((cache) => cache.addAll(FILES))
+      .then(() => self.skipWaiting()),
+  );
 });
 self.addEventListener("activate", (event) => event.waitUntil(self.clients.claim()));
 self.addEventListener("fetch", (event) => {

@@ -1,4 +1,5 @@
-// Which tiles a view needs, and the tiles that are there. A tile is a dyadic part of the plane: its ends are exact doubles.
+// Which tiles a view needs, and the tiles that are there. A tile is a dyadic part of the plane: its ends are exact
+// doubles.
 
 import { layers } from "./state.js";
 
@@ -51,12 +52,17 @@ export function needed(view, layer, { width, height }, focus) {
 }
 
 export class TileStore {
-  constructor() { this.tiles = new Map(); }
+  constructor() {
+    this.tiles = new Map();
+  }
 
   get(tile) {
     const key = keyOf(tile);
     const found = this.tiles.get(key);
-    if (found) { this.tiles.delete(key); this.tiles.set(key, found); } // the last used is the last
+    if (found) {
+      this.tiles.delete(key);
+      this.tiles.set(key, found);
+    } // the last used is the last
     return found;
   }
 
@@ -67,7 +73,9 @@ export class TileStore {
   }
 
   /** Whether no picture can be had. */
-  hasFailed(tile) { return this.tiles.get(keyOf(tile))?.bitmap === null; }
+  hasFailed(tile) {
+    return this.tiles.get(keyOf(tile))?.bitmap === null;
+  }
 
   /** Whether there is something of this layer to show until the fine picture comes. */
   isCoarse(tile) {
@@ -88,12 +96,20 @@ export class TileStore {
   }
 
   /** The picture of a tile, or the part of a coarser one that covers it. Shares, which take longer, have fates until they come. */
-  best(tile) { return this.#best(tile) ?? (isShares(tile.layer) ? this.#best({ ...tile, layer: QUICK }) : null); }
+  best(tile) {
+    return this.#best(tile) ?? (isShares(tile.layer) ? this.#best({ ...tile, layer: QUICK }) : null);
+  }
 
   #best(tile) {
     for (let up = 0; up <= ANCESTORS; up++) {
       const part = 2 ** -up;
-      const parent = { ...tile, lx: tile.lx - up, la: tile.la - up, i: Math.floor(tile.i * part), j: Math.floor(tile.j * part) };
+      const parent = {
+        ...tile,
+        lx: tile.lx - up,
+        la: tile.la - up,
+        i: Math.floor(tile.i * part),
+        j: Math.floor(tile.j * part),
+      };
       const found = this.get(parent);
       if (!found?.bitmap) continue;
       const size = found.bitmap.width * part;

@@ -1,4 +1,5 @@
-// A window of the plane: M (or log₂ M) to the right, α upwards. Each axis has its own scale. Pure functions on plain objects.
+// A window of the plane: M (or log₂ M) to the right, α upwards. Each axis has its own scale. Pure functions on plain
+// objects.
 
 /** The smallest height of a window of doubles: below it, neighbouring pixels would be the same double. */
 const ULPS_A_PIXEL = 8;

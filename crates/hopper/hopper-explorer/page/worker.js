@@ -1,14 +1,19 @@
-// A worker: answers one job after the other. A tile is computed in strips, so that a newer wish can stop it between two of them.
+// A worker: answers one job after the other. A tile is computed in strips, so that a newer wish can stop it between two
+// of them.
 import { Core, Refusal } from "./core.js";
 
 let core = null;
 let wanted = null; // the tile in work; another value stops it
 
-const pause = () => new Promise((resolve) => {
-  const { port1, port2 } = new MessageChannel();
-  port2.onmessage = () => { port1.close(); resolve(); };
-  port1.postMessage(null);
-});
+const pause = () =>
+  new Promise((resolve) => {
+    const { port1, port2 } = new MessageChannel();
+    port2.onmessage = () => {
+      port1.close();
+      resolve();
+    };
+    port1.postMessage(null);
+  });
 
 async function tile(id, job) {
   wanted = id;
@@ -44,12 +49,19 @@ function pinned(m, alpha, orbit, hops, points, kept) {
   const window = kept ?? windowOf(point);
   // A point with a fate may have a map or a motion too long to be shown.
   const tried = (make) => {
-    try { return make(); } catch (error) {
+    try {
+      return make();
+    } catch (error) {
       if (error instanceof Refusal) return { refused: error.message };
       throw error;
     }
   };
-  return { point, window, map: tried(() => core.map(m, ...window, points)), motion: tried(() => core.motion(m, alpha, hops)) };
+  return {
+    point,
+    window,
+    map: tried(() => core.map(m, ...window, points)),
+    motion: tried(() => core.motion(m, alpha, hops)),
+  };
 }
 
 async function answer({ id, kind, args }) {
@@ -66,6 +78,7 @@ async function answer({ id, kind, args }) {
 
 onmessage = ({ data }) => {
   if (data.module) core = new Core(new WebAssembly.Instance(data.module, {}));
-  else if (data.stop !== undefined) { if (wanted === data.stop) wanted = null; }
-  else answer(data);
+  else if (data.stop !== undefined) {
+    if (wanted === data.stop) wanted = null;
+  } else answer(data);
 };

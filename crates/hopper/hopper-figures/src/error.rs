@@ -34,7 +34,8 @@ pub enum Error {
     },
     /// A window with more humps of the map than a page shows.
     #[error(
-        "the window from {from:?} to {to:?} has {humps} humps of the map, and a picture shows at most {most}; take a narrower one"
+        "the window from {from:?} to {to:?} has {humps} humps of the map, and a picture shows at most {most}; take a \
+         narrower one"
     )]
     TooWide {
         /// Its lower end.
@@ -66,7 +67,8 @@ pub enum Error {
     },
     /// An animation with more frames than are kept.
     #[error(
-        "the motion lasts {duration:?}/ω, which is {frames} frames, and an animation has at most {most}; take fewer hops, or a slower start"
+        "the motion lasts {duration:?}/ω, which is {frames} frames, and an animation has at most {most}; take fewer \
+         hops, or a slower start"
     )]
     TooManyFrames {
         /// The duration of the motion.

@@ -8,7 +8,8 @@ use thiserror::Error;
 pub enum Error {
     /// The ends are no interval of mass ratios.
     #[error(
-        "[{low}, {high}] is no interval of mass ratios: both ends must be positive and finite, and the lower one not above the upper one"
+        "[{low}, {high}] is no interval of mass ratios: both ends must be positive and finite, and the lower one not \
+         above the upper one"
     )]
     MassRatios {
         /// The lower end.
@@ -18,7 +19,8 @@ pub enum Error {
     },
     /// The ends are no interval of lift-off speeds.
     #[error(
-        "[{low}, {high}] is no interval of lift-off speeds: the ends must be from 0 to {largest}, and the lower one below the upper one"
+        "[{low}, {high}] is no interval of lift-off speeds: the ends must be from 0 to {largest}, and the lower one \
+         below the upper one"
     )]
     Speeds {
         /// The lower end.
@@ -68,7 +70,8 @@ pub enum Error {
     },
     /// A trap, a crisis or a critical point was not enclosed.
     #[error(
-        "{what} of hump {n} is not enclosed at M = {mass_ratio}: the sign of an enclosure is open. Give the trap of another hump, or another mass ratio"
+        "{what} of hump {n} is not enclosed at M = {mass_ratio}: the sign of an enclosure is open. Give the trap of \
+         another hump, or another mass ratio"
     )]
     Open {
         /// What was looked for.

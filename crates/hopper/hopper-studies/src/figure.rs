@@ -69,7 +69,7 @@ mod tests {
         assert!(names.clone().is_sorted_by(|a, b| a < b));
         assert!(names.clone().all(|name| texts(name).is_some()));
         let figure = |values: &[(&str, String)]| {
-            Figure::new("fig_02_map", Svg::new(1.0, 1.0, "map"), Vec::new(), values)
+            Figure::new("fig_02_map", Svg::new(1.0, 1.0), Vec::new(), values)
         };
         let top = ("top", "20.371".to_owned());
         assert!(figure(&[]).is_err());

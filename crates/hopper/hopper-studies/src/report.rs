@@ -6,10 +6,14 @@ use crate::figure::Figure;
 use journal_figures::{Rendered, base64, html};
 use std::fmt::Write;
 
-const STYLE: &str = "body{font:17px/1.5 'STIX Two Text','Times New Roman',serif;max-width:1180px;margin:2em auto;padding:0 1em;color:#111}\
-h1{font-size:1.7em;line-height:1.2}h2{margin-top:2em;border-bottom:1px solid #999}figure{margin:2em 0}figure img{max-width:100%;display:block;margin:auto}\
-figcaption{font-size:.93em}.paper{border-left:3px solid #bbb;padding-left:.8em;color:#333}table{border-collapse:collapse;font-size:.86em;width:100%}\
-th,td{border-bottom:1px solid #ccc;padding:.35em .5em;text-align:left;vertical-align:top}th{border-bottom:2px solid #333}\
+const STYLE: &str = "body{font:17px/1.5 'STIX Two Text','Times New Roman',serif;max-width:1180px;margin:2em \
+                     auto;padding:0 1em;color:#111}\
+h1{font-size:1.7em;line-height:1.2}h2{margin-top:2em;border-bottom:1px solid #999}figure{margin:2em 0}figure \
+img{max-width:100%;display:block;margin:auto}\
+figcaption{font-size:.93em}.paper{border-left:3px solid \
+#bbb;padding-left:.8em;color:#333}table{border-collapse:collapse;font-size:.86em;width:100%}\
+th,td{border-bottom:1px solid #ccc;padding:.35em .5em;text-align:left;vertical-align:top}th{border-bottom:2px solid \
+#333}\
 .confirmed{color:#0b6b3a;font-weight:bold}.corrected{color:#9a5b00;font-weight:bold}.theorem{color:#1f4e96;font-weight:bold}.fails{color:#b00020;font-weight:bold}small{color:#444}";
 
 /// Details that are illegible in our copy of the paper, and the choice made for each.
@@ -17,7 +21,8 @@ const ILLEGIBLE: &[&str] = &[
     "The mass ratios of Fig. 2: 0.05, 0.1, 0.2 and 1 are shown.",
     "The mass ratio of Fig. 3: 0.8, at which all four segments exist.",
     "The scale of Fig. 5, which is a sketch in the paper: the real map at $M$ = 0.4.",
-    "The lower limit of $M$ in Fig. 6, the upper limits of $α$ in Figs. 6 and 7, all limits of Fig. 8: [0.02, 1] × [$α$^{∗}_{1}, $α$^{∗}_{6}], [1, 10] × [$α$^{∗}_{1}, $α$^{∗}_{6}] and [0.1, 0.2] × [14.066, 20.371].",
+    "The lower limit of $M$ in Fig. 6, the upper limits of $α$ in Figs. 6 and 7, all limits of Fig. 8: [0.02, 1] × \
+     [$α$^{∗}_{1}, $α$^{∗}_{6}], [1, 10] × [$α$^{∗}_{1}, $α$^{∗}_{6}] and [0.1, 0.2] × [14.066, 20.371].",
     "A digit of the measure at $M$ = 0.2: read as 0.037, which is also the computed value.",
     "The factor 6 in $β$ (printed like a B), and a minus sign in Eq. 13.",
     "Colours beyond the third fixed point: purple, then near black.",
@@ -31,9 +36,11 @@ pub(crate) fn page(
 ) -> String {
     let mut out = format!(
         "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>A simple hopper, recomputed</title>\
-         <style>{STYLE}</style></head><body><h1>Multimodal map and complex basin of attraction of a simple hopper, recomputed</h1>\
+         <style>{STYLE}</style></head><body><h1>Multimodal map and complex basin of attraction of a simple hopper, \
+         recomputed</h1>\
          <p>Every figure and number of C. K. Reddy and R. Pratap's paper, computed from the equations of motion. \
-         All quantities are dimensionless: lengths in units of <i>m</i><sub>2</sub><i>g</i>/<i>k</i>, times of 1/<i>ω</i>. \
+         All quantities are dimensionless: lengths in units of <i>m</i><sub>2</sub><i>g</i>/<i>k</i>, times of \
+         1/<i>ω</i>. \
          Computed in {seconds:.1} s.</p>"
     );
     if let Some(claims) = claims {
@@ -94,7 +101,8 @@ fn drawing(out: &mut String, figure: &Figure, rendered: &Rendered, after: &str) 
     let _ = write!(
         out,
         "<figure id=\"{name}\"><img alt=\"{name}\" src=\"data:image/svg+xml;base64,{image}\">\
-         <figcaption><b>{title}.</b><p class=\"paper\">The paper: {paper}</p><p>{notes}</p>{after}{data}</figcaption></figure>",
+         <figcaption><b>{title}.</b><p class=\"paper\">The paper: \
+         {paper}</p><p>{notes}</p>{after}{data}</figcaption></figure>",
         name = figure.name,
         image = base64(rendered.svg.as_bytes()),
         title = html(&figure.title),
@@ -126,7 +134,8 @@ fn summary(out: &mut String, claims: &[Claim]) {
     let _ = write!(
         out,
         "<p><b>{} claims: {} confirmed, {} corrected with evidence, {} by construction, {} failed.</b></p>\
-         <p>A claim is <span class=\"confirmed\">confirmed</span> if a test that does not contain it agrees with it. The paper \
+         <p>A claim is <span class=\"confirmed\">confirmed</span> if a test that does not contain it agrees with it. \
+         The paper \
          is <span class=\"corrected\">corrected</span> where the claim is wrong or incomplete and such a test confirms \
          the correction. A claim holds <span class=\"theorem\">by construction</span> if it is a theorem in this form: \
          the code uses the theorem's formula, so that a computation can show only that the code agrees with it. Each \
@@ -140,7 +149,8 @@ fn summary(out: &mut String, claims: &[Claim]) {
 }
 
 fn table(out: &mut String, claims: &[Claim]) {
-    out.push_str("<h2>Claims</h2><table><tr><th>Claim</th><th>The paper</th><th>Ours</th><th>Error</th><th>How computed, test and proof</th><th>Verdict</th></tr>");
+    out.push_str("<h2>Claims</h2><table><tr><th>Claim</th><th>The paper</th><th>Ours</th><th>Error</th><th>How \
+                  computed, test and proof</th><th>Verdict</th></tr>");
     for claim in claims {
         let (class, text) = word(claim.verdict);
         let _ = write!(
@@ -170,10 +180,13 @@ fn erratum(out: &mut String, claims: &[Claim]) {
     let Some(claim) = claims.iter().find(|claim| claim.name.starts_with("λ")) else { return };
     let _ = write!(
         out,
-        "<h2>The erratum on <i>λ</i></h2><p>With <i>t</i> = <i>τ</i> − 2<i>α</i>* and <i>δ</i> = <i>α</i> − <i>α</i>* the hop loses \
+        "<h2>The erratum on <i>λ</i></h2><p>With <i>t</i> = <i>τ</i> − 2<i>α</i>* and <i>δ</i> = <i>α</i> − <i>α</i>* \
+         the hop loses \
          <i>α</i>² − <i>α</i>′² = 2<i>αμ</i>[(2<i>α</i>* − sin 2<i>α</i>*)<i>δt</i> − <i>αt</i>⁴/24 + …]. \
-         Both terms are of order <i>δ</i><sup>4/3</sup>, since <i>t</i> ≈ <i>βδ</i><sup>1/3</sup>, and the second is a quarter of the first; \
-         the paper keeps the first only. So <i>λ</i> is ¾ of the printed value, and <i>λ</i><sup>−3</sup> is 64/27 of it.</p>\
+         Both terms are of order <i>δ</i><sup>4/3</sup>, since <i>t</i> ≈ <i>βδ</i><sup>1/3</sup>, and the second is a \
+         quarter of the first; \
+         the paper keeps the first only. So <i>λ</i> is ¾ of the printed value, and <i>λ</i><sup>−3</sup> is 64/27 of \
+         it.</p>\
          <p>Evidence: {}. {}.</p>",
         html(&claim.ours),
         html(&claim.error)

@@ -21,13 +21,18 @@ struct Cli {
 const ABOUT: &str = "\
 The passive hopper: two masses on one spring, with plastic landings and no motor.
 
-All commands use the dimensionless model. The mass ratio is M = m₂/m₁, the lower mass over the upper one. Lengths are in \
-units of m₂g/k, times in units of 1/ω with ω² = k(1+M)/m₂, speeds in units of m₂gω/k, and energies in units of m₁m₂g²/k. \
+All commands use the dimensionless model. The mass ratio is M = m₂/m₁, the lower mass over the upper one. Lengths are \
+in \
+units of m₂g/k, times in units of 1/ω with ω² = k(1+M)/m₂, speeds in units of m₂gω/k, and energies in units of \
+m₁m₂g²/k. \
 `hopper units` converts kilograms, metres and seconds.
 
-Every computed number has a bound on its error, taken from the exact arguments. In CSV and JSON it is in the column NAME_error, after all other \
-columns, or in the column that the help names; 0 is exact, and nothing stands there if no bound is known. Text shows only digits that are certain, \
-or a number and its error if none is, or ? if no bound is known. Bounds hold for the number that the decimals read back as. Numbers that are bounds themselves, such as the ends of intervals, are shown whole.";
+Every computed number has a bound on its error, taken from the exact arguments. In CSV and JSON it is in the column \
+NAME_error, after all other \
+columns, or in the column that the help names; 0 is exact, and nothing stands there if no bound is known. Text shows \
+only digits that are certain, \
+or a number and its error if none is, or ? if no bound is known. Bounds hold for the number that the decimals read \
+back as. Numbers that are bounds themselves, such as the ends of intervals, are shown whole.";
 
 /// The last text of `hopper --help`.
 const EXIT_STATUS: &str = "\

@@ -66,7 +66,8 @@ fn negative_argument(error: &clap::Error, arguments: &[OsString]) -> Option<Stri
     let found = shortened(found);
     let Some(number) = number else {
         return Some(format!(
-            "'{found}' begins as an option or a negative number, and is neither; --help shows the options and their values"
+            "'{found}' begins as an option or a negative number, and is neither; --help shows the options and their \
+             values"
         ));
     };
     Some(if number.is_finite() {

@@ -92,7 +92,8 @@ pub enum Error {
     },
     /// No touch of the map's minimum next to a time of flight.
     #[error(
-        "no minimum of hump {n} touches its target next to a flight of {time:?}: give the time of the touch to some digits"
+        "no minimum of hump {n} touches its target next to a flight of {time:?}: give the time of the touch to some \
+         digits"
     )]
     NoTouch {
         /// The index of the hump.
@@ -102,7 +103,8 @@ pub enum Error {
     },
     /// As [`Undecided`](Self::Undecided), for one flight from a given state on the ground.
     #[error(
-        "the landing after a lift-off at stretch 1 + {excess:?} with velocity {velocity:?} cannot be decided with 1024 bits: \
+        "the landing after a lift-off at stretch 1 + {excess:?} with velocity {velocity:?} cannot be decided with 1024 \
+         bits: \
          it is nearly a touch without speed, or lands nearly at stretch 1"
     )]
     UndecidedLanding {

@@ -41,8 +41,8 @@ pub(crate) struct SampledEvent {
 ///
 /// # Errors
 /// [`Error::BadSamplingInterval`] if the samples would not advance to the end; [`Error::NotFinite`] for a guard that is
-/// not finite at a sample, unless another one has its event before; [`Error::UndecidedStart`] as for [`SampledGuard::advance`], and for a flight before the
-/// first sample that rounding hides.
+/// not finite at a sample, unless another one has its event before; [`Error::UndecidedStart`] as for
+/// [`SampledGuard::advance`], and for a flight before the first sample that rounding hides.
 pub(crate) fn sampled_event<F: GuardedFlow>(
     flow: &F,
     search: &Search<F::Surface>,

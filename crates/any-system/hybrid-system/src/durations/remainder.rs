@@ -6,9 +6,9 @@ use crate::series_fit::{Fit, Period, geometric, power_law};
 /// Periods that are compared in the usual case. Five slopes between them within one per cent are unlikely by chance.
 const USUAL_PERIODS: usize = 6;
 
-/// Events between the ends of periods that are compared, for periods of 1 to 4 events. Factors near 1 need a longer stride,
-/// for the lengths to fall enough. No period has a longer one than period 1, so that a multiple of the period is not found
-/// before it.
+/// Events between the ends of periods that are compared, for periods of 1 to 4 events. Factors near 1 need a longer
+/// stride, for the lengths to fall enough. No period has a longer one than period 1, so that a multiple of the period
+/// is not found before it.
 const STRIDES: [&[usize]; LONGEST_PERIOD] = [&[1, 6], &[2, 6], &[3], &[4]];
 
 /// Durations that are compared with those a period before: two of the longest periods.
@@ -32,8 +32,8 @@ const HIDDEN_SPREAD: f64 = 0.1;
 /// It is far below every tolerance of a model, and above the rounding of the time, 10⁻¹⁶.
 const USUAL_REMAINDER: f64 = 1e-12;
 
-/// Largest remainder, relative to the time so far, if rounding hides the next event, or for a slow power law. A guard at
-/// a surface of size 1 hides a bounce of duration T if its height, of order T², is below 10⁻¹⁶. The remainder may
+/// Largest remainder, relative to the time so far, if rounding hides the next event, or for a slow power law. A guard
+/// at a surface of size 1 hides a bounce of duration T if its height, of order T², is below 10⁻¹⁶. The remainder may
 /// therefore be about 10⁻⁷, and larger for large coordinates. Under a power law k⁻² the remainder is 10⁻⁵ after 10⁵
 /// events; 10⁻¹² would need 10¹².
 const LARGEST_REMAINDER: f64 = 1e-5;
@@ -42,24 +42,25 @@ const LARGEST_REMAINDER: f64 = 1e-5;
 /// the usual remainder within some 10⁵ events.
 const SLOW_ORDER: f64 = 1.4;
 
-/// Largest order μ that is recognised, for durations that fall like k^−1.14. Durations 1/k, which have no limit, are the
-/// case μ = ∞. A larger number would come closer to them.
+/// Largest order μ that is recognised, for durations that fall like k^−1.14. Durations 1/k, which have no limit, are
+/// the case μ = ∞. A larger number would come closer to them.
 const LARGEST_ORDER: f64 = 8.0;
 
 /// Largest error of the limit of a slow power law, relative to the time so far. The execution goes on until then.
 const SLOW_ERROR: f64 = 1e-10;
 
 /// In the usual case durations must have fallen by this factor since they fell for the first time. A few short
-/// arcs that happen to shrink, such as those between nearly simultaneous events, are not a series that has fallen for long.
+/// arcs that happen to shrink, such as those between nearly simultaneous events, are not a series that has fallen for
+/// long.
 const LEAST_FALL: f64 = 1e3;
 
-/// The longest last arc, relative to the time so far, that may be followed by a Zeno limit. It only delays the recognition
-/// of a limit whose factor is below 10⁻⁹.
+/// The longest last arc, relative to the time so far, that may be followed by a Zeno limit. It only delays the
+/// recognition of a limit whose factor is below 10⁻⁹.
 const LONGEST_LAST_ARC: f64 = 1e-3;
 
-/// The most events that are dropped at the end of the record if rounding hides the next event. A bounce of velocity v on
-/// a surface of size 1 has a relative error of 10⁻¹⁶/v², so that with a restitution of ½ each dropped event reduces the
-/// error by a factor of 4. For restitutions near 1 the marks are used.
+/// The most events that are dropped at the end of the record if rounding hides the next event. A bounce of velocity v
+/// on a surface of size 1 has a relative error of 10⁻¹⁶/v², so that with a restitution of ½ each dropped event reduces
+/// the error by a factor of 4. For restitutions near 1 the marks are used.
 const MOST_DROPPED: usize = 8;
 
 /// The sum of all further durations.
@@ -128,8 +129,8 @@ impl Durations {
 
     /// The sum of all further durations if rounding hides the next event.
     ///
-    /// The last durations have large errors then. The limit is predicted from several earlier events, and the prediction
-    /// with the smallest bound is taken.
+    /// The last durations have large errors then. The limit is predicted from several earlier events, and the
+    /// prediction with the smallest bound is taken.
     pub(crate) fn remainder_if_hidden(&self) -> Option<Remainder> {
         if self.count == 0 || !(self.duration(0) < LONGEST_LAST_ARC * self.elapsed) {
             return None;
@@ -154,8 +155,8 @@ impl Durations {
         })
     }
 
-    /// True if each of the last eight durations is in the ratio to the one a period before that the limit demands. Durations
-    /// that alternate look like a series of period 1 at every second event.
+    /// True if each of the last eight durations is in the ratio to the one a period before that the limit demands.
+    /// Durations that alternate look like a series of period 1 at every second event.
     fn is_period(&self, found: &Remainder) -> bool {
         // 1 − q of the durations is μ times that of the remainder.
         let fall = found.order * found.length / (found.length + found.time);
@@ -211,8 +212,9 @@ impl Durations {
         Some(periods)
     }
 
-    /// The remainder after the newest event from a fit, if it is not above `largest` of the time so far. `total` is the sum
-    /// of the errors of the events up to the end of the fit: later events do not change the limit that is predicted.
+    /// The remainder after the newest event from a fit, if it is not above `largest` of the time so far. `total` is the
+    /// sum of the errors of the events up to the end of the fit: later events do not change the limit that is
+    /// predicted.
     fn accepted(
         &self,
         fit: Fit,
@@ -222,11 +224,12 @@ impl Durations {
         largest: f64,
     ) -> Option<Remainder> {
         let last = periods.last()?;
-        // An error δ of an event changes its time by δ and the next speeds by the acceleration times δ. For a bounce this
-        // changes all further durations by 2δ/T of their size, T the duration before it.
+        // An error δ of an event changes its time by δ and the next speeds by the acceleration times δ. For a bounce
+        // this changes all further durations by 2δ/T of their size, T the duration before it.
         let mean = last.length / period as f64;
         let amplification = 1.0 + 2.0 * fit.remainder / (fit.order * mean);
-        // The errors of the events may be larger than stated. An error δ shows in the slope as δ/T of its size, or more.
+        // The errors of the events may be larger than stated. An error δ shows in the slope as δ/T of its size, or
+        // more.
         let shown = fit.scatter * mean;
         // The error of the last event acts on the next duration, which is not in the record.
         let next = last.error * beyond_factor((last.length + fit.remainder) / fit.remainder);
@@ -251,7 +254,8 @@ impl Durations {
 
 /// The largest spread of the slopes of these periods if rounding hides the next event; `None` if they do not suffice.
 ///
-/// Lengths below their errors may be noise, and three of them often fall in proportion by chance. As many as usual must agree.
+/// Lengths below their errors may be noise, and three of them often fall in proportion by chance. As many as usual must
+/// agree.
 fn hidden_spread(periods: &[Period]) -> Option<f64> {
     if periods.iter().all(|period| period.error < period.length) {
         return Some(HIDDEN_SPREAD);

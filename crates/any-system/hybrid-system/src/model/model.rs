@@ -23,7 +23,8 @@ use std::marker::PhantomData;
 
 /// A hybrid system that is written with closures.
 ///
-/// A thermostat. A room warms towards 30° and cools towards 10°. The heater is switched off above 21°, and on below 19°:
+/// A thermostat. A room warms towards 30° and cools towards 10°. The heater is switched off above 21°, and on below
+/// 19°:
 ///
 #[cfg_attr(feature = "ode", doc = "```")]
 #[cfg_attr(not(feature = "ode"), doc = "```ignore")]

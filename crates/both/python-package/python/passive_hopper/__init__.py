@@ -3,7 +3,8 @@
 All dynamics is one map of the lift-off speed, α′ = f(α; M). Lengths are in units of m₂g/k, times in units of 1/ω with
 ω² = k(1+M)/m₂, speeds in units of m₂gω/k. M = m₂/m₁ is the lower mass over the upper one.
 
-The modules :mod:`passive_hopper.hybrid` and :mod:`passive_hopper.labelling` are for any hybrid system, and for the basins of any labelling.
+The modules :mod:`passive_hopper.hybrid` and :mod:`passive_hopper.labelling` are for any hybrid system, and for the
+basins of any labelling.
 
 >>> import numpy as np
 >>> from passive_hopper import LiftOffMap, alpha_star

@@ -9,7 +9,8 @@ class _Bar:
             from tqdm.auto import tqdm
         except ImportError as error:
             raise ImportError(
-                "progress=True needs tqdm: pip install 'passive-hopper[progress]', or give a function progress(done, all)"
+                "progress=True needs tqdm: pip install 'passive-hopper[progress]', or give a function progress(done,"
+                " all)"
             ) from error
         self._tqdm = tqdm
         self._bar = None
@@ -23,7 +24,8 @@ class _Bar:
 
 
 def function_of(progress):
-    """The function progress(done, all) of an argument ``progress``: None or False for none, True for a bar of tqdm, or a function."""
+    """The function progress(done, all) of an argument ``progress``: None or False for none, True for a bar of tqdm, or
+    a function."""
     if progress is None or progress is False:
         return None
     if progress is True:

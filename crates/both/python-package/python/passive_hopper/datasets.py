@@ -27,22 +27,22 @@ def basins(
 ) -> xarray.Dataset:
     """The basins over a window of (M, α), as an ``xarray.Dataset`` with the dimensions ``M`` and ``alpha``.
 
-    ``alpha`` is the window of the paper, from α*_1 to α*_6, unless given. Each label is the fate of its pixel's middle. The variable
-    ``label`` has the attributes ``flag_values`` and ``flag_meanings`` of the CF conventions. Another ``layer`` of ``layers()`` has its
-    own variable: ``hops`` until the fate is known, or ``proof``, whose labels say whether the fate is proved. ``progress(done, all)`` counts columns;
-    ``progress=True`` shows a bar of tqdm.
+    ``alpha`` is the window of the paper, from α*_1 to α*_6, unless given. Each label is the fate of its pixel's middle.
+    The variable ``label`` has the attributes ``flag_values`` and ``flag_meanings`` of the CF conventions. Another
+    ``layer`` of ``layers()`` has its own variable: ``hops`` until the fate is known, or ``proof``, whose labels say
+    whether the fate is proved. ``progress(done, all)`` counts columns; ``progress=True`` shows a bar of tqdm.
 
     >>> from passive_hopper import basins
     >>> found = basins(shape=(8, 8))
     >>> found["label"].dims
     ('M', 'alpha')
 
-    With ``store``, a folder such as ``"basins.zarr"``, the labels are written to it region by region, in the format Zarr 3, and the Dataset reads
-    them from there. A call that was interrupted, or killed, goes on where it was. A store of another job is refused. A store without
-    the attribute ``sha256`` is not finished.
+    With ``store``, a folder such as ``"basins.zarr"``, the labels are written to it region by region, in the format
+    Zarr 3, and the Dataset reads them from there. A call that was interrupted, or killed, goes on where it was. A store
+    of another job is refused. A store without the attribute ``sha256`` is not finished.
 
-    With ``client``, a ``dask.distributed.Client``, the workers of its cluster compute and write the regions. They need the folder at the
-    same path. Workers may be lost: their regions are computed again.
+    With ``client``, a ``dask.distributed.Client``, the workers of its cluster compute and write the regions. They need
+    the folder at the same path. Workers may be lost: their regions are computed again.
     """
     import_xarray("basins", "basin_labels gives the same as arrays.")
     # Numbers of NumPy, and integers, are the same job as floats.
@@ -54,10 +54,15 @@ def basins(
         raise ValueError(f"a raster has at least one pixel across and up, not {shape}")
     for name, window in (("M", M), ("alpha", alpha)):
         if not 0 <= window[0] < window[1] < float("inf"):
-            raise ValueError(f"{name}={window!r} is no window: give its lower and its upper end, not negative and finite")
+            raise ValueError(
+                f"{name}={window!r} is no window: give its lower and its upper end, not negative and finite"
+            )
     for name, window, values in zip(("M", "alpha"), (M, alpha), _native.pixel_middles((M, alpha), shape)):
         if len(values) > 1 and not (values[1:] > values[:-1]).all():
-            raise ValueError(f"{name}={window!r} has fewer floats than the {len(values)} pixels across it; give a wider window or fewer pixels")
+            raise ValueError(
+                f"{name}={window!r} has fewer floats than the {len(values)} pixels across it; give a wider window or"
+                " fewer pixels"
+            )
     if store is not None:
         if client is not None and not callable(getattr(client, "submit", None)):
             raise TypeError(f"client is a dask.distributed.Client, not {client!r}")
@@ -126,7 +131,9 @@ def number_attributes(layer, numbers):
     codes = numpy.array(sorted(numbers), dtype=own["dtype"])
     flag = own["columns"][1:]
     # A label with a flag has a bit above its code.
-    words = [" ".join([_native.label_name(int(code) & 0xFFFF), *(flag if code >> 16 else [])]) for code in codes.tolist()]
+    words = [
+        " ".join([_native.label_name(int(code) & 0xFFFF), *(flag if code >> 16 else [])]) for code in codes.tolist()
+    ]
     return flag_attributes(codes, words, own["name"])
 
 

@@ -1,7 +1,8 @@
 """Hybrid systems: flows that are interrupted by events, given by Python functions.
 
-The search for events is that of the Rust crate ``hybrid-system``: each crossing says how certain it is that none came before, infinitely many
-events in finite time (Zeno) end in their limit, and what rounding hides raises :class:`UndecidedError`.
+The search for events is that of the Rust crate ``hybrid-system``: each crossing says how certain it is that none came
+before, infinitely many events in finite time (Zeno) end in their limit, and what rounding hides raises
+:class:`UndecidedError`.
 
 >>> from passive_hopper.hybrid import Guard, HybridSystem
 >>> room = HybridSystem(

@@ -1,8 +1,8 @@
 """Basins of any labelling, and the attractors of any map.
 
-A labelling is a vectorised function: from arrays of coordinates to an array of integers. Basin n has the label n. The codes of the other labels are
-those of all files and figures of this package: :data:`UNDECIDED`, :data:`UNDECIDED_PRECISION`, :data:`UNDECIDED_MAP`, :data:`OUTSIDE`,
-:data:`ESCAPED`.
+A labelling is a vectorised function: from arrays of coordinates to an array of integers. Basin n has the label n. The
+codes of the other labels are those of all files and figures of this package: :data:`UNDECIDED`,
+:data:`UNDECIDED_PRECISION`, :data:`UNDECIDED_MAP`, :data:`OUTSIDE`, :data:`ESCAPED`.
 
 >>> import numpy as np
 >>> from passive_hopper.labelling import label_image, region_fractions
@@ -78,12 +78,15 @@ def _labels(found, shape):
         try:
             labels = numpy.broadcast_to(labels, shape)
         except ValueError:
-            raise ValueError(f"the labelling returned the shape {labels.shape} for points of the shape {shape}") from None
+            raise ValueError(
+                f"the labelling returned the shape {labels.shape} for points of the shape {shape}"
+            ) from None
     return numpy.ascontiguousarray(labels, dtype=numpy.uint16)
 
 
 def label_image(labels: ArrayLike | xarray.DataArray) -> LabelImage:
-    """The :class:`LabelImage` of a two-dimensional array of labels, with the axes (x, y): any integers from 0 to 65535, or booleans."""
+    """The :class:`LabelImage` of a two-dimensional array of labels, with the axes (x, y): any integers from 0 to 65535,
+    or booleans."""
     labels = _labels(labels, None)
     if labels.ndim != 2:
         raise ValueError(f"an image of labels has two dimensions, not {labels.ndim}")
@@ -99,9 +102,9 @@ def basins_of(
 ) -> xarray.Dataset:
     """The labels of a window of the plane by any labelling, as an ``xarray.Dataset``.
 
-    ``label(x, y)`` gets two arrays of one shape, and returns the labels. ``window`` has the two coordinates with their ends, as
-    ``{"x": (-2, 2), "y": (-2, 2)}``; ``names`` names labels. Each label is that of its pixel's middle. ``progress(done, all)`` counts columns;
-    ``progress=True`` shows a bar of tqdm.
+    ``label(x, y)`` gets two arrays of one shape, and returns the labels. ``window`` has the two coordinates with their
+    ends, as ``{"x": (-2, 2), "y": (-2, 2)}``; ``names`` names labels. Each label is that of its pixel's middle.
+    ``progress(done, all)`` counts columns; ``progress=True`` shows a bar of tqdm.
 
     >>> from passive_hopper.labelling import basins_of
     >>> found = basins_of(lambda x, y: x > y, {"x": (0, 1), "y": (0, 1)}, shape=(4, 4), names={1: "above"})
@@ -112,7 +115,8 @@ def basins_of(
         import xarray
     except ImportError as error:
         raise ImportError(
-            "basins_of needs xarray: pip install 'passive-hopper[xarray]'. A labelling of arrays needs label_image alone."
+            "basins_of needs xarray: pip install 'passive-hopper[xarray]'. A labelling of arrays needs label_image"
+            " alone."
         ) from error
     import numpy
 
@@ -122,7 +126,9 @@ def basins_of(
         raise ValueError(f"a window has two coordinates with their ends, not {len(window)}")
     for name in window:
         if not (isinstance(name, str) and name.isidentifier() and name != "label"):
-            raise ValueError(f"a coordinate is named by a word of letters, digits and _, other than 'label', not {name!r}")
+            raise ValueError(
+                f"a coordinate is named by a word of letters, digits and _, other than 'label', not {name!r}"
+            )
     if names is not None and not isinstance(names, Mapping):
         raise TypeError(f"names maps labels to their names, as {{1: 'above'}}, and is not {names!r}")
     (first, across), (second, up) = window.items()
@@ -156,10 +162,11 @@ def basins_of(
 def region_fractions(
     label: Callable[..., Any], window: Sequence[tuple[float, float]], count: int = 10_000, seed: int = 0
 ) -> dict[int, Interval]:
-    """The fraction of each basin in a region of any dimension, with a 95 % interval: a dictionary from labels to :class:`Interval`.
+    """The fraction of each basin in a region of any dimension, with a 95 % interval: a dictionary from labels to
+    :class:`Interval`.
 
-    ``window`` has the ends of each coordinate; ``label`` gets one array of coordinates for each, of ``count`` random points. Points with
-    the label :data:`OUTSIDE` are not counted. The same seed gives the same points.
+    ``window`` has the ends of each coordinate; ``label`` gets one array of coordinates for each, of ``count`` random
+    points. Points with the label :data:`OUTSIDE` are not counted. The same seed gives the same points.
     """
     return _native.region_fractions(_flat(label), list(window), count, seed)
 
@@ -171,7 +178,8 @@ def uncertainty_exponent(
     count: int = 100_000,
     seed: int = 0,
 ) -> UncertaintyExponent:
-    """The exponent of final-state uncertainty: the fraction of pairs of points at a distance ε with different labels is ∝ ε^exponent.
+    """The exponent of final-state uncertainty: the fraction of pairs of points at a distance ε with different labels is
+    ∝ ε^exponent.
 
     The dimension of the boundary is that of the space less the exponent. Points may lie outside the window by up to ε.
 
@@ -184,7 +192,8 @@ def uncertainty_exponent(
 
 
 def _called(label, *coordinates):
-    """The labels that a function gives. StopIteration would end a loop of the caller as if it were complete (PEP 479)."""
+    """The labels that a function gives. StopIteration would end a loop of the caller as if it were complete (PEP
+    479)."""
     try:
         return label(*coordinates)
     except StopIteration as error:

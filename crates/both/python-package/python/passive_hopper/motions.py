@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 def motion(alpha: float, M: float = 0.2, hops: int = 10) -> xarray.Dataset:
     """Both masses in time, from a gradual lift-off with speed ``alpha`` over some hops, as an ``xarray.Dataset``.
 
-    Positions are in units of m₂g/k, times in units of 1/ω, speeds in units of m₂gω/k, with ω² = k(1+M)/m₂. The upper mass stands at 1
-    when the contact force vanishes, the lower mass on the ground at 0. A landing has two samples at one time, before the collision and
-    after it. The variable ``event_kind`` marks gradual lift-offs, landings, and sudden lift-offs, at which the stretched spring pulls
-    the lower mass off the ground again at once.
+    Positions are in units of m₂g/k, times in units of 1/ω, speeds in units of m₂gω/k, with ω² = k(1+M)/m₂. The upper
+    mass stands at 1 when the contact force vanishes, the lower mass on the ground at 0. A landing has two samples at
+    one time, before the collision and after it. The variable ``event_kind`` marks gradual lift-offs, landings, and
+    sudden lift-offs, at which the stretched spring pulls the lower mass off the ground again at once.
 
     >>> from passive_hopper import motion
     >>> found = motion(7.0, M=0.2, hops=2)
@@ -56,7 +56,11 @@ def motion(alpha: float, M: float = 0.2, hops: int = 10) -> xarray.Dataset:
             "upper_velocity": column(1, "velocity of the upper mass", speed),
             "lower_position": column(2, "position of the lower mass, y2", length),
             "lower_velocity": column(3, "velocity of the lower mass", speed),
-            "hop": ("sample", arrays["hops"], {"long_name": "gradual lift-offs before, without the first", "units": "1"}),
+            "hop": (
+                "sample",
+                arrays["hops"],
+                {"long_name": "gradual lift-offs before, without the first", "units": "1"},
+            ),
             "contact": ("sample", arrays["contact"], {"long_name": "whether the lower mass is on the ground"}),
             "event_kind": (
                 "event_time",
@@ -84,14 +88,13 @@ def motion(alpha: float, M: float = 0.2, hops: int = 10) -> xarray.Dataset:
 
 
 def animate(
-    motion: xarray.Dataset,
-    path: str | os.PathLike[str],
-    progress: Callable[[int, int], Any] | bool | None = None,
+    motion: xarray.Dataset, path: str | os.PathLike[str], progress: Callable[[int, int], Any] | bool | None = None
 ) -> str | os.PathLike[str]:
-    """Draws a motion, from :func:`motion`, or a part of one, as an animation: a file ``….gif``, or ``….apng`` (animated PNG). Returns the path.
+    """Draws a motion, from :func:`motion`, or a part of one, as an animation: a file ``….gif``, or ``….apng`` (animated
+    PNG). Returns the path.
 
-    It is the drawing of the program ``hopper orbit --animate``: the hopper on the left, and a cursor on the curves of both masses.
-    ``progress(done, all)`` counts the frames; ``progress=True`` shows a bar of tqdm.
+    It is the drawing of the program ``hopper orbit --animate``: the hopper on the left, and a cursor on the curves of
+    both masses. ``progress(done, all)`` counts the frames; ``progress=True`` shows a bar of tqdm.
     """
     ending = os.path.splitext(os.fspath(path))[1].removeprefix(".").lower()
     form = "apng" if ending == "png" else ending
@@ -106,8 +109,15 @@ def animate(
     except (AttributeError, KeyError, TypeError) as error:
         needed = ("time", "hop", "contact", *columns)
         missing = [name for name in needed if name not in motion] if isinstance(motion, Mapping) else []
-        found = f"{', '.join(missing)} is missing" if missing else f"it is {type(motion).__name__}" if not isinstance(motion, Mapping) else "mass_ratio is missing"
-        raise ValueError(f"animate needs the Dataset of motion(…), or a part of it: {', '.join(needed)}, and the attribute mass_ratio; {found}") from error
+        found = (
+            f"{', '.join(missing)} is missing"
+            if missing
+            else f"it is {type(motion).__name__}" if not isinstance(motion, Mapping) else "mass_ratio is missing"
+        )
+        raise ValueError(
+            f"animate needs the Dataset of motion(…), or a part of it: {', '.join(needed)}, and the attribute"
+            f" mass_ratio; {found}"
+        ) from error
     if not numpy.isfinite(numpy.asarray(hops, dtype=float)).all():
         raise ValueError("animate needs whole numbers in hop, not NaN")
     if len(times) and times[-1] == times[0]:

@@ -1,13 +1,15 @@
 """Rasters of basins in Zarr stores, region by region, by this process or by the workers of a Dask cluster.
 
-A region is a strip of columns, and one shard: one file, which appears under its name complete or not at all. A region whose file is there and can be
-decoded is finished; each part of it has a checksum. The same region has the same bytes, whoever computes it and however often. So
-processes and workers may be killed at any instant, and a region may be computed twice.
+A region is a strip of columns, and one shard: one file, which appears under its name complete or not at all. A region
+whose file is there and can be decoded is finished; each part of it has a checksum. The same region has the same bytes,
+whoever computes it and however often. So processes and workers may be killed at any instant, and a region may be
+computed twice.
 
-What is on disk is never believed. Beside the array, the folder ``digests`` has a note for each region: the SHA-256 of its numbers as they were computed.
-A region counts as finished if its labels have this digest; one that was changed, copied from another region, or damaged is computed again. So are
-coordinates, and the metadata of the group and of its arrays: they are compared with those of a new store of the same job. The digest of the
-whole store is that of the notes' labels, read back.
+What is on disk is never believed. Beside the array, the folder ``digests`` has a note for each region: the SHA-256 of
+its numbers as they were computed. A region counts as finished if its labels have this digest; one that was changed,
+copied from another region, or damaged is computed again. So are coordinates, and the metadata of the group and of its
+arrays: they are compared with those of a new store of the same job. The digest of the whole store is that of the notes'
+labels, read back.
 """
 
 import hashlib
@@ -25,13 +27,15 @@ from ._progress import function_of
 from ._conventions import complete
 from .datasets import coordinates, import_xarray, job_attributes, layer_of, number_attributes
 
-#: Columns of a region. More make larger files and later progress; fewer make many small files. 64 columns of 16384 pixels are 2 MB.
+#: Columns of a region. More make larger files and later progress; fewer make many small files. 64 columns of 16384
+#: pixels are 2 MB.
 REGION = 64
 #: Pixels of a chunk along the speeds: a reader of a small window decodes chunks of 128 KB.
 CHUNK = 1024
 #: Seconds after which a half-written file belongs to a process that was killed. A region takes minutes at most.
 ABANDONED = 86_400
-#: How often a region is given to the cluster again after its worker was lost. One that kills every worker is an error in the end.
+#: How often a region is given to the cluster again after its worker was lost. One that kills every worker is an error
+#: in the end.
 TRIALS = 20
 
 
@@ -175,8 +179,8 @@ def _metadata(folder):
 
 
 def _mend_metadata(path, job):
-    """Writes the metadata of the group and of the labels again if they differ from those of a new store. What is added when a store is
-    finished is compared then."""
+    """Writes the metadata of the group and of the labels again if they differ from those of a new store. What is added
+    when a store is finished is compared then."""
     with tempfile.TemporaryDirectory() as folder:
         _make(Path(folder), job)
         new = {name: _metadata(Path(folder) / name) for name in ("", job[3])}
@@ -204,7 +208,11 @@ def _mend(path, job):
         try:
             own = group[name]
             # A missing chunk would be read as zeros.
-            right = own.dtype == numbers.dtype and own.shape == numbers.shape and own[:].tobytes() == numpy.ascontiguousarray(numbers).tobytes()
+            right = (
+                own.dtype == numbers.dtype
+                and own.shape == numbers.shape
+                and own[:].tobytes() == numpy.ascontiguousarray(numbers).tobytes()
+            )
             right = right and dict(own.attrs) == attributes and tuple(own.metadata.dimension_names or ()) == (name,)
         except PermissionError:
             raise
@@ -271,7 +279,8 @@ def _write_region(path, job, region, threads):
 
 
 def _finish(path, job, regions):
-    """Reads all labels back, compares them with what was computed, and writes the attributes that a finished store has."""
+    """Reads all labels back, compares them with what was computed, and writes the attributes that a finished store
+    has."""
     import numpy
 
     zarr = _import_zarr()
@@ -283,12 +292,19 @@ def _finish(path, job, regions):
             _write_region(str(path), job, region, None)
             labels = _verified(path, job, region)
             if labels is None:
-                raise RuntimeError(f"region {region} of {path} changes while it is read ({_file(path, job, region)}); is the disk damaged?")
+                raise RuntimeError(
+                    f"region {region} of {path} changes while it is read ({_file(path, job, region)}); is the disk"
+                    " damaged?"
+                )
         digest.update(labels)
         codes |= set(numpy.unique(labels).tolist())
     group = zarr.open_group(path, mode="r", use_consolidated=False)
     attributes = _stored(number_attributes(job[3], sorted(codes)))
-    if group.attrs.get("sha256") == digest.hexdigest() and dict(group[job[3]].attrs) == attributes and _is_consolidated(path, job):
+    if (
+        group.attrs.get("sha256") == digest.hexdigest()
+        and dict(group[job[3]].attrs) == attributes
+        and _is_consolidated(path, job)
+    ):
         return
     _array(path, job, "r+").attrs.put(attributes)
     for left in (path / job[3] / "c").glob("*/*.partial"):
@@ -300,7 +316,8 @@ def _finish(path, job, regions):
             pass
     zarr.open_group(path, mode="r+", use_consolidated=False).attrs["sha256"] = digest.hexdigest()
     with warnings.catch_warnings():
-        # xarray asks for consolidated metadata, and zarr warns that its form may change. Both can read the store without.
+        # xarray asks for consolidated metadata, and zarr warns that its form may change. Both can read the store
+        # without.
         warnings.simplefilter("ignore")
         zarr.consolidate_metadata(path, zarr_format=3)
 
@@ -316,7 +333,9 @@ def _task(path, job, region, version):
     """The work of one task on a worker, by one thread."""
     own = (_native.__version__, int(_native.RASTER_VERSION))
     if own != version:
-        raise RuntimeError(f"a worker has passive_hopper {own}, and this process has {version}: install the same version on all")
+        raise RuntimeError(
+            f"a worker has passive_hopper {own}, and this process has {version}: install the same version on all"
+        )
     _write_region(path, job, region, 1)
 
 
@@ -330,7 +349,9 @@ def _by_cluster(client, path, job, missing, count):
 
     def submit(region):
         trials[region] = trials.get(region, 0) + 1
-        return client.submit(_task, str(path), job, region, version, pure=False, key=f"basins-{path.name}-{region}-{os.urandom(8).hex()}")
+        return client.submit(
+            _task, str(path), job, region, version, pure=False, key=f"basins-{path.name}-{region}-{os.urandom(8).hex()}"
+        )
 
     submitted = {submit(region): region for region in missing}
     futures = as_completed(list(submitted))
@@ -342,13 +363,16 @@ def _by_cluster(client, path, job, missing, count):
                 count()
             except KilledWorker as error:
                 if trials[region] >= TRIALS:
-                    raise RuntimeError(f"region {region} has lost its worker {TRIALS} times; the others are kept in {path}") from error
+                    raise RuntimeError(
+                        f"region {region} has lost its worker {TRIALS} times; the others are kept in {path}"
+                    ) from error
                 again = submit(region)
                 submitted[again] = region
                 futures.add(again)
             except FutureCancelledError as error:
                 raise RuntimeError(
-                    f"the scheduler of the cluster is gone, or has dropped region {region}; what is finished is kept in {path}, and the same call goes on"
+                    f"the scheduler of the cluster is gone, or has dropped region {region}; what is finished is kept in"
+                    f" {path}, and the same call goes on"
                 ) from error
     finally:
         if submitted:

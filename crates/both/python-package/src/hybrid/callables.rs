@@ -289,7 +289,8 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
                     let at_start = own.value(0.0);
                     if !at_start.is_finite() {
                         let text = format!(
-                            "{what} returned a function that is {at_start} at the state {:?}; its coefficients must be finite",
+                            "{what} returned a function that is {at_start} at the state {:?}; its coefficients must be \
+                             finite",
                             start.as_slice()
                         );
                         return Err(PyValueError::new_err(text.replace("NaN", "nan")));

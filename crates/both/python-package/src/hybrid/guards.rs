@@ -82,7 +82,8 @@ impl Guard {
             ("terminal", None) => (Role::Switch, After::End),
             ("switch" | "contact" | "crossing", None) => {
                 return Err(PyValueError::new_err(format!(
-                    "guard {name:?} is a {role} and needs reset=; a guard without one is role='observer' or role='terminal'"
+                    "guard {name:?} is a {role} and needs reset=; a guard without one is role='observer' or \
+                     role='terminal'"
                 )));
             }
             ("terminal", Some(_)) => {

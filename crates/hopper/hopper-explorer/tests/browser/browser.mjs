@@ -6,20 +6,36 @@ export const url = process.env.EXPLORER_URL;
 export const ready = () => window.explorer?.plane.idle === true;
 export const READY = { timeout: 60_000 };
 
-export const launch = () => chromium.launch({
-  executablePath: process.env.CHROMIUM,
-  args: ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-    "--disable-background-networking", "--disable-component-update", "--disable-sync"],
-});
+export const launch = () =>
+  chromium.launch({
+    executablePath: process.env.CHROMIUM,
+    args: [
+      "--headless",
+      "--no-sandbox",
+      "--disable-gpu",
+      "--disable-quic",
+      "--no-first-run",
+      "--disable-background-networking",
+      "--disable-component-update",
+      "--disable-sync",
+    ],
+  });
 
 /** A page at an address, with its complete picture; an error of the page fails the test at its end. */
 export async function open(browser, hash = "", options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, acceptDownloads: true, ...options });
+  const context = await browser.newContext({
+    viewport: { width: 1000, height: 700 },
+    acceptDownloads: true,
+    ...options,
+  });
   context.setDefaultTimeout(READY.timeout);
   const page = await context.newPage();
   page.problems = [];
   page.on("pageerror", (error) => page.problems.push(error.message));
-  page.on("request", (request) => { if (!request.url().startsWith(url) && !/^(data|blob):/.test(request.url())) page.problems.push(`loads ${request.url()}`); });
+  page.on("request", (request) => {
+    if (!request.url().startsWith(url) && !/^(data|blob):/.test(request.url()))
+      page.problems.push(`loads ${request.url()}`);
+  });
   await page.goto(url + hash);
   await page.waitForFunction(() => window.explorer !== undefined, null, READY);
   if (!/depth=\d/.test(hash)) await page.waitForFunction(ready, null, READY);

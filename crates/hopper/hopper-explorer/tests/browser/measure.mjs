@@ -16,23 +16,40 @@ const all = sizes.reduce((sum, [, size]) => sum + size, 0);
 const core = sizes.find(([name]) => name === "core.wasm")[1];
 say("all files by gzip -9", `${(all / 1000).toFixed(0)} kB, of which the core has ${(core / 1000).toFixed(0)} kB`);
 
-// First picture: all of the window in coarse tiles; complete: in fine ones. The best of three, each with an empty cache.
+// First picture: all of the window in coarse tiles; complete: in fine ones. The best of three, each with an empty
+// cache.
 const first = [];
 for (let k = 0; k < 3; k++) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
   const page = await context.newPage();
   await page.goto(url);
-  const coarse = await page.waitForFunction(() => window.explorer?.plane.drawable && performance.now(), null, { ...READY, polling: "raf" });
-  const fine = await page.waitForFunction(() => window.explorer?.plane.idle && performance.now(), null, { ...READY, polling: "raf" });
+  const coarse = await page.waitForFunction(() => window.explorer?.plane.drawable && performance.now(), null, {
+    ...READY,
+    polling: "raf",
+  });
+  const fine = await page.waitForFunction(() => window.explorer?.plane.idle && performance.now(), null, {
+    ...READY,
+    polling: "raf",
+  });
   first.push([await coarse.jsonValue(), await fine.jsonValue()]);
   await context.close();
 }
 first.sort((a, b) => a[0] - b[0]);
-say("first picture, complete picture after the start of loading", `${first[0].map((time) => time.toFixed(0)).join(" ms, ")} ms`);
+say(
+  "first picture, complete picture after the start of loading",
+  `${first[0].map((time) => time.toFixed(0)).join(" ms, ")} ms`,
+);
 
 const page = await open(browser, "#pin=0.2,7", { viewport: { width: 1280, height: 800 } });
 for (const tile of native.tiles.filter(({ pixels }) => pixels === 256)) {
-  const job = { layer: tile.layer, logarithmic: tile.logarithmic, x: tile.x, alpha: tile.alpha, columns: 256, rows: 256 };
+  const job = {
+    layer: tile.layer,
+    logarithmic: tile.logarithmic,
+    x: tile.x,
+    alpha: tile.alpha,
+    columns: 256,
+    rows: 256,
+  };
   const best = await page.evaluate(async (job) => {
     let best = Infinity;
     for (let k = 0; k < 7; k++) {
@@ -43,13 +60,22 @@ for (const tile of native.tiles.filter(({ pixels }) => pixels === 256)) {
     return best;
   }, job);
   const where = `M ${tile.x.join("–")}, α ${tile.alpha.join("–")}`;
-  say(`256² tile in a worker, ${where}`, `${best.toFixed(1)} ms; native ${tile.milliseconds.toFixed(1)} ms: ${(best / tile.milliseconds).toFixed(2)} ×`);
+  say(
+    `256² tile in a worker, ${where}`,
+    `${best.toFixed(1)} ms; native ${tile.milliseconds.toFixed(1)} ms: ${(best / tile.milliseconds).toFixed(2)} ×`,
+  );
 }
 
 // The panels of a pinned point: from the click to the last drawing.
 const panels = await page.evaluate(async () => {
   const times = [];
-  for (const [m, alpha] of [[0.2, 7.1], [0.15, 9.3], [0.4, 12.1], [0.1, 18.2], [1, 6.2]]) {
+  for (const [m, alpha] of [
+    [0.2, 7.1],
+    [0.15, 9.3],
+    [0.4, 12.1],
+    [0.1, 18.2],
+    [1, 6.2],
+  ]) {
     const begin = performance.now();
     explorer.change({ pin: { m, alpha } });
     await new Promise((done) => explorer.plane.canvas.addEventListener("panels", done, { once: true }));
@@ -76,7 +102,10 @@ const frames = await page.evaluate(async () => {
   return gaps.sort((a, b) => a - b);
 });
 const mean = frames.reduce((sum, gap) => sum + gap, 0) / frames.length;
-say("frames while zooming", `${(1000 / mean).toFixed(0)} a second; 95 of 100 come within ${frames[Math.floor(0.95 * frames.length)].toFixed(0)} ms`);
+say(
+  "frames while zooming",
+  `${(1000 / mean).toFixed(0)} a second; 95 of 100 come within ${frames[Math.floor(0.95 * frames.length)].toFixed(0)} ms`,
+);
 
 // Memory of this browser's pages under random zooming; other browsers may run beside it.
 const session = await browser.newBrowserCDPSession();
@@ -84,7 +113,12 @@ const memory = async () => {
   const { processInfo } = await session.send("SystemInfo.getProcessInfo");
   const pages = processInfo.filter(({ type }) => type === "renderer").map(({ id }) => id);
   const out = execFileSync("ps", ["-o", "rss=", "-p", pages.join(",")], { encoding: "utf8" });
-  return out.trim().split(/\s+/).reduce((sum, size) => sum + Number(size), 0) / 1000;
+  return (
+    out
+      .trim()
+      .split(/\s+/)
+      .reduce((sum, size) => sum + Number(size), 0) / 1000
+  );
 };
 const minutes = Number(process.env.EXPLORER_MINUTES ?? 6);
 const points = [];
@@ -95,15 +129,23 @@ while (Date.now() - begin < minutes * 60_000) {
   const width = 10 ** (-4 * random());
   const height = 14 * 10 ** (-4 * random());
   const [left, low] = [random() * (1 - width), 4 + random() * (16 - height)];
-  await page.evaluate((view) => explorer.change({ view }), { logarithmic: false, x: [left, left + width], alpha: [Math.max(low, 1), Math.max(low, 1) + height] });
+  await page.evaluate((view) => explorer.change({ view }), {
+    logarithmic: false,
+    x: [left, left + width],
+    alpha: [Math.max(low, 1), Math.max(low, 1) + height],
+  });
   await page.waitForTimeout(300);
   points.push([(Date.now() - begin) / 60_000, await memory()]);
 }
 // The slope over the second half, when the store of tiles is full.
 const late = points.filter(([time]) => time > minutes / 2);
 const [tm, mm] = [0, 1].map((k) => late.reduce((sum, point) => sum + point[k], 0) / late.length);
-const slope = late.reduce((sum, [t, m]) => sum + (t - tm) * (m - mm), 0) / late.reduce((sum, [t]) => sum + (t - tm) ** 2, 0);
-say(`memory of the page in ${minutes} minutes of random zooming`, `largest ${Math.max(...points.map(([, m]) => m)).toFixed(0)} MB; in the second half ${slope.toFixed(1)} MB a minute`);
+const slope =
+  late.reduce((sum, [t, m]) => sum + (t - tm) * (m - mm), 0) / late.reduce((sum, [t]) => sum + (t - tm) ** 2, 0);
+say(
+  `memory of the page in ${minutes} minutes of random zooming`,
+  `largest ${Math.max(...points.map(([, m]) => m)).toFixed(0)} MB; in the second half ${slope.toFixed(1)} MB a minute`,
+);
 await page.evaluate(() => explorer.change({ view: { logarithmic: false, x: [0, 1], alpha: [4.3, 20.4] } }));
 await page.waitForFunction(ready, null, READY);
 await browser.close();

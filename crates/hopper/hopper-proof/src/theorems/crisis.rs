@@ -15,7 +15,8 @@ const WIDTH: f64 = 1e-13;
 pub fn crises(humps: u64) -> Result<Theorem, Error> {
     let mut theorem = Theorem::new(
         "crisis",
-        "The minimum of the map on hump n touches α*_n at exactly one M_c(n) ≤ 1, and at 1/M_c(n); below M_c(n) the map stays above α*_n on the \
+        "The minimum of the map on hump n touches α*_n at exactly one M_c(n) ≤ 1, and at 1/M_c(n); below M_c(n) the \
+         map stays above α*_n on the \
          contact part, and between the two it falls through α*_n (docs/theory.md, Theorem 29).",
     );
     for n in 1..=humps {

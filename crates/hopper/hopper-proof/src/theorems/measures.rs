@@ -157,7 +157,8 @@ fn digits(share: Enclosure) -> String {
 pub fn measures(cases: &[(f64, f64)], progress: impl Fn(usize) + Sync) -> Result<Theorem, Error> {
     let mut theorem = Theorem::new(
         "measures",
-        "The fractions of the basins among the lift-off speeds of humps 1 to 5, uniform in α, and as the mean of the five humps: between these bounds.",
+        "The fractions of the basins among the lift-off speeds of humps 1 to 5, uniform in α, and as the mean of the \
+         five humps: between these bounds.",
     );
     cases.iter().try_for_each(|&(mass_ratio, width)| check(mass_ratio, width))?;
     let done = AtomicUsize::new(0);

@@ -16,7 +16,8 @@ pub fn one_sudden() -> Theorem {
     let mut theorem = Theorem::new(
         "one-sudden",
         format!(
-            "For every M ≤ {} and every lift-off speed a hop has at most one sudden lift-off (docs/theory.md, Theorem 20).",
+            "For every M ≤ {} and every lift-off speed a hop has at most one sudden lift-off (docs/theory.md, Theorem \
+             20).",
             at_least(largest.low, 15)
         ),
     );

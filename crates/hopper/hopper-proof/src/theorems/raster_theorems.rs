@@ -78,7 +78,8 @@ pub fn cells_theorem(name: &'static str, found: &ProvedCells, open: f64) -> Resu
     let mut theorem = Theorem::new(
         name,
         format!(
-            "All mass ratios and all speeds of a cell that is called a basin's have its fate, and the area of each basin is between the bounds below: {}.",
+            "All mass ratios and all speeds of a cell that is called a basin's have its fate, and the area of each \
+             basin is between the bounds below: {}.",
             window(&grid)
         ),
     );

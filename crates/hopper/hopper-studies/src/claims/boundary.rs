@@ -87,12 +87,14 @@ pub(super) fn remainder(tree: &PreimageTree) -> Result<Evidence, Error> {
     let rest: f64 = tree.lengths().iter().skip(last).sum();
     Ok(Evidence::about("in the limit the segments form a Cantor set")
         .ours(format!(
-            "not in a bounded window: on humps 1 and 2 at $M$ = {M} the number of intervals of level $k$ grows {found}, \
+            "not in a bounded window: on humps 1 and 2 at $M$ = {M} the number of intervals of level $k$ grows \
+             {found}, \
              to {} at level {last}; two preimages of each interval, as in a Cantor set, would give 2^{{{last}}}",
             counts.get(last).copied().unwrap_or(0)
         ))
         .error(format!("the levels from {last} on have the total length {rest:.0e}"))
-        .how("preimages of the trap on the monotone branches that a scan shows; power law against exponential over the later half of the complete levels")
+        .how("preimages of the trap on the monotone branches that a scan shows; power law against exponential over the \
+              later half of the complete levels")
         .corrected(countable))
 }
 
@@ -190,13 +192,15 @@ pub(super) fn accumulation(map: &impl Map, points: &[Vec<f64>; 2]) -> Result<Evi
     Ok(Evidence::about("nested pieces at every scale")
         .ours(format!(
             "the boundary at $M$ = {M} accumulates at fixed points from the left and at their preimages: clusters of \
-             boundary points at the scales 10^{{−4}} … 10^{{−7}} number {} on hump 1 (towards $α$^{{∗}}_{{2}}, order 1) \
+             boundary points at the scales 10^{{−4}} … 10^{{−7}} number {} on hump 1 (towards $α$^{{∗}}_{{2}}, order \
+             1) \
              and {} on hump 2 (preimages of $α$^{{∗}}_{{2}}, which accumulate at $α$^{{∗}}_{{3}}, order 2)",
             list(&first),
             list(&second)
         ))
         .error(format!("{strays} of {} clusters are away from these points", first.iter().chain(&second).sum::<usize>()))
-        .how(format!("{} and {} boundary points to 10^{{−12}}; a cluster has {FEWEST} points or more; {} preimages by bisection on the printed map", points[0].len(), points[1].len(), expected.len() - 2))
+        .how(format!("{} and {} boundary points to 10^{{−12}}; a cluster has {FEWEST} points or more; {} preimages by \
+                      bisection on the printed map", points[0].len(), points[1].len(), expected.len() - 2))
         .corrected(order_1 && order_2 && strays == 0))
 }
 
@@ -225,7 +229,9 @@ pub(super) fn leaving(map: &impl Map, left_factor: f64) -> Result<Evidence, Erro
         3.0 / (left_factor * lambda) * (1.0 / pxfm::f_cbrt(from) - 1.0 / pxfm::f_cbrt(to));
     let ratio = f64::from(hops) / predicted;
     Ok(Evidence::about("nested pieces at every scale")
-        .ours(format!("the $k$-th piece left of $α$^{{∗}}_{{n}} is at the distance (3/({left_factor}$λk$))^{{3}}: leaving $α$^{{∗}}_{{2}} from 10^{{−10}} to 10^{{−5}} takes {hops} hops, predicted {predicted:.0}"))
+        .ours(format!("the $k$-th piece left of $α$^{{∗}}_{{n}} is at the distance (3/({left_factor}$λk$))^{{3}}: \
+                       leaving $α$^{{∗}}_{{2}} from 10^{{−10}} to 10^{{−5}} takes {hops} hops, predicted \
+                       {predicted:.0}"))
         .error(format!("{:.1} %; the law for small steps allows {:.0} %", 100.0 * (ratio - 1.0), 100.0 * LAW_ERROR))
         .how(format!("$M$ = {M}, the printed map iterated"))
         .corrected((ratio - 1.0).abs() < LAW_ERROR))
@@ -250,8 +256,11 @@ pub(super) fn countable(map: &impl Map, m: f64) -> Result<Evidence, Error> {
         }
     }
     Ok(Evidence::about("in the limit the segments form a Cantor set")
-        .ours("a theorem for $M$ ≤ 0.9056: $f$($α$) < $α$ except at the fixed points, so that no other orbit returns; each level has finitely many ends in a bounded window, and the boundary is their countable closed union. A countable set contains no Cantor set")
+        .ours("a theorem for $M$ ≤ 0.9056: $f$($α$) < $α$ except at the fixed points, so that no other orbit returns; \
+               each level has finitely many ends in a bounded window, and the boundary is their countable closed \
+               union. A countable set contains no Cantor set")
         .error(format!("{rising} of {probes} probes of $f$($α$) < $α$ fail; rounding is at most {:.0e} of the loss", largest(margins)))
-        .how(format!("the theorem's conditions at $M$ = {m}: the printed map at 10^{{−1}} … 10^{{−8}} on either side of the first four fixed points. A computation cannot show more"))
+        .how(format!("the theorem's conditions at $M$ = {m}: the printed map at 10^{{−1}} … 10^{{−8}} on either side \
+                      of the first four fixed points. A computation cannot show more"))
         .holds(rising == 0 && m <= ONE_SUDDEN))
 }

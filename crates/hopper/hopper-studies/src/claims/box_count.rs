@@ -136,7 +136,8 @@ pub(super) fn boundary_boxes(
             100.0 * whole_errors[1],
             100.0 * whole_errors[0]
         ))
-        .how(format!("{GENERATIONS} preimages of each boundary point of a fundamental domain, by root search; mean number of boxes over all positions of the grid; $θ$_{{j}} from the gaps of the last copy"))
+        .how(format!("{GENERATIONS} preimages of each boundary point of a fundamental domain, by root search; mean \
+                      number of boxes over all positions of the grid; $θ$_{{j}} from the gaps of the last copy"))
         .corrected(!starts.is_empty() && converges(single_errors) && converges(whole_errors)))
 }
 

@@ -106,13 +106,16 @@ pub(super) fn two_preimages(levels: &[IntervalSet], map: &impl Map) -> Result<Ev
     });
     let worst = largest(distances);
     Ok(Evidence::about("two distinct intervals $A$_{1} and $A$_{2} of the next hump map into the local basin $A$")
-        .ours(format!("{count} on hump 2 at $M$ = {M}; beside them hump 1 has {rising} on its rising part and {falling} on its falling part"))
+        .ours(format!("{count} on hump 2 at $M$ = {M}; beside them hump 1 has {rising} on its rising part and \
+                       {falling} on its falling part"))
         .error(format!(
-            "{} intervals of level 1 below $α$^{{∗}}_{{3}}, {} found by the scan; their ends differ by at most {worst:.1e}",
+            "{} intervals of level 1 below $α$^{{∗}}_{{3}}, {} found by the scan; their ends differ by at most \
+             {worst:.1e}",
             claimed.len(),
             scanned.len()
         ))
-        .how(format!("preimages of the trap on all monotone branches, ends to one ulp; {SAMPLES} points of the printed map, changes of sign bisected"))
+        .how(format!("preimages of the trap on all monotone branches, ends to one ulp; {SAMPLES} points of the printed \
+                      map, changes of sign bisected"))
         .holds(count == 2 && claimed.len() == scanned.len() && worst < ENDS))
 }
 
@@ -170,7 +173,9 @@ pub(super) fn each_level(
         .collect();
     Ok(Evidence::about("the basin is the union of $A$ and all its preimages: each level maps onto the one before")
         .ours(format!("intervals (total length) of levels 0 to {} in [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{4}}]: {}", levels.len().saturating_sub(1), table.join(", ")))
-        .error(format!("{wrong} wrong of {planted} points in the intervals and {starts} random speeds; the levels have {common:.0e} of length in common"))
-        .how("orbits of the printed map, followed until trapped; a speed of level $k$ must be trapped after $k$ hops, and a speed of no level after more or elsewhere")
+        .error(format!("{wrong} wrong of {planted} points in the intervals and {starts} random speeds; the levels have \
+                        {common:.0e} of length in common"))
+        .how("orbits of the printed map, followed until trapped; a speed of level $k$ must be trapped after $k$ hops, \
+              and a speed of no level after more or elsewhere")
         .holds(wrong == 0 && planted > 0 && levels.len() == DEPTH + 1 && common < COMMON_LENGTH))
 }

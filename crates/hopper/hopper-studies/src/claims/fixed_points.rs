@@ -70,7 +70,8 @@ pub(super) fn digits(star: &impl Star) -> Evidence {
     Evidence::about("tan $α$ = $α$: 4.493409, 7.725251, 10.90412, …")
         .ours(ours.join(", "))
         .error(format!("at most {worst:.2} units of the last printed digit; {rounding}"))
-        .how("$α$ = ($n$+½)$π$ − arctan(1/$α$) in double-double; sin $α$ − $α$ cos $α$ changes its sign within four ulps")
+        .how("$α$ = ($n$+½)$π$ − arctan(1/$α$) in double-double; sin $α$ − $α$ cos $α$ changes its sign within four \
+              ulps")
         // The paper rounds some values and cuts others: both are within one unit of the last digit.
         .holds(right && worst < 1.0)
 }
@@ -146,6 +147,7 @@ pub(super) fn touches(map: &impl Map, star: &impl Star) -> Result<Evidence, Erro
         largest(distances),
         100.0 * worst
     ))
-    .how(format!("{SAMPLES} equally spaced points, then golden section; $λ$|$δ$|^{{4/3}} is hidden by rounding from |$δ$| ≈ 10^{{−10}} down"))
+    .how(format!("{SAMPLES} equally spaced points, then golden section; $λ$|$δ$|^{{4/3}} is hidden by rounding from \
+                  |$δ$| ≈ 10^{{−10}} down"))
     .holds(found.len() as u64 == COUNT && touching == found.len() && worst <= 1.0))
 }

@@ -89,8 +89,10 @@ fn lowest(map: &impl Map, mass_ratio: f64) -> Result<f64, Error> {
 pub(super) fn above_first(map: &impl Map) -> Result<Evidence, Error> {
     let (light, heavy) = (lowest(map, 0.05)?, lowest(map, 0.1)?);
     let window = first_humps(5);
-    Ok(Evidence::about("for low $M$ the entire map lies above the line $α$′ = $α$^{∗}_{1}: the whole range is attracted")
-        .ours(format!("on ($α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}] the lowest turning point or end of the map lies at $α$^{{∗}}_{{1}} + {light:.4} at $M$ = 0.05 and at $α$^{{∗}}_{{1}} + {heavy:.4} at $M$ = 0.1"))
+    Ok(Evidence::about("for low $M$ the entire map lies above the line $α$′ = $α$^{∗}_{1}: the whole range is \
+                        attracted")
+        .ours(format!("on ($α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}] the lowest turning point or end of the map lies at \
+                       $α$^{{∗}}_{{1}} + {light:.4} at $M$ = 0.05 and at $α$^{{∗}}_{{1}} + {heavy:.4} at $M$ = 0.1"))
         .how(format!(
             "{} points on [{:.3}, {:.3}], turning points by golden section; from $α$^{{∗}}_{{1}} on the map rises",
             5 * SAMPLES,
@@ -141,9 +143,12 @@ pub(super) fn falls_through(map: &impl Map, crisis: f64) -> Result<Evidence, Err
         if lowest(middle)?.0 > 0.0 { above = middle } else { below = middle }
     }
     let errors = [(crisis / below - 1.0).abs(), (crisis / CRISIS - 1.0).abs()];
-    Ok(Evidence::about("as $M$ grows, larger and larger parts of the map drop below $α$^{∗}_{1}, between $M$ = 0.1 and 0.2")
-        .ours(format!("hump 1 touches $α$^{{∗}}_{{1}} at $M$_{{c}} = {crisis:.14}; on the printed map at {below:.14}, at $α$ = {:.6}", lowest(below)?.1))
+    Ok(Evidence::about("as $M$ grows, larger and larger parts of the map drop below $α$^{∗}_{1}, between $M$ = 0.1 and \
+                        0.2")
+        .ours(format!("hump 1 touches $α$^{{∗}}_{{1}} at $M$_{{c}} = {crisis:.14}; on the printed map at {below:.14}, \
+                       at $α$ = {:.6}", lowest(below)?.1))
         .error(format!("{:.1e} from the printed map, {:.1e} from the 34-digit value, both relative", errors[0], errors[1]))
-        .how("$Γ$^{2} = 4$W$($A$^{2} − $α$^{∗2}), one root; printed map: golden section in $α$, bisection in $M$ between 0.1 and 0.2")
+        .how("$Γ$^{2} = 4$W$($A$^{2} − $α$^{∗2}), one root; printed map: golden section in $α$, bisection in $M$ \
+              between 0.1 and 0.2")
         .holds(bracketed && errors.iter().all(|&error| error < CRISIS_ERROR)))
 }

@@ -168,7 +168,8 @@ pub(super) fn invariance(
             printed.differing, printed.pairs, integrated.differing, integrated.pairs
         ))
         .error(format!(
-            "largest difference of $α$′^{{2}}: printed {:.1e} (1 + $α$^{{2}}), {:.0} % of the rounding bound; integrated \
+            "largest difference of $α$′^{{2}}: printed {:.1e} (1 + $α$^{{2}}), {:.0} % of the rounding bound; \
+             integrated \
              {:.1e} (1 + $α$^{{2}}), {:.1} % of the bound from the tolerance",
             printed.largest,
             100.0 * printed.of_bound,
@@ -218,7 +219,8 @@ pub(super) fn stable_form(map: &impl Map, pairs: u64) -> Result<Evidence, Error>
              $μ$($M$) = $μ$(1/$M$)",
         )
         .error(format!(
-            "largest difference of $α$′^{{2}} in {} pairs: {:.1e} (1 + $α$^{{2}}), {:.0} % of the rounding of 1/$M$, of \
+            "largest difference of $α$′^{{2}} in {} pairs: {:.1e} (1 + $α$^{{2}}), {:.0} % of the rounding of 1/$M$, \
+             of \
              both $μ$ and of both $α$′^{{2}}",
             found.pairs,
             found.largest,

@@ -119,7 +119,10 @@ pub(super) fn measure(
     Ok(Evidence::about(printed.text)
         .ours(format!("{value:.5}"))
         .error(format!("{:+.1e}; {differing} of {followed} orbits of the printed map end elsewhere", value - printed.value))
-        .how(format!("{POINTS} equally spaced points, the middles of equal parts, on each of the five intervals [$α$^{{∗}}_{{i}}, $α$^{{∗}}_{{i+1}}], fractions averaged; fates by traps. The paper does not state whether the ends are included; the double nearest to $α$^{{∗}}_{{i}} may lie on its left, which is another basin"))
+        .how(format!("{POINTS} equally spaced points, the middles of equal parts, on each of the five intervals \
+                      [$α$^{{∗}}_{{i}}, $α$^{{∗}}_{{i+1}}], fractions averaged; fates by traps. The paper does not \
+                      state whether the ends are included; the double nearest to $α$^{{∗}}_{{i}} may lie on its left, \
+                      which is another basin"))
         .holds((value - printed.value).abs() <= printed.allowed && differing == 0))
 }
 

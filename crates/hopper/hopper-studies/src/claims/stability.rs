@@ -122,7 +122,8 @@ pub(super) fn one_way(map: &impl Map) -> Result<Evidence, Error> {
         ))
         .error(format!("{} wrong of {}", 2 * all - right_attracts - left_repels, 2 * all))
         .how(format!(
-            "{DISTANCES} distances from min(0.3 $λ$^{{−3}}, 10^{{−3}}) down, each half of the last; $n$ = 1, 2, 3, 10, {} \
+            "{DISTANCES} distances from min(0.3 $λ$^{{−3}}, 10^{{−3}}) down, each half of the last; $n$ = 1, 2, 3, 10, \
+             {} \
              mass ratios",
             RATIOS.len()
         ))
@@ -174,12 +175,14 @@ pub(super) fn exponents(map: &impl Map, left_factor: f64) -> Result<Evidence, Er
     let (exponent, factor) = (largest(exponents), largest(factors));
     Ok(Evidence::about("$f$ ≈ $α$ − $λ$($α$ − $α$^{∗})^{4/3}; the left side is not described")
         .ours(format!(
-            "4/3 on both sides; the left loses {mean:.4} times as much in the mean of {} cases; by theory {left_factor}, \
+            "4/3 on both sides; the left loses {mean:.4} times as much in the mean of {} cases; by theory \
+             {left_factor}, \
              as its second landing is three times as fast",
             measured.len()
         ))
         .error(format!("exponent {exponent:.1e}; factor {left_factor} (1 ± {factor:.1e})"))
-        .how("($δ$ − $δ$′)/|$δ$|^{4/3} at min(0.3 $λ$^{−3}, 10^{−4}), /8 and /64 on each side, extrapolated in |$δ$|^{1/3}; $n$ = 1, 2, 3, 10, seven mass ratios")
+        .how("($δ$ − $δ$′)/|$δ$|^{4/3} at min(0.3 $λ$^{−3}, 10^{−4}), /8 and /64 on each side, extrapolated in \
+              |$δ$|^{1/3}; $n$ = 1, 2, 3, 10, seven mass ratios")
         .holds(exponent < EXPONENT && factor < FACTOR))
 }
 
@@ -199,11 +202,19 @@ pub(super) fn beta(beta: &impl Fn(u64) -> Result<f64, Error>) -> Result<Evidence
         errors.push((2.0 * ratio(1e-7)? - ratio(8e-7)? - 1.0).abs());
     }
     let worst = largest(errors);
-    Ok(Evidence::about("the flight near $α$^{∗} is longer by $βδ$^{1/3}, $β$ = [6(2$α$^{∗} − sin 2$α$^{∗})/$α$^{∗}]^{1/3} (the 6 is illegible in our copy)")
-        .ours(format!("$β$_{{1}} = {:.12}; the prolongation of the flight divided by $βδ$^{{1/3}} tends to 1", beta(1)?))
-        .error(format!("1 ± {worst:.1e}"))
-        .how("flight times at $δ$ = 8·10^{−7} and 10^{−7}, extrapolated in $δ$^{1/3}, $n$ = 1, 2, 3, 10")
-        .holds(worst < BETA_ERROR))
+    Ok(Evidence::about(
+        "the flight near $α$^{∗} is longer by $βδ$^{1/3}, $β$ = [6(2$α$^{∗} − sin \
+                        2$α$^{∗})/$α$^{∗}]^{1/3} (the 6 is illegible in our copy)",
+    )
+    .ours(format!(
+        "$β$_{{1}} = {:.12}; the prolongation of the flight divided by $βδ$^{{1/3}} tends to 1",
+        beta(1)?
+    ))
+    .error(format!("1 ± {worst:.1e}"))
+    .how(
+        "flight times at $δ$ = 8·10^{−7} and 10^{−7}, extrapolated in $δ$^{1/3}, $n$ = 1, 2, 3, 10",
+    )
+    .holds(worst < BETA_ERROR))
 }
 
 /// `corrected` gives the corrected λ.
@@ -228,6 +239,7 @@ pub(super) fn lambda(
     Ok(Evidence::about(format!("$λ$ = $βμ$(2$α$^{{∗}} − sin 2$α$^{{∗}}); {printed:.6} for $n$ = $M$ = 1"))
         .ours(format!("{:.4} of the printed $λ$: {ours:.9}; measured {measured:.9}", ours / printed))
         .error(format!("measured/printed = 0.75 ± {worst_printed:.1e}; measured/corrected = 1 ± {worst_corrected:.1e}"))
-        .how("($δ$ − $δ$′)/$δ$^{4/3} at $δ$ = min(0.3 $λ$^{−3}, 10^{−4}), /8, /64, extrapolated; $n$ = 1, 2, 3, 7, 10, $M$ = 0.1, 0.2, 0.5, 1, 10")
+        .how("($δ$ − $δ$′)/$δ$^{4/3} at $δ$ = min(0.3 $λ$^{−3}, 10^{−4}), /8, /64, extrapolated; $n$ = 1, 2, 3, 7, 10, \
+              $M$ = 0.1, 0.2, 0.5, 1, 10")
         .corrected(worst_corrected < LAMBDA_ERROR))
 }

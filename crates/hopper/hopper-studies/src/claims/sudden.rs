@@ -11,7 +11,8 @@ pub(super) const CHECKS: &[Check] = &[Check {
     name: "where landings are sudden",
     place: "Sec. III",
     ground: Ground::Test {
-        test: "the sign of $y$_{1} − 1 by the printed Eqs. 6 and 8 without brackets, and by an execution that samples heights",
+        test: "the sign of $y$_{1} − 1 by the printed Eqs. 6 and 8 without brackets, and by an execution that samples \
+               heights",
         proof: Some("Theorem 8"),
     },
     evidence: || {

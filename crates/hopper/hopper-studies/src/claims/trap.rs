@@ -101,7 +101,8 @@ pub(super) fn edges(
              $λ$^{{−3}} with the corrected $λ$ {corrected:.6}"
         ))
         .error(format!(
-            "root against the printed map {:.1e} relative, {:.0} % of the rounding bound; $λ$^{{−3}} printed {:.0} % of \
+            "root against the printed map {:.1e} relative, {:.0} % of the rounding bound; $λ$^{{−3}} printed {:.0} % \
+             of \
              $Δ$, corrected {:.0} %",
             largest(errors),
             100.0 * bound,
@@ -225,7 +226,8 @@ pub(super) fn smallest_at_one(
     let printed = compare(printed, places.printed, &ratios, error, |_| 1.0)?;
     let integrated =
         compare(integrated, places.integrated, &INTEGRATED_RATIOS, integrated_edge_error, |_| 1.0)?;
-    Ok(Evidence::about("the smallest interval of attraction is at $M$ = 1: from the approximate map, and by numerical evidence")
+    Ok(Evidence::about("the smallest interval of attraction is at $M$ = 1: from the approximate map, and by numerical \
+                        evidence")
         .ours(format!(
             "$Δ$_{{n}}($M$)/$Δ$_{{n}}(1) − 1 is at least {:.1e} on the printed map ($n$ ≤ {}, {} mass ratios with \
              |$M$ − 1| ≥ 10^{{−3}}), and at least {:.1e} on the integrated hopper ($n$ ≤ {}, {} mass ratios)",
@@ -240,7 +242,8 @@ pub(super) fn smallest_at_one(
             "the smallest differences are {:.0} and {:.0} times the bounds on their errors",
             printed.least_of_bound, integrated.least_of_bound
         ))
-        .how("the first fall through $α$^{∗}_{n}, searched outwards from 10^{−7} and bisected; $M$ from 0.11 to 8.9, crowding about 1")
+        .how("the first fall through $α$^{∗}_{n}, searched outwards from 10^{−7} and bisected; $M$ from 0.11 to 8.9, \
+              crowding about 1")
         .holds(printed.least_of_bound > 1.0 && integrated.least_of_bound > 1.0))
 }
 

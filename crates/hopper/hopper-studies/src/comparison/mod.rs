@@ -1,7 +1,7 @@
 //! Are the figures made now the committed ones?
 //!
-//! Numbers and pixels are compared, not the bytes of files. A new version of a compressor, or another number format of a
-//! table, changes no result, and gives no difference here. Numbers must be equal in all bits. A drawing is text that
+//! Numbers and pixels are compared, not the bytes of files. A new version of a compressor, or another number format of
+//! a table, changes no result, and gives no difference here. Numbers must be equal in all bits. A drawing is text that
 //! `journal-figures` alone writes: its lines are compared.
 //!
 //! | file | compared |

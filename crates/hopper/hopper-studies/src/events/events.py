@@ -30,9 +30,7 @@ def scipy_ball():
     def run():
         t, x, times = 0.0, [1.0, 0.0], []
         while len(times) < MOST:
-            arc = solve_ivp(
-                lambda t, x: (x[1], -9.81), (t, 5.0), x, events=impact, **TOLERANCES
-            )
+            arc = solve_ivp(lambda t, x: (x[1], -9.81), (t, 5.0), x, events=impact, **TOLERANCES)
             t, x = arc.t[-1], arc.y[:, -1]
             if arc.status != 1:
                 break
@@ -50,13 +48,7 @@ def scipy_pendulum():
         return x[0]
 
     def run():
-        arc = solve_ivp(
-            lambda t, x: (x[1], -math.sin(x[0])),
-            (0.0, 400.0),
-            [2.0, 0.0],
-            events=section,
-            **TOLERANCES
-        )
+        arc = solve_ivp(lambda t, x: (x[1], -math.sin(x[0])), (0.0, 400.0), [2.0, 0.0], events=section, **TOLERANCES)
         return list(arc.t_events[0]), arc.y[0, -1]
 
     return run
@@ -69,13 +61,7 @@ def scipy_turning_points():
         return x[0] - 1.9999
 
     def run():
-        arc = solve_ivp(
-            lambda t, x: (x[1], -math.sin(x[0])),
-            (0.0, 400.0),
-            [2.0, 0.0],
-            events=section,
-            **TOLERANCES
-        )
+        arc = solve_ivp(lambda t, x: (x[1], -math.sin(x[0])), (0.0, 400.0), [2.0, 0.0], events=section, **TOLERANCES)
         return list(arc.t_events[0]), arc.y[0, -1]
 
     return run
@@ -93,7 +79,7 @@ def scipy_van_der_pol():
             (0.0, 300.0),
             [2.0, 0.0],
             events=section,
-            **TOLERANCES
+            **TOLERANCES,
         )
         return list(arc.t_events[0]), arc.y[0, -1]
 
@@ -116,11 +102,7 @@ def scipy_hysteresis():
         t, x, relay, times = 0.0, [1.0], -1.0, []
         while len(times) < MOST:
             arc = solve_ivp(
-                lambda t, x: (relay + 0.3,),
-                (t, 5.0),
-                x,
-                events=below if relay < 0.0 else above,
-                **TOLERANCES
+                lambda t, x: (relay + 0.3,), (t, 5.0), x, events=below if relay < 0.0 else above, **TOLERANCES
             )
             t, x = arc.t[-1], arc.y[:, -1]
             if arc.status != 1:
@@ -142,9 +124,7 @@ def scipy_relay():
         t, x, relay, times = 0.0, [1.0], -1.0, []
         while len(times) < MOST:
             switch.terminal, switch.direction = True, relay
-            arc = solve_ivp(
-                lambda t, x: (relay + 0.3,), (t, 5.0), x, events=switch, **TOLERANCES
-            )
+            arc = solve_ivp(lambda t, x: (relay + 0.3,), (t, 5.0), x, events=switch, **TOLERANCES)
             t, x = arc.t[-1], arc.y[:, -1]
             if arc.status != 1:
                 break
@@ -166,12 +146,8 @@ def heyoka_ball():
         integrator.state[1] *= -0.8
         return len(times) < MOST
 
-    event = heyoka.t_event(
-        x, direction=heyoka.event_direction.negative, callback=impact
-    )
-    ball = heyoka.taylor_adaptive(
-        [(x, v), (v, heyoka.expression(-9.81))], [1.0, 0.0], t_events=[event]
-    )
+    event = heyoka.t_event(x, direction=heyoka.event_direction.negative, callback=impact)
+    ball = heyoka.taylor_adaptive([(x, v), (v, heyoka.expression(-9.81))], [1.0, 0.0], t_events=[event])
 
     def run():
         times.clear()
@@ -189,9 +165,7 @@ def heyoka_pendulum():
     x, v = heyoka.make_vars("x", "v")
     times = []
     section = heyoka.nt_event(x, lambda integrator, t, _: times.append(t))
-    pendulum = heyoka.taylor_adaptive(
-        [(x, v), (v, -heyoka.sin(x))], [2.0, 0.0], nt_events=[section]
-    )
+    pendulum = heyoka.taylor_adaptive([(x, v), (v, -heyoka.sin(x))], [2.0, 0.0], nt_events=[section])
 
     def run():
         times.clear()
@@ -208,9 +182,7 @@ def heyoka_turning_points():
     x, v = heyoka.make_vars("x", "v")
     times = []
     section = heyoka.nt_event(x - 1.9999, lambda integrator, t, _: times.append(t))
-    pendulum = heyoka.taylor_adaptive(
-        [(x, v), (v, -heyoka.sin(x))], [2.0, 0.0], nt_events=[section]
-    )
+    pendulum = heyoka.taylor_adaptive([(x, v), (v, -heyoka.sin(x))], [2.0, 0.0], nt_events=[section])
 
     def run():
         times.clear()
@@ -227,9 +199,7 @@ def heyoka_van_der_pol():
     x, v = heyoka.make_vars("x", "v")
     times = []
     section = heyoka.nt_event(x, lambda integrator, t, _: times.append(t))
-    oscillator = heyoka.taylor_adaptive(
-        [(x, v), (v, 5.0 * (1.0 - x**2) * v - x)], [2.0, 0.0], nt_events=[section]
-    )
+    oscillator = heyoka.taylor_adaptive([(x, v), (v, 5.0 * (1.0 - x**2) * v - x)], [2.0, 0.0], nt_events=[section])
 
     def run():
         times.clear()

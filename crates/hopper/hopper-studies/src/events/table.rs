@@ -21,7 +21,8 @@ pub(crate) fn markdown<'a>(verdicts: &'a [Verdict]) -> String {
             "{scene} | {program} | {exact} | {missed} | {wrong} | {error} | {end} | {time} | {lines}"
         )
     };
-    let columns = "scene | program | events: | missed: | wrong: | largest error: | at the end | time an event: | lines:";
+    let columns = "scene | program | events: | missed: | wrong: | largest error: | at the end | time an event: | \
+                   lines:";
     markdown_table(columns, verdicts.iter().map(row))
 }
 

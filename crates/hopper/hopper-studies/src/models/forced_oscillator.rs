@@ -112,7 +112,7 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
         svg,
         vec![csv_file("forced_oscillator.csv", &["x", "velocity"], rows)?],
         &[
-            ("points", PIECES * POINTS.to_string()),
+            ("points", (PIECES * POINTS).to_string()),
             ("first", format!("{:?}", STARTS[0])),
             ("second", format!("{:?}", STARTS[1])),
         ],

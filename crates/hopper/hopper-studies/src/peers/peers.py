@@ -1,4 +1,5 @@
-"""Hops of the passive hopper by heyoka, SciPy, NumPy, numba and this repository's package: time a hop, and the speeds found.
+"""Hops of the passive hopper by heyoka, SciPy, NumPy, numba and this repository's package: time a hop, and the speeds
+found.
 
 python peers.py hops.json results.json
 
@@ -69,9 +70,7 @@ def by_scipy(hops):
 
     def landing(x, v):
         first = later(x, v)
-        solution = solve_ivp(
-            flow, (first, LATEST), start(x, v, first), "DOP853", rtol=1e-10, atol=1e-12, events=height
-        )
+        solution = solve_ivp(flow, (first, LATEST), start(x, v, first), "DOP853", rtol=1e-10, atol=1e-12, events=height)
         return solution.y_events[0][0]
 
     return [hop_by(landing, *hop) for hop in hops]
@@ -127,9 +126,7 @@ def heyoka_batch():
         job["squares"][lane] = 0.0
         return 0.0, alpha
 
-    event = heyoka.t_event_batch(
-        height, direction=heyoka.event_direction.negative, callback=landed
-    )
+    event = heyoka.t_event_batch(height, direction=heyoka.event_direction.negative, callback=landed)
     integrator = heyoka.taylor_adaptive_batch(flow, numpy.ones((4, lanes)), t_events=[event])
 
     def run(hops):
@@ -159,9 +156,7 @@ def heyoka_flights():
     lanes = heyoka.recommended_simd_size()
     found = []
     event = heyoka.nt_event_batch(
-        height,
-        lambda integrator, at, sign, lane: found.append(at),
-        direction=heyoka.event_direction.negative,
+        height, lambda integrator, at, sign, lane: found.append(at), direction=heyoka.event_direction.negative
     )
     integrator = heyoka.taylor_adaptive_batch(flow, numpy.ones((4, lanes)), nt_events=[event])
 
@@ -171,9 +166,7 @@ def heyoka_flights():
             alphas = [alpha for _, alpha in hops[first : first + lanes]]
             begins = [later(0.0, alpha) for alpha in alphas]
             integrator.set_time(numpy.array(begins))
-            integrator.state[:] = numpy.array(
-                [start(0.0, alpha, begin) for alpha, begin in zip(alphas, begins)]
-            ).T
+            integrator.state[:] = numpy.array([start(0.0, alpha, begin) for alpha, begin in zip(alphas, begins)]).T
             ends = [2.0 * math.pi * (math.floor(alpha / math.pi) + 1.0) for alpha in alphas]
             integrator.propagate_until(numpy.array(ends))
         if len(found) < len(hops) - lanes:

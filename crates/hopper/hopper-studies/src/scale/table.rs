@@ -36,7 +36,8 @@ pub(crate) fn cost(rasters: &[Raster], growth: Option<f64>) -> String {
 /// What workers gain on the largest measured raster.
 pub(crate) fn one_raster(raster: &Raster) -> String {
     format!(
-        "The tiles of {0}² pixels, simulated:\n\n{1}\nMore than {2} workers have no tile. The longest tile takes {3:.0} ms, \
+        "The tiles of {0}² pixels, simulated:\n\n{1}\nMore than {2} workers have no tile. The longest tile takes \
+         {3:.0} ms, \
          and the start of a worker {START_UP} s: {0}² pixels are too few for a cluster.",
         raster.side,
         workers(&[("", &raster.tiles)]),
@@ -55,10 +56,14 @@ pub(crate) fn large(fitted: &Plan, growth: f64, none_shared: &Plan) -> String {
     let ((low, shortest, useful), (high, longest, _)) = (of(fitted), of(none_shared));
     let side = SIDE / WINDOWS;
     format!(
-        "{SIDE}² pixels are {} windows of {side}², with {} tiles and {:.2e} bytes of labels as `.npy`. From the largest size \
-         measured, a growth of {growth:.2} per doubling gives {low:.1} hours of CPU time, and a growth of 4 gives {high:.1} hours.\n\n\
-         {}\nThe longest tile takes {shortest:.2} s, or {longest:.2} s. Beyond {useful:.0} workers it takes longer than a worker's share of \
-         the work. The start of {START_UP} s decides earlier: a worker is lost for one tile in {LOST_ONE_IN}, so that each tile costs \
+        "{SIDE}² pixels are {} windows of {side}², with {} tiles and {:.2e} bytes of labels as `.npy`. From the \
+         largest size \
+         measured, a growth of {growth:.2} per doubling gives {low:.1} hours of CPU time, and a growth of 4 gives \
+         {high:.1} hours.\n\n\
+         {}\nThe longest tile takes {shortest:.2} s, or {longest:.2} s. Beyond {useful:.0} workers it takes longer \
+         than a worker's share of \
+         the work. The start of {START_UP} s decides earlier: a worker is lost for one tile in {LOST_ONE_IN}, so that \
+         each tile costs \
          {:.2} s of restarts on average, and tiles that take less are too small for such a cluster.",
         WINDOWS * WINDOWS,
         fitted.tiles.len(),
@@ -74,8 +79,10 @@ pub(crate) fn large(fitted: &Plan, growth: f64, none_shared: &Plan) -> String {
 /// The model of the simulation, in two sentences.
 pub(crate) fn model() -> String {
     format!(
-        "Every worker takes the next tile of one queue as soon as it is free, begins {START_UP} s after its start, and takes \
-         {SLOWER} times as long for one tile in {SLOW_ONE_IN}. One try in {LOST_ONE_IN} is lost at a random instant with its worker: \
+        "Every worker takes the next tile of one queue as soon as it is free, begins {START_UP} s after its start, and \
+         takes \
+         {SLOWER} times as long for one tile in {SLOW_ONE_IN}. One try in {LOST_ONE_IN} is lost at a random instant \
+         with its worker: \
          the tile goes to the end of the queue, and another worker starts."
     )
 }

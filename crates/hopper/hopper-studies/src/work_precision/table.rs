@@ -69,11 +69,13 @@ pub(crate) fn methods(scores: &[Score], unit: Duration) -> String {
         let name = score.method.name();
         format!("{name} | {time} | {units} | {median} | {worst} | {wrong} | {refused}")
     };
-    let columns = "on the paper's window | time a hop: | in `sin_cos`: | median error: | worst error: | wrong: | refused:";
+    let columns = "on the paper's window | time a hop: | in `sin_cos`: | median error: | worst error: | wrong: | \
+                   refused:";
     let window = scores.iter().filter(|s| s.class == "window" && shown(s.method));
     let mut out = markdown_table(columns, window.map(row));
     out.push_str(
-        "\nThe hard classes: the worst error, then, if any, the wrong decisions and the refused inputs. All methods, with \
+        "\nThe hard classes: the worst error, then, if any, the wrong decisions and the refused inputs. All methods, \
+         with \
          their times, are in [work_precision.csv](work_precision.csv).\n\n",
     );
     let mut classes: Vec<&str> = Vec::new();

@@ -58,7 +58,8 @@ impl Coverage {
             (tolerance * y.length() / rows as f64, FEWEST_NUMBERS * f64::EPSILON * y.right);
         if PixelShares::edges(y, rows).is_err() || open < least {
             let reason = format!(
-                "with {rows} rows, {} of a pixel is {}, and must be at least {}, where f64 has a thousand numbers; give fewer rows, a \
+                "with {rows} rows, {} of a pixel is {}, and must be at least {}, where f64 has a thousand numbers; \
+                 give fewer rows, a \
                  higher window, or a larger number in --coverage",
                 number(tolerance),
                 number(open),
@@ -130,7 +131,8 @@ fn ground(
 ) -> Result<Value, Error> {
     let found = CoverageSummary::new(raster, limits)?;
     call.note(&format!(
-        "undecided: {:.4} % of the area, at most {:.3} of a pixel; {} pixels above {}; {} of {} columns by laps, which miss no basin",
+        "undecided: {:.4} % of the area, at most {:.3} of a pixel; {} pixels above {}; {} of {} columns by laps, which \
+         miss no basin",
         100.0 * found.mean_undecided,
         found.most_undecided,
         found.above_tolerance,

@@ -78,7 +78,8 @@ impl JobFolder {
             return Err(Error::misuse(
                 "--join --out",
                 out.display(),
-                "this folder has no parts of a job; compute them before, such as --part 1/2 and --part 2/2, or give their folder",
+                "this folder has no parts of a job; compute them before, such as --part 1/2 and --part 2/2, or give \
+                 their folder",
             ));
         }
         make_folder(out)?;
@@ -100,7 +101,8 @@ impl JobFolder {
                 "--out",
                 out.display(),
                 &format!(
-                    "this folder has the results of another job or version: '{found}', and not '{wanted}'; give another folder, or \
+                    "this folder has the results of another job or version: '{found}', and not '{wanted}'; give \
+                     another folder, or \
                      add --force to replace them"
                 ),
             ),

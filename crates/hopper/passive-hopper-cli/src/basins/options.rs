@@ -102,7 +102,8 @@ fn mass_ratio(text: &str) -> Result<f64, String> {
 /// The help beside the options.
 pub(crate) const PAGE: Page = Page {
     units: "Speeds and distances in m₂gω/k.",
-    limits: "1 to 1048576 columns and rows, at most 2³⁴ pixels in all; with --about and --coverage 2²⁴ pixels, with --zoom 2 to 2048 a side.\n\
+    limits: "1 to 1048576 columns and rows, at most 2³⁴ pixels in all; with --about and --coverage 2²⁴ pixels, with \
+             --zoom 2 to 2048 a side.\n\
              Speeds from 0 to α*₆₅₀₀₀; mass ratios from 2⁻¹⁰²² to 2¹⁰²². 1000000 parts at most.\n\
              A call that is interrupted or killed keeps its finished pieces: the same call, given again, goes on.\n\
              A folder has the results of one job, which job.txt in it names.\n\

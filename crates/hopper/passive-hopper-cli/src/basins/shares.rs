@@ -76,7 +76,8 @@ pub(crate) fn run(
     let &Shares { n, grid, upwards, preimage } = shares;
     let edges = preimage.map(|near| followed(n, near, &grid)).transpose()?;
     let description = format!(
-        "shares about {n}, {upwards:?}, preimage {preimage:?}, M {:?} to {:?}, y {:?} to {:?}, {} × {} pixels; computation \
+        "shares about {n}, {upwards:?}, preimage {preimage:?}, M {:?} to {:?}, y {:?} to {:?}, {} × {} pixels; \
+         computation \
          {SHARE_VERSION}",
         grid.x.left, grid.x.right, grid.y.left, grid.y.right, grid.columns, grid.rows
     );
@@ -157,7 +158,8 @@ fn followed(
     let chart = chart("--preimage", near, EdgeChart::onto(&fates, n, speed))?;
     if chart.hops() == 0 {
         return Err(Error::Misuse(format!(
-            "--preimage {mass_ratio} {speed}: the speed is near α*_{n} itself; leave the option out, or give a speed near a \
+            "--preimage {mass_ratio} {speed}: the speed is near α*_{n} itself; leave the option out, or give a speed \
+             near a \
              preimage after at least one hop"
         )));
     }
@@ -166,7 +168,8 @@ fn followed(
     let edges = start.at_all(&mass_ratios)?;
     if edges.iter().all(Option::is_none) {
         return Err(Error::Misuse(format!(
-            "--preimage {mass_ratio} {speed}: the preimage near the speed {speed} at M = {mass_ratio} exists at no mass ratio of the raster, {} to {}; give \
+            "--preimage {mass_ratio} {speed}: the preimage near the speed {speed} at M = {mass_ratio} exists at no \
+             mass ratio of the raster, {} to {}; give \
              mass ratios nearer to {mass_ratio} in --mass-ratio",
             grid.x.left, grid.x.right
         )));
@@ -201,7 +204,8 @@ fn grid(
             "--pixels",
             format!("{columns} {rows}"),
             &format!(
-                "a raster of shares has at least one column and one row, and at most {MOST_PIXELS} pixels; give such numbers"
+                "a raster of shares has at least one column and one row, and at most {MOST_PIXELS} pixels; give such \
+                 numbers"
             ),
         ));
     }

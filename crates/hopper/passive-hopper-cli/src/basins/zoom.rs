@@ -76,7 +76,8 @@ pub(crate) fn run(
     let chart = chart(OPTION, [mass_ratio, speed], EdgeChart::near(&fates, speed))?;
     let edge = FollowedEdge::new(&chart)?;
     let description = format!(
-        "zoom, M {mass_ratio:?}, speed {speed:?}, {frames} frames, {step:?} decades a frame, {columns} × {rows} pixels; \
+        "zoom, M {mass_ratio:?}, speed {speed:?}, {frames} frames, {step:?} decades a frame, {columns} × {rows} \
+         pixels; \
          computation {SHARE_VERSION}, colours {FRAME_VERSION}"
     );
     let job =

@@ -29,8 +29,10 @@ pub(crate) const PAGE: Page = Page {
     units: "Speeds in m₂gω/k.",
     limits: "Speeds up to 8796093022208 = 2⁴³; mass ratios from 2⁻¹⁰²² to 2¹⁰²².\n\
              An orbit is followed for 1000000 hops; slow hops beside a fixed point are jumped over and cost one each.\n\
-             From M = 10⁵ on a speed may take a tenth of a second, and seconds at 10⁹: its hops lose little, and have hundreds of landings.\n\
-             Of the input, empty lines, lines that begin with # and a byte order mark are passed over. A line with anything but one speed ends\n\
+             From M = 10⁵ on a speed may take a tenth of a second, and seconds at 10⁹: its hops lose little, and have \
+             hundreds of landings.\n\
+             Of the input, empty lines, lines that begin with # and a byte order mark are passed over. A line with \
+             anything but one speed ends\n\
              the call with status 2 and the number of the line; the fates of the lines before it have been written.",
     tables: &[&FATES],
     examples: &[

@@ -47,10 +47,14 @@ const MOST_HUMPS: u64 = 64;
 pub(crate) const PAGE: Page = Page {
     units: "Speeds and lengths in m₂gω/k.",
     limits: "Fixed points 0 to 64; up to 10000000 intervals; samples up to 1000000 for each window.\n\
-             For M up to 0.83 (of many humps) or 0.905 (of few) the branches of the map are followed, which are proved to be all.\n\
-             Above, images of intervals are enclosed with rounding outwards, and hops are not counted; --shortest and --samples have no\n\
-             effect. The larger M is, the more stays undecided; above 50 the sudden windows do. The table `search` says which.\n\
-             The time grows with --samples times --to: 64 windows of a million samples take minutes. How long it has searched is\n\
+             For M up to 0.83 (of many humps) or 0.905 (of few) the branches of the map are followed, which are proved \
+             to be all.\n\
+             Above, images of intervals are enclosed with rounding outwards, and hops are not counted; --shortest and \
+             --samples have no\n\
+             effect. The larger M is, the more stays undecided; above 50 the sudden windows do. The table `search` \
+             says which.\n\
+             The time grows with --samples times --to: 64 windows of a million samples take minutes. How long it has \
+             searched is\n\
              shown on a terminal, elsewhere every 30 s. Ctrl-C ends the call, and the same call begins anew.",
     tables: &[&FRACTIONS, &SEARCH, &INTERVALS],
     examples: &[

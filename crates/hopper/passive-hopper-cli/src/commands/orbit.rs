@@ -64,15 +64,21 @@ const PRINT_SCALE: f64 = 2.5;
 pub(crate) const PAGE: Page = Page {
     units: "Speeds in m₂gω/k, times in 1/ω, lengths in m₂g/k, energies in m₁m₂g²/k; ω² = k(1+M)/m₂.",
     limits: "Speeds up to 8796093022208 = 2⁴³; mass ratios from 2⁻¹⁰²² to 2¹⁰²²; up to 1000000 hops.\n\
-             The first 20000 hops have errors of flight_time and energy_loss. A hop whose speed is a fixed point within its error has\n\
+             The first 20000 hops have errors of flight_time and energy_loss. A hop whose speed is a fixed point \
+             within its error has\n\
              none: on both sides of it the time changes by the cube root of the error, some 1e-5.\n\
-             The orbit ends early if the hopper is grounded, or at a hop that is not decided: f64 leaves some open, and 106 to\n\
+             The orbit ends early if the hopper is grounded, or at a hop that is not decided: f64 leaves some open, \
+             and 106 to\n\
              1024 bits have time for the first 2048 to 64 hops. A note says so.\n\
-             A picture of an orbit whose fate is known at once shows 3 hops. A cobweb shows up to 200 humps of the map, a motion\n\
+             A picture of an orbit whose fate is known at once shows 3 hops. A cobweb shows up to 200 humps of the \
+             map, a motion\n\
              has up to 1000000 samples, an animation up to 1200 frames, which is a minute.\n\
-             The columns of --motion FILE.csv: time, hop, phase (flight or contact), upper_position y₁, upper_velocity ẏ₁,\n\
-             lower_position y₂, lower_velocity ẏ₂, and the errors of these numbers. At a landing there are two lines: before the collision and\n\
-             after it. A time that is not that of an event is exact, and the errors of the others hold at the time that is printed.",
+             The columns of --motion FILE.csv: time, hop, phase (flight or contact), upper_position y₁, upper_velocity \
+             ẏ₁,\n\
+             lower_position y₂, lower_velocity ẏ₂, and the errors of these numbers. At a landing there are two lines: \
+             before the collision and\n\
+             after it. A time that is not that of an event is exact, and the errors of the others hold at the time \
+             that is printed.",
     tables: &[&ORBIT, &fate::FATES],
     examples: &[
         Example { about: "The orbit, hop by hop.", line: "hopper orbit 7.0 -M 0.2" },

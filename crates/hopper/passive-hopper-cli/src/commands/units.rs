@@ -36,10 +36,13 @@ pub(crate) struct Options {
 
 /// The help beside the options.
 pub(crate) const PAGE: Page = Page {
-    units: "Masses in kg, g, mg, t; stiffness in N/m, mN/m, kN/m, N/cm, N/mm, kg/s²; acceleration in m/s², cm/s², N/kg;\n\
-            lengths in m, km, cm, mm, µm; times in s, ms, µs; speeds in m/s, cm/s, mm/s, km/s, km/h; energies in J, mJ, µJ, kJ.\n\
+    units: "Masses in kg, g, mg, t; stiffness in N/m, mN/m, kN/m, N/cm, N/mm, kg/s²; acceleration in m/s², cm/s², \
+            N/kg;\n\
+            lengths in m, km, cm, mm, µm; times in s, ms, µs; speeds in m/s, cm/s, mm/s, km/s, km/h; energies in J, \
+            mJ, µJ, kJ.\n\
             A unit follows its number, with or without a space: 80g, '80 g'. s2 and s^2 are the same as s², u as µ.",
-    limits: "Masses, stiffness and gravity are positive. The mass ratio M = m₂/m₁ is from 2⁻¹⁰²² to 2¹⁰²², and the units that\n\
+    limits: "Masses, stiffness and gravity are positive. The mass ratio M = m₂/m₁ is from 2⁻¹⁰²² to 2¹⁰²², and the \
+             units that\n\
              result are ordinary numbers of f64.",
     tables: &[&UNITS, &VALUES],
     examples: &[

@@ -35,7 +35,8 @@ pub(crate) fn filter(
 ) -> Result<(), Error> {
     if streams.input_is_terminal {
         return Err(Error::Misuse(
-            "SPEED: no speed is given, and standard input is a terminal; give speeds, or a file: hopper fate -M 0.2 < FILE"
+            "SPEED: no speed is given, and standard input is a terminal; give speeds, or a file: hopper fate -M 0.2 < \
+             FILE"
                 .into(),
         ));
     }
