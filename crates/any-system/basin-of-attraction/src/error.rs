@@ -19,8 +19,7 @@ pub enum Error {
     },
     /// Two traps have a point in common.
     #[error(
-        "the traps [{first_left}, {first_right}] and [{second_left}, {second_right}] have a point in common: \
-         traps must be disjoint"
+        "the traps [{first_left}, {first_right}] and [{second_left}, {second_right}] have a point in common: give disjoint ones"
     )]
     OverlappingTraps {
         /// Left end of the first.
@@ -35,8 +34,7 @@ pub enum Error {
     /// An interval that orbits leave, given as a trap.
     #[error(
         "[{left}, {right}] is no trap: the map takes its point {at} to {image:?} (`None`: the orbit ends there, and \
-         others \
-         do not). Give an interval whose image lies in it, or one on which the map has no value"
+         others do not). Give an interval whose image lies in it, or one on which the map has no value"
     )]
     NotATrap {
         /// Left end.
@@ -51,8 +49,7 @@ pub enum Error {
     /// A point that the branches do not know.
     #[error(
         "the map has the value {value} at {at}, and the branches do not take it there, or take it at another point as \
-         well: \
-         a branch is missing. Search with more samples, or divide the window at the turning points"
+         well: a branch is missing. Search with more samples, or divide the window at the turning points"
     )]
     BranchMissed {
         /// The point.
@@ -62,9 +59,8 @@ pub enum Error {
     },
     /// Limits of a refinement that are negative or NaN.
     #[error(
-        "a refinement to an undecided length of {undecided} and intervals of {shortest}: both must be 0 or larger, and \
-         the \
-         shortest interval finite"
+        "a refinement to an undecided length of {undecided} and intervals of {shortest}: both must be 0 or larger, \
+         and the shortest interval finite"
     )]
     BadRefinement {
         /// The undecided length.
@@ -75,8 +71,7 @@ pub enum Error {
     /// A raster without pixels, or with more than the largest number of pixels.
     #[error(
         "a raster of {columns} × {rows} pixels: it must have between 1 and 2³⁴ pixels, and two across and up if the \
-         ends of \
-         its ranges are to be pixels"
+         ends of its ranges are to be pixels"
     )]
     BadRaster {
         /// Number of columns.
@@ -87,8 +82,7 @@ pub enum Error {
     /// Pixels of a line that have no length in `f64`, or too many of them.
     #[error(
         "{pixels} pixels from {left} to {right}: there must be between 1 and 2²⁶, and different `f64` at their ends; \
-         take fewer \
-         pixels, or a wider window"
+         take fewer pixels, or a wider window"
     )]
     BadPixels {
         /// Number of pixels.
@@ -178,8 +172,7 @@ pub enum Error {
     /// Points that lie in no box.
     #[error(
         "{bad} of {points} points, counted from {left}, lie in no box, because their distance is no finite number: \
-         leave \
-         these points out, and count them apart"
+         leave these points out, and count them apart"
     )]
     BadPoints {
         /// Points without a finite distance from `left`.
@@ -197,9 +190,8 @@ pub enum Error {
     },
     /// A grid of state space that has no cells, or too many to number.
     #[error(
-        "{cells} cells along each of {dimension} sides: there must be at least 1 cell, at most {most} sides, and fewer \
-         than 2⁶⁴ \
-         cells in all"
+        "{cells} cells along each of {dimension} sides: there must be at least 1 cell, at most {most} sides, and \
+         fewer than 2⁶⁴ cells in all"
     )]
     BadStateGrid {
         /// Cells along a side.
@@ -219,8 +211,7 @@ pub enum Error {
     },
     /// More attractors than labels.
     #[error(
-        "more than {most} attractors: the cells are finer than the attractors, so that parts of one count apart; take \
-         fewer cells"
+        "more than {most} attractors: the cells are finer than the attractors, so that parts of one count apart; take fewer"
     )]
     TooManyAttractors {
         /// The largest number.
@@ -232,8 +223,7 @@ pub enum Error {
     /// So many pairs have an undecided point that their number decides the exponent.
     #[error(
         "{open} pairs have an undecided point, and {uncertain} pairs are uncertain: an exponent needs ten times more \
-         uncertain \
-         pairs than open ones. Raise the budget of the labelling"
+         uncertain pairs than open ones. Raise the budget of the labelling"
     )]
     TooManyOpenPairs {
         /// Pairs with an undecided point.
@@ -244,8 +234,7 @@ pub enum Error {
     /// So few uncertain pairs, or all of them at one distance, that they give no bound on the exponent.
     #[error(
         "{uncertain} uncertain pairs give no bound on the exponent: at least {fewest} are needed, at two distances or \
-         more; \
-         take more pairs, or larger distances"
+         more; take more pairs, or larger distances"
     )]
     TooFewUncertainPairs {
         /// Uncertain pairs.
@@ -255,9 +244,8 @@ pub enum Error {
     },
     /// Points to which no power law can be fitted.
     #[error(
-        "a power law cannot be fitted to these {points} points: at least 3 are needed, with different positive scales, \
-         and \
-         finite values that are not negative"
+        "a power law cannot be fitted to these {points} points: at least 3 are needed, with different positive \
+         scales, and finite values that are not negative"
     )]
     BadFit {
         /// Points given.
@@ -265,8 +253,7 @@ pub enum Error {
     },
     /// Replicates of a measurement with different scales.
     #[error(
-        "replicate {replicate}, counted from 0, has other scales than replicate 0: measure every replicate at the same \
-         scales"
+        "replicate {replicate}, counted from 0, has other scales than replicate 0: measure all at the same scales"
     )]
     UnlikeReplicates {
         /// The first replicate with other scales.
@@ -291,8 +278,7 @@ pub enum Error {
     /// Random balls that do not fit into the region, or have too few points.
     #[error(
         "balls of radius {radius} with {points} points: the radius must be positive and below half of the shortest \
-         side, \
-         {narrowest}; there must be at least 2 points"
+         side, {narrowest}; there must be at least 2 points"
     )]
     BadBalls {
         /// The radius given.
@@ -304,8 +290,7 @@ pub enum Error {
     },
     /// Too few random balls on a boundary.
     #[error(
-        "{mixed} of {balls} random balls have more than one basin: at least {fewest} are needed; take more balls, or \
-         larger ones"
+        "{mixed} of {balls} random balls have more than one basin: at least {fewest} are needed; take more or larger ones"
     )]
     TooFewMixedBalls {
         /// Balls with more than one basin.
@@ -352,10 +337,8 @@ pub enum Error {
     /// Limits with which a curve of parameters cannot be divided.
     #[error(
         "{first_steps} first steps, halved until fractions differ by {difference} or by {relative} of their value, \
-         down to steps of \
-         {shortest}, with {budget} parameters: there must be a first step, the differences and the shortest step must \
-         be positive \
-         (the relative one may be 0), and the budget at least {fewest}"
+         down to steps of {shortest}, with {budget} parameters: there must be a first step, the differences and the \
+         shortest step must be positive (the relative one may be 0), and the budget at least {fewest}"
     )]
     BadCurveLimits {
         /// First steps of every part.
@@ -374,8 +357,7 @@ pub enum Error {
     /// Basins in different windows, or in windows of length 0.
     #[error(
         "basins in [{left}, {right}] and in [{other_left}, {other_right}]: both must have the same window, of a \
-         positive length; cut \
-         them with `within`"
+         positive length; cut them with `within`"
     )]
     OtherWindow {
         /// Left end of the first window.

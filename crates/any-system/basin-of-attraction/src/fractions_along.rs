@@ -2,8 +2,7 @@
 //!
 //! The curve is divided at the parameters that the caller knows to be special, and each part into equal steps of a
 //! largest length. A step whose ends have too different fractions is halved, the worst one first. Where halving does
-//! not help, the reason is reported: at a jump of the fractions the step becomes as short as allowed, with ranges that
-//! exclude each other.
+//! not help, the reason is reported: at a jump of the fractions the step becomes as short as allowed.
 
 use crate::attractor_match::match_attractors;
 use crate::error::Error;
@@ -45,8 +44,7 @@ pub struct CurveLimits {
 }
 
 impl Default for CurveLimits {
-    /// Sixteen first steps, halved until every fraction changes by at most 0.02, down to 10⁻⁶, with at most a thousand
-    /// parameters, matched by label.
+    /// Sixteen first steps, halved until every fraction changes by at most 0.02, down to 10⁻⁶, with at most 1000 parameters.
     ///
     /// A curve is then drawn to a hundredth of its height. Smaller differences take more parameters, in proportion.
     fn default() -> Self {
@@ -64,8 +62,7 @@ impl Default for CurveLimits {
 /// Why a step with too different fractions was not halved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UnresolvedReason {
-    /// The step is the shortest allowed one, and the ranges exclude each other: the fractions jump, or have a kink
-    /// there.
+    /// The step is the shortest allowed one, and the ranges exclude each other: the fractions jump, or have a kink.
     Jump,
     /// The ranges at both ends have numbers in common: better fractions would be needed to see a change.
     Uncertain,
@@ -90,8 +87,7 @@ pub struct UnresolvedStep {
     pub reason: UnresolvedReason,
 }
 
-/// An attractor that matches none at the next parameter, or none at the one before. Only [`Matching::Nearest`] reports
-/// these.
+/// An attractor that matches none at the next parameter, or none at the one before, by [`Matching::Nearest`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UnmatchedAttractor {
     /// The parameter before.

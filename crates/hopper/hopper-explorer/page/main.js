@@ -29,22 +29,15 @@ const LATE = 150;
 const EDGE_HEIGHT = 1e-8;
 
 // A host that does not know the type of the file is no reason to stop.
-const module = WebAssembly.compileStreaming(fetch("core.wasm")).catch(async () =>
-  WebAssembly.compile(await (await fetch("core.wasm")).arrayBuffer()),
-);
+const module = WebAssembly.compileStreaming(fetch("core.wasm")).catch(async () => WebAssembly.compile(await (await fetch("core.wasm")).arrayBuffer()));
 const workers = Math.max((navigator.hardwareConcurrency || 2) - 1, 1);
 const pool = new Pool(module, Math.min(workers, 16)).warm();
-const desk = new Pool(module, 1); // panels
-const well = new Pool(module, 1); // the deep view and slow panels
-const legend = await module
-  .then((found) => WebAssembly.instantiate(found, {}))
-  .then(
-    (instance) => new Core(instance).legend(),
-    (error) => {
-      say(`The core cannot be loaded: ${error.message}. The page needs a web server and a browser of 2023 or newer.`);
-      throw error;
-    },
-  );
+const desk = new Pool(module, 1);  // panels
+const well = new Pool(module, 1);  // the deep view and slow panels
+const legend = await module.then((found) => WebAssembly.instantiate(found, {})).then((instance) => new Core(instance).legend(), (error) => {
+  say(`The core cannot be loaded: ${error.message}. The page needs a web server and a browser of 2023 or newer.`);
+  throw error;
+});
 layers.push(...legend.layers);
 document.getElementById("layer").replaceChildren(...layers.map(({ name }, k) => new Option(name, k)));
 const canvas = document.getElementById("canvas");
@@ -65,10 +58,7 @@ const pointAt = (where) => at(state.view, where.left, where.top, plane.box);
 
 function zoom(where, factorX, factorAlpha) {
   plane.focus = null;
-  if (state.depth) {
-    if (deep.zoom(factorAlpha === 1 ? factorX : factorAlpha)) leaveDepth();
-    return;
-  }
+  if (state.depth) { if (deep.zoom(factorAlpha === 1 ? factorX : factorAlpha)) leaveDepth(); return; }
   const focus = pointAt(where);
   plane.focus = focus;
   const next = zoomed(state.view, focus, factorX, factorAlpha);
@@ -88,9 +78,7 @@ function lookForEdge(focus) {
       const about = await well.ask("openDepth", toM(view, focus.x), focus.alpha);
       if (state.view !== view || Math.abs(about.alpha - focus.alpha) > height) return;
       await deep.open(about.massRatio, about.alpha, -Math.log10(height / 2));
-    } catch (error) {
-      say(`The zoom ends where doubles do: ${error.message}`);
-    }
+    } catch (error) { say(`The zoom ends where doubles do: ${error.message}`); }
   }, 150);
 }
 
@@ -98,31 +86,20 @@ let wish = 0; // counts the deep views that were asked for, and given up before 
 async function openDepth(m, alpha, depth) {
   const mine = ++wish;
   say("Looking for the edge …");
-  try {
-    await deep.open(m, alpha, depth, () => mine === wish);
-  } catch (error) {
-    say(error.message);
-  }
+  try { await deep.open(m, alpha, depth, () => mine === wish); } catch (error) { say(error.message); }
 }
 
 function deepHere() {
   if (state.depth) return leaveDepth();
   const focus = state.pin ?? { m: toM(state.view, pointAt(centre()).x), alpha: pointAt(centre()).alpha };
-  openDepth(
-    focus.m,
-    focus.alpha,
-    Math.max(-Math.log10((state.view.alpha[1] - state.view.alpha[0]) / 2), SHALLOWEST + 0.5),
-  );
+  openDepth(focus.m, focus.alpha, Math.max(-Math.log10((state.view.alpha[1] - state.view.alpha[0]) / 2), SHALLOWEST + 0.5));
 }
 
 function leaveDepth() {
   const { about, depth } = state.depth;
   const half = 10 ** -Math.min(Math.max(depth, 2), 7);
   const x = [about.massRatio - half, about.massRatio + half];
-  const view = withLogarithm(
-    { logarithmic: false, x, alpha: [about.alpha - half, about.alpha + half] },
-    state.view.logarithmic,
-  );
+  const view = withLogarithm({ logarithmic: false, x, alpha: [about.alpha - half, about.alpha + half] }, state.view.logarithmic);
   change({ depth: null, view });
 }
 
@@ -137,14 +114,9 @@ async function showPoint() {
     return;
   }
   busy = true;
-  try {
-    await showPointNow(++round);
-  } finally {
+  try { await showPointNow(++round); } finally {
     busy = false;
-    if (again) {
-      again = false;
-      showPoint();
-    }
+    if (again) { again = false; showPoint(); }
   }
 }
 
@@ -168,29 +140,19 @@ async function showPointNow(mine) {
   } catch (error) {
     say(error.message);
     return empty(error.message);
-  } finally {
-    clearTimeout(late);
-  }
+  } finally { clearTimeout(late); }
   if (again && !isHeld()) return; // another point is pinned
   const { point: found, window, map, motion } = answer;
   [shown, shownWindow] = [found, window];
   showFate(found);
   showOrbit(found);
-  if (map.refused) hideMap(`No map: ${map.refused}.`);
-  else showMap(map, found, window);
+  if (map.refused) hideMap(`No map: ${map.refused}.`); else showMap(map, found, window);
   showMotion(motion.refused ? null : motion);
   if (motion.refused) say(`No motion: ${motion.refused}.`);
   await measure();
   canvas.dispatchEvent(new CustomEvent("panels", { detail: found }));
   const isWanted = () => mine === round && shown === found;
-  desk.ask("proof", m, alpha).then(
-    (proof) => {
-      if (isWanted()) showProof(found, proof);
-    },
-    (error) => {
-      if (isWanted()) byId("proof").textContent = `No proof: ${error.message}.`;
-    },
-  );
+  desk.ask("proof", m, alpha).then((proof) => { if (isWanted()) showProof(found, proof); }, (error) => { if (isWanted()) byId("proof").textContent = `No proof: ${error.message}.`; });
   slowPanels(isWanted, m, state.depth?.about.n ?? Math.max(found.trap?.n ?? 1, found.below, 1));
 }
 let shownWindow = null;
@@ -213,9 +175,7 @@ function slowPanels(isWanted, m, n) {
     try {
       const found = await well.ask(id, m, ...question);
       if (isWanted()) box.innerHTML = show(found);
-    } catch (error) {
-      if (isWanted()) box.textContent = error.message;
-    }
+    } catch (error) { if (isWanted()) box.textContent = error.message; }
   };
   fill("circle", (found) => showCircle(found, colorOf), chosen ?? n);
   fill("intervals", (found) => showIntervals(found, m, colorOf), 1, Math.min(Math.max(n, 5) + 1, 12));
@@ -223,36 +183,22 @@ function slowPanels(isWanted, m, n) {
 
 function showSame() {
   const box = byId("same").querySelector("div");
-  box.replaceChildren(
-    ...Object.entries(snippets()).flatMap(([name, code]) => {
-      const [title, text, copy] = ["p", "pre", "button"].map((tag) => document.createElement(tag));
-      title.textContent = name;
-      text.textContent = code;
-      copy.textContent = "Copy";
-      copy.onclick = () =>
-        navigator.clipboard.writeText(code).then(
-          () => say("Copied."),
-          () => say("The browser does not allow copying; mark the text."),
-        );
-      return [title, text, copy];
-    }),
-  );
+  box.replaceChildren(...Object.entries(snippets()).flatMap(([name, code]) => {
+    const [title, text, copy] = ["p", "pre", "button"].map((tag) => document.createElement(tag));
+    title.textContent = name;
+    text.textContent = code;
+    copy.textContent = "Copy";
+    copy.onclick = () => navigator.clipboard.writeText(code).then(() => say("Copied."), () => say("The browser does not allow copying; mark the text."));
+    return [title, text, copy];
+  }));
 }
 
 function showLegend() {
-  const swatch = ({ color, name }) =>
-    `<span><i class="swatch" style="background:${color}"></i>${pretty(name.split(":")[0])}</span>`;
-  const {
-    kind,
-    scale,
-    color,
-    legend: words,
-  } = state.depth ? layers.find((layer) => layer.kind === "shares") : layers[state.layer];
-  byId("legend").innerHTML =
-    kind === "numbers"
-      ? `<span class="scale">0 <span style="background:linear-gradient(90deg,${scale.map((step) => step.color).join(",")})"></span> ${scale.at(-1).value} ${words}</span>`
-      : legend.fates.map(swatch).join("") +
-        (kind === "shares" ? `<span>${words}</span>` : color ? swatch({ color, name: words }) : "");
+  const swatch = ({ color, name }) => `<span><i class="swatch" style="background:${color}"></i>${pretty(name.split(":")[0])}</span>`;
+  const { kind, scale, color, legend: words } = state.depth ? layers.find((layer) => layer.kind === "shares") : layers[state.layer];
+  byId("legend").innerHTML = kind === "numbers"
+    ? `<span class="scale">0 <span style="background:linear-gradient(90deg,${scale.map((step) => step.color).join(",")})"></span> ${scale.at(-1).value} ${words}</span>`
+    : legend.fates.map(swatch).join("") + (kind === "shares" ? `<span>${words}</span>` : color ? swatch({ color, name: words }) : "");
 }
 
 // The tour.
@@ -262,39 +208,31 @@ function goTo(next) {
   stop = next;
   wish += 1;
   byId("stop").hidden = stop < 0 || stop >= tour.length;
-  if (byId("stop").hidden) {
-    stop = -1;
-    return;
-  }
+  if (byId("stop").hidden) { stop = -1; return; }
   const { title, text, fields, open, depth } = tour[stop];
   byId("stop").innerHTML = `<h2>${stop + 1} of ${tour.length}. ${title}</h2><p>${text}</p><div class="row">
     <button data-go="-1"${stop === 0 ? " disabled" : ""}>Previous</button><button data-go="1">${stop === tour.length - 1 ? "End" : "Next"}</button><button data-go="end">Close</button></div>`;
-  byId("stop")
-    .querySelectorAll("[data-go]")
-    .forEach((button) => {
-      button.onclick = () => goTo(button.dataset.go === "end" ? -1 : stop + Number(button.dataset.go));
-    });
+  byId("stop").querySelectorAll("[data-go]").forEach((button) => {
+    button.onclick = () => goTo(button.dataset.go === "end" ? -1 : stop + Number(button.dataset.go));
+  });
   if (open) byId(open).open = true;
   change({ ...fields });
   if (depth) openDepth(depth.m, depth.alpha, depth.depth);
 }
 
-const saveDialog = () =>
-  dialogs.save([
-    ["PNG", async (wait) => files.download(await files.png(plane, deep, wait), "hopper.png")],
-    ["SVG", async (wait) => files.download(await files.svg(plane, deep, wait), "hopper.svg")],
-    ["CSV", async () => files.download(await files.csv(pool, desk, deep), "hopper.csv")],
-    ["the orbit as CSV", async () => files.download(files.orbitCsv(shown, deep), "hopper-orbit.csv")],
-    ["the map as SVG", async () => savePanel("map")],
-    ["the motion as SVG", async () => savePanel("stage")],
-  ]);
+const saveDialog = () => dialogs.save([
+  ["PNG", async (wait) => files.download(await files.png(plane, deep, wait), "hopper.png")],
+  ["SVG", async (wait) => files.download(await files.svg(plane, deep, wait), "hopper.svg")],
+  ["CSV", async () => files.download(await files.csv(pool, desk, deep), "hopper.csv")],
+  ["the orbit as CSV", async () => files.download(files.orbitCsv(shown, deep), "hopper-orbit.csv")],
+  ["the map as SVG", async () => savePanel("map")],
+  ["the motion as SVG", async () => savePanel("stage")],
+]);
 function savePanel(id) {
   const drawing = byId(id).querySelector("svg");
   if (!drawing) throw new Error("pin a point first");
   const style = getComputedStyle(document.documentElement);
-  const colored = drawing.outerHTML
-    .replace(/var\((--\w+)\)/g, (_, name) => style.getPropertyValue(name))
-    .replace("<svg ", `<svg color="#000" `)
+  const colored = drawing.outerHTML.replace(/var\((--\w+)\)/g, (_, name) => style.getPropertyValue(name)).replace("<svg ", `<svg color="#000" `)
     .replace("</title>", `</title><desc>${files.parameters(deep)}</desc>`);
   files.download(new Blob([colored], { type: "image/svg+xml" }), `hopper-${id}.svg`);
 }
@@ -304,16 +242,10 @@ const pan = (x, alpha) => {
   if (state.depth) return say("The deep view keeps the boundary point in its middle. Esc leaves it.");
   change({ view: moved(view, x * (view.x[1] - view.x[0]), alpha * (view.alpha[1] - view.alpha[0])) });
 };
-const goHome = () => {
-  wish += 1;
-  change({ view: withLogarithm(home, state.view.logarithmic), depth: null });
-};
+const goHome = () => { wish += 1; change({ view: withLogarithm(home, state.view.logarithmic), depth: null }); };
 const setLayer = (layer) => () => change({ layer });
 const setLogarithmic = (logarithmic) => change({ view: withLogarithm(state.view, logarithmic) });
-const pinCentre = () => {
-  const { x, alpha } = pointAt(centre());
-  change({ pin: { m: toM(state.view, x), alpha } });
-};
+const pinCentre = () => { const { x, alpha } = pointAt(centre()); change({ pin: { m: toM(state.view, x), alpha } }); };
 const scale = (x, alpha) => () => zoom(centre(), x, alpha);
 
 gestures(canvas, {
@@ -329,13 +261,7 @@ gestures(canvas, {
   box: (from, to, done, large) => {
     plane.draw();
     if (state.depth) return;
-    if (!done)
-      return plane.context.strokeRect(
-        MARGIN.left + from.left,
-        MARGIN.top + from.top,
-        to.left - from.left,
-        to.top - from.top,
-      );
+    if (!done) return plane.context.strokeRect(MARGIN.left + from.left, MARGIN.top + from.top, to.left - from.left, to.top - from.top);
     if (!large) return;
     const [a, b] = [pointAt(from), pointAt(to)];
     const sorted = (one, other) => [Math.min(one, other), Math.max(one, other)];
@@ -354,43 +280,18 @@ async function hover(where) {
   try {
     const { fate, hops } = await desk.ask("point", m, alpha, 0);
     say(`M = ${show(m, 8)}, α = ${show(alpha, 10)}: ${pretty(fate.name)} after ${hops} hops`);
-  } catch (error) {
-    say(error.message);
-  }
+  } catch (error) { say(error.message); }
   hovering = false;
 }
 
 keys({
-  ArrowLeft: () => pan(-0.1, 0),
-  ArrowRight: () => pan(0.1, 0),
-  ArrowUp: () => pan(0, 0.1),
-  ArrowDown: () => pan(0, -0.1),
-  "+": scale(1 / 1.5, 1 / 1.5),
-  "=": scale(1 / 1.5, 1 / 1.5),
-  "-": scale(1.5, 1.5),
-  "−": scale(1.5, 1.5),
-  X: scale(1 / 1.5, 1),
-  x: scale(1.5, 1),
-  A: scale(1, 1 / 1.5),
-  a: scale(1, 1.5),
-  Enter: pinCentre,
-  h: goHome,
-  l: () => setLogarithmic(!state.view.logarithmic),
-  ...Object.fromEntries(layers.map((_, k) => [k + 1, setLayer(k)])),
-  d: deepHere,
-  t: () => goTo(0),
-  n: () => stop >= 0 && goTo(stop + 1),
-  p: () => stop > 0 && goTo(stop - 1),
-  Escape: () => {
-    if (state.depth) leaveDepth();
-    goTo(-1);
-  },
-  " ": () => play(),
-  ",": () => step(-1),
-  ".": () => step(1),
-  s: saveDialog,
-  c: dialogs.share,
-  "?": dialogs.help,
+  ArrowLeft: () => pan(-0.1, 0), ArrowRight: () => pan(0.1, 0), ArrowUp: () => pan(0, 0.1), ArrowDown: () => pan(0, -0.1),
+  "+": scale(1 / 1.5, 1 / 1.5), "=": scale(1 / 1.5, 1 / 1.5), "-": scale(1.5, 1.5), "−": scale(1.5, 1.5),
+  X: scale(1 / 1.5, 1), x: scale(1.5, 1), A: scale(1, 1 / 1.5), a: scale(1, 1.5),
+  Enter: pinCentre, h: goHome, l: () => setLogarithmic(!state.view.logarithmic), ...Object.fromEntries(layers.map((_, k) => [k + 1, setLayer(k)])),
+  d: deepHere, t: () => goTo(0), n: () => stop >= 0 && goTo(stop + 1), p: () => stop > 0 && goTo(stop - 1),
+  Escape: () => { if (state.depth) leaveDepth(); goTo(-1); },
+  " ": () => play(), ",": () => step(-1), ".": () => step(1), s: saveDialog, c: dialogs.share, "?": dialogs.help,
 });
 byId("home").onclick = goHome;
 byId("deep").onclick = deepHere;
@@ -400,29 +301,21 @@ byId("save").onclick = saveDialog;
 byId("help").onclick = dialogs.help;
 byId("layer").onchange = ({ target }) => change({ layer: Number(target.value) });
 byId("logarithmic").onchange = ({ target }) => setLogarithmic(target.checked);
-["circle", "intervals", "same"].forEach((id) =>
-  byId(id).addEventListener("toggle", () => (id === "same" ? showSame() : showPoint())),
-);
+["circle", "intervals", "same"].forEach((id) => byId(id).addEventListener("toggle", () => (id === "same" ? showSame() : showPoint())));
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => plane.refresh());
 
 listen((names) => {
   const has = (...some) => some.some((name) => names.has(name));
   if (has("view", "layer", "depth", "pin")) {
     plane.overlay = state.depth ? deep : null;
-    if (state.depth) {
-      say(deep.words());
-      deep.request();
-    }
+    if (state.depth) { say(deep.words()); deep.request(); }
     plane.refresh();
     keep();
   }
   if (has("layer", "depth")) showLegend();
   if (has("view")) {
     const { view } = state;
-    if (!state.depth)
-      say(
-        `M from ${show(toM(view, view.x[0]), 8)} to ${show(toM(view, view.x[1]), 8)}, α from ${show(view.alpha[0], 10)} to ${show(view.alpha[1], 10)}`,
-      );
+    if (!state.depth) say(`M from ${show(toM(view, view.x[0]), 8)} to ${show(toM(view, view.x[1]), 8)}, α from ${show(view.alpha[0], 10)} to ${show(view.alpha[1], 10)}`);
   }
   byId("layer").value = state.layer;
   byId("logarithmic").checked = state.view.logarithmic;
@@ -438,15 +331,13 @@ function follow(hash) {
   const { depth, ...rest } = fields;
   change({ view: home, layer: 0, pin: null, depth: null, ...rest });
   if (depth) openDepth(depth.m, depth.alpha, depth.depth);
-  if (wrong.length > 0)
-    queueMicrotask(() => say(`A part of the address makes no sense and is left out: ${wrong.join(", ")}`));
+  if (wrong.length > 0) queueMicrotask(() => say(`A part of the address makes no sense and is left out: ${wrong.join(", ")}`));
 }
 startMotion(desk);
 showLegend();
 follow(location.hash);
 addEventListener("hashchange", () => follow(location.hash));
-if (location.protocol !== "file:" && "serviceWorker" in navigator)
-  navigator.serviceWorker.register("sw.js").catch(() => say("Offline use is not possible here."));
+if (location.protocol !== "file:" && "serviceWorker" in navigator) navigator.serviceWorker.register("sw.js").catch(() => say("Offline use is not possible here."));
 
 // For tests.
 window.explorer = { state, pool, desk, plane, deep, change, parse, stateAt, files, snippets };

@@ -148,64 +148,42 @@ impl<M, S, X, F, P> Model<M, S, X, Integrated<F>, P> {
     }
 }
 
+/// The three directions of a guard whose surface is the number of guards that were added before.
+macro_rules! numbered_guards {
+    ($($(#[$about:meta])* $direction:ident;)*) => {$(
+        $(#[$about])*
+        ///
+        /// The reset gives the next mode and state. The surface is the number of guards that were added before.
+        pub fn $direction<G, R, J>(
+            self,
+            mode: M,
+            guard: G,
+            reset: R,
+        ) -> Model<M, usize, X, F, (Jump<M, usize, G, R>, P)>
+        where
+            G: Fn(&X) -> f64,
+            R: Fn(&X) -> J,
+            J: Outcome<M, X>,
+        {
+            let surface = self.guards.next_index();
+            self.guard(mode, Guard::$direction(surface), guard, reset)
+        }
+    )*};
+}
+
 // Each part of a model has a type of its own.
 #[allow(clippy::type_complexity)]
 impl<M, X, F, P> Model<M, usize, X, F, P>
 where
     M: Copy + Eq,
 {
-    /// Adds a guard of `mode`: an event when g(x) goes from negative to positive. The reset gives the next mode and state.
-    ///
-    /// The surface is the number of guards that were added before.
-    pub fn rising<G, R, J>(
-        self,
-        mode: M,
-        guard: G,
-        reset: R,
-    ) -> Model<M, usize, X, F, (Jump<M, usize, G, R>, P)>
-    where
-        G: Fn(&X) -> f64,
-        R: Fn(&X) -> J,
-        J: Outcome<M, X>,
-    {
-        let surface = self.guards.next_index();
-        self.guard(mode, Guard::rising(surface), guard, reset)
-    }
-
-    /// Adds a guard of `mode`: an event when g(x) goes from positive to negative.
-    ///
-    /// The surface is the number of guards that were added before.
-    pub fn falling<G, R, J>(
-        self,
-        mode: M,
-        guard: G,
-        reset: R,
-    ) -> Model<M, usize, X, F, (Jump<M, usize, G, R>, P)>
-    where
-        G: Fn(&X) -> f64,
-        R: Fn(&X) -> J,
-        J: Outcome<M, X>,
-    {
-        let surface = self.guards.next_index();
-        self.guard(mode, Guard::falling(surface), guard, reset)
-    }
-
-    /// Adds a guard of `mode`: an event at every change of sign of g(x).
-    ///
-    /// The surface is the number of guards that were added before.
-    pub fn either<G, R, J>(
-        self,
-        mode: M,
-        guard: G,
-        reset: R,
-    ) -> Model<M, usize, X, F, (Jump<M, usize, G, R>, P)>
-    where
-        G: Fn(&X) -> f64,
-        R: Fn(&X) -> J,
-        J: Outcome<M, X>,
-    {
-        let surface = self.guards.next_index();
-        self.guard(mode, Guard::either(surface), guard, reset)
+    numbered_guards! {
+        /// Adds a guard of `mode`: an event when g(x) goes from negative to positive.
+        rising;
+        /// Adds a guard of `mode`: an event when g(x) goes from positive to negative.
+        falling;
+        /// Adds a guard of `mode`: an event at every change of sign of g(x).
+        either;
     }
 }
 
