@@ -13,20 +13,12 @@ def field(mode, y):
     return [y[1], y[2] - load - y[0] - damping * y[1], filling * (flow_rate - y[0] * np.sqrt(y[2]))]
 
 
-seat = Guard(
-    "seat",
-    lambda y: y[0],
-    "falling",
-    role="contact",
-    modes=["open"],
-    reset=lambda mode, y: (mode, [0, -restitution * y[1], y[2]]),
-)
-release = Guard(
-    "release", lambda y: y[2] - load, "rising", modes=["closed"], reset=lambda mode, y: ("open", [0, 0, load])
-)
-valve = HybridSystem(
-    field=field, guards=[seat, release], rest=lambda mode, y: ("closed", [0, 0, y[2]]) if y[2] < load else None
-)
+bounce = lambda mode, y: (mode, [0, -restitution * y[1], y[2]])
+let_go = lambda mode, y: ("open", [0, 0, load])
+rest = lambda mode, y: ("closed", [0, 0, y[2]]) if y[2] < load else None
+seat = Guard("seat", lambda y: y[0], "falling", role="contact", modes=["open"], reset=bounce)
+release = Guard("release", lambda y: y[2] - load, "rising", modes=["closed"], reset=let_go)
+valve = HybridSystem(field=field, guards=[seat, release], rest=rest)
 found = valve.run([0.2, 0, load], mode="open", time=60).trajectory(np.linspace(40, 60, 4000))
 late = found["times"] >= 40
 figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
