@@ -3,7 +3,8 @@
 Let every interval [l, r] of a list have a fate, n (convergence to alpha*_n) or "grounded", and suppose that
 
     1. each speed of it leads into an interval of the same fate, or to the ground if that is its fate, at every mass
-    ratio; 2. it contains no alpha*_m but for l = alpha*_m, m its fate (alpha*_0 = 0).
+       ratio;
+    2. it contains no alpha*_m but for l = alpha*_m, m its fate (alpha*_0 = 0).
 
 Then each speed has the fate of its interval. Its orbit does not increase, and is grounded or converges from above to
 some alpha*_m (docs/theory.md, Theorem 24). It stays in the intervals of one fate. They are closed and finitely many, so

@@ -1,7 +1,7 @@
 """On the right of alpha*_n the map stays above it, from the equations of the first flight alone.
 
-There the landing is a triple root in the limit, which signs do not enclose, and the loss is of the order (alpha -
-a)^(4/3), a = alpha*_n. So the time of flight is taken as the parameter, tau = 2a + t. A lift-off at alpha lands when
+There the landing is a triple root in the limit, which signs do not enclose, and the loss is of the order
+(alpha - a)^(4/3), a = alpha*_n. So the time of flight is taken as the parameter, tau = 2a + t. A lift-off at alpha lands when
 tau^2/2 - 1 + cos tau = alpha Q with Q = tau - sin tau. Let N = tau^2/2 - 1 + cos tau - a Q, so that alpha - a = N/Q. As
 tan a = a, N and its first two derivatives vanish at t = 0, and its third derivative is sin t + a cos t. With E_k = sum
 over j of (-1)^j t^(2j) / (2j+k)! this gives
@@ -10,8 +10,8 @@ over j of (-1)^j t^(2j) / (2j+k)! this gives
 
 without cancellation. The closing speed is tau - sin tau - alpha (1 - cos tau) = N' - (alpha - a) (1 - cos tau). On the
 contact part of hump n the first landing is the only one of the hop, and alpha rises with tau (docs/theory.md, Theorems
-7 and 8). So f(alpha) > a if and only if mu times the closing speed squared is below alpha^2 - a^2. With P = (a E_3 + t
-E_4)/Q, alpha - a = t^3 P, this reads
+7 and 8). So f(alpha) > a if and only if mu times the closing speed squared is below alpha^2 - a^2. With
+P = (a E_3 + t E_4)/Q, alpha - a = t^3 P, this reads
 
     mu t (a E_2 + t E_3 - t P (1 - cos tau))^2 < P (2a + t^3 P)
 

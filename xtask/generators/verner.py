@@ -43,8 +43,9 @@ OUT = ROOT / "target" / "regenerate"
 # with the weights), the file.
 PAIRS = (("9(8)", 9, 8, 5, "nine.in"), ("6(5)", 6, 6, 8, "six.in"))
 HEADER = """\
-// J. H. Verner's "efficient" pair of orders {orders}: {stages} stages, and {more} more for its interpolant of order
-{inside}. //
+// J. H. Verner's "efficient" pair of orders {orders}: {stages} stages, and {more} more for its interpolant \
+of order {inside}.
+//
 // Made by `xtask/generators/verner.py` (`cargo xtask regenerate --only verner`); not edited by hand.
 Scheme {{
 """

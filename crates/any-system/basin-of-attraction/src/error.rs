@@ -211,7 +211,8 @@ pub enum Error {
     },
     /// More attractors than labels.
     #[error(
-        "more than {most} attractors: the cells are finer than the attractors, so that parts of one count apart; take fewer"
+        "more than {most} attractors: the cells are finer than the attractors, so that parts of one count apart; take \
+         fewer cells"
     )]
     TooManyAttractors {
         /// The largest number.

@@ -10,14 +10,17 @@
 //! ```
 //!
 //! The exponent is the slope of the line through (ln scale, ln mean value) with weights that fall to 0 at both ends of
-//! the range: an oscillation then has little effect on it. Its interval adds independent errors, h² = (t s)² + (√2 d)²:
+//! the range: an oscillation then has little effect on it. Its interval adds, as independent errors:
+//!
+//! h² = (t s)² + (√2 d)², in which
 //!
 //! - t s is Student's interval over replicates. A replicate v_j enters by its effect on the slope, Σ c_j v_j/m_j, where
 //!   m_j is the mean at scale j. Values of one replicate may be correlated as they like, and may be 0.
 //! - d is the largest difference between the slopes of five halves of the range, from the coarse half to the fine half.
 //!
 //! Why d bounds oscillation: over half the range the slope is wrong by more than over all of it, and the five halves
-//! see different phases. With few scales some are missed: 4 of 5574 intervals, of random sets with 8 to 40 scales.
+//! see different phases. Few scales sample an oscillation coarsely: 4 of 5574 intervals, for random sets, ranges and 8
+//! to 40 scales, missed the exponent.
 //!
 //! Why √2 d bounds drift: let the distance of the slope from its limit at least halve over half the range, so that it
 //! falls by a factor ρ ≤ 1/√2 over a quarter. The coarse, the middle and the fine half are wrong by δ/ρ, δ and δρ, and
@@ -124,7 +127,8 @@ pub fn power_law<R: AsRef<[(f64, f64)]>>(replicates: &[R]) -> Result<PowerLaw, E
 }
 
 /// A smaller change of the slope is no drift: the interval contains it. A smaller number would refuse exact data for an
-/// oscillation of a Cantor set over few scales, whose slopes differ by 0.02. A larger one gives wide intervals, no reason.
+/// oscillation of a Cantor set over few scales, whose slopes differ by 0.02. A larger one gives wide intervals
+/// instead of a reason.
 const STEADY: f64 = 0.05;
 
 /// With fewer scales a half of the range has fewer than four, and its slope depends on two of them.
@@ -140,7 +144,8 @@ const FEWEST_DECADES: f64 = 3.0;
 /// The number of decades may be too small by rounding, some ulps of it.
 const ROUNDING_OF_DECADES: f64 = 1e-9;
 
-/// Student's quantile for fewer replicates is above 3, and the spread of so few is too uncertain.
+/// Student's quantile for fewer replicates is above 3, and the spread of so few is too uncertain to weigh
+/// the scales with.
 const FEWEST_REPLICATES: usize = 5;
 
 /// Halves of the range whose slopes are compared. With three, the phases of an oscillation could agree.
@@ -231,7 +236,8 @@ impl Measured {
     ///
     /// The weight of a scale is sin² of its place in the window, over the variance of its height. sin² and its slope
     /// vanish at the ends: an oscillation with m periods in the window changes the slope by 1/m³ of its amplitude, not
-    /// by 1/m as with equal weights. A variance from few replicates may be small by chance, so that their median is added.
+    /// by 1/m as with equal weights. A variance from few replicates may be small by chance, so that the median of
+    /// those above 0 is added.
     fn slope(&self, (start, end): (f64, f64)) -> Slope {
         let mut variances: Vec<f64> =
             self.variances.iter().copied().filter(|variance| *variance > 0.0).collect();

@@ -46,7 +46,7 @@ fn turn(psi: &FatouCoordinate, n: u64, scale: f64, count: usize) -> Vec<(f64, Ph
     (0..count).map(speed).collect()
 }
 
-/// 3000 phases for each circle, 1000 at each of three scales. The fates are those of the exact orbits.
+/// 900 phases for each circle, 300 at each of three scales. The fates are those of the exact orbits.
 #[test]
 fn the_label_of_a_phase_is_the_fate_at_every_scale() {
     for (n, mass_ratio, _) in MEASURED {
