@@ -211,8 +211,7 @@ pub enum Error {
     },
     /// More attractors than labels.
     #[error(
-        "more than {most} attractors: the cells are finer than the attractors, so that parts of one count apart; take \
-         fewer cells"
+        "more than {most} attractors: parts of one count apart where cells are finer than it; take fewer cells"
     )]
     TooManyAttractors {
         /// The largest number.

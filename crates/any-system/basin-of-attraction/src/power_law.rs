@@ -19,8 +19,7 @@
 //! - d is the largest difference between the slopes of five halves of the range, from the coarse half to the fine half.
 //!
 //! Why d bounds oscillation: over half the range the slope is wrong by more than over all of it, and the five halves
-//! see different phases. Few scales sample an oscillation coarsely: 4 of 5574 intervals, for random sets, ranges and 8
-//! to 40 scales, missed the exponent.
+//! see different phases. Few scales sample this coarsely: 4 of 5574 intervals (random sets, 8 to 40 scales) missed it.
 //!
 //! Why √2 d bounds drift: let the distance of the slope from its limit at least halve over half the range, so that it
 //! falls by a factor ρ ≤ 1/√2 over a quarter. The coarse, the middle and the fine half are wrong by δ/ρ, δ and δρ, and
@@ -127,8 +126,7 @@ pub fn power_law<R: AsRef<[(f64, f64)]>>(replicates: &[R]) -> Result<PowerLaw, E
 }
 
 /// A smaller change of the slope is no drift: the interval contains it. A smaller number would refuse exact data for an
-/// oscillation of a Cantor set over few scales, whose slopes differ by 0.02. A larger one gives wide intervals
-/// instead of a reason.
+/// oscillation of a Cantor set over few scales, whose slopes differ by 0.02. A larger one: wide intervals, no reason.
 const STEADY: f64 = 0.05;
 
 /// With fewer scales a half of the range has fewer than four, and its slope depends on two of them.
@@ -144,8 +142,7 @@ const FEWEST_DECADES: f64 = 3.0;
 /// The number of decades may be too small by rounding, some ulps of it.
 const ROUNDING_OF_DECADES: f64 = 1e-9;
 
-/// Student's quantile for fewer replicates is above 3, and the spread of so few is too uncertain to weigh
-/// the scales with.
+/// Student's quantile for fewer replicates is above 3, and the spread of so few cannot weigh scales.
 const FEWEST_REPLICATES: usize = 5;
 
 /// Halves of the range whose slopes are compared. With three, the phases of an oscillation could agree.
