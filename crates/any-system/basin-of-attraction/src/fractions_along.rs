@@ -2,7 +2,7 @@
 //!
 //! The curve is divided at the parameters that the caller knows to be special, and each part into equal steps of a
 //! largest length. A step whose ends have too different fractions is halved, the worst one first. Where halving does
-//! not help, the reason is reported: at a jump of the fractions the step becomes as short as allowed.
+//! not help, the reason is reported: at a jump of the fractions the step becomes as short as allowed, its ranges apart.
 
 use crate::attractor_match::match_attractors;
 use crate::error::Error;
@@ -44,7 +44,7 @@ pub struct CurveLimits {
 }
 
 impl Default for CurveLimits {
-    /// Sixteen first steps, halved until every fraction changes by at most 0.02, down to 10⁻⁶, with at most 1000 parameters.
+    /// Sixteen steps, halved until fractions change by at most 0.02, to 10⁻⁶; 1000 parameters at most; matched by label.
     ///
     /// A curve is then drawn to a hundredth of its height. Smaller differences take more parameters, in proportion.
     fn default() -> Self {
