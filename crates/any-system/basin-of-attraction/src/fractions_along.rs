@@ -44,7 +44,7 @@ pub struct CurveLimits {
 }
 
 impl Default for CurveLimits {
-    /// Sixteen steps, halved until fractions change by at most 0.02, to 10⁻⁶; 1000 parameters at most; matched by label.
+    /// Sixteen steps, halved until fractions change by at most 0.02, to 10⁻⁶; up to 1000 parameters; matched by label.
     ///
     /// A curve is then drawn to a hundredth of its height. Smaller differences take more parameters, in proportion.
     fn default() -> Self {
