@@ -126,7 +126,7 @@ pub fn power_law<R: AsRef<[(f64, f64)]>>(replicates: &[R]) -> Result<PowerLaw, E
 }
 
 /// A smaller change of the slope is no drift: the interval contains it. A smaller number would refuse exact data for an
-/// oscillation of a Cantor set over few scales, whose slopes differ by 0.02. A larger one: wide intervals, no reason.
+/// oscillation of a Cantor set over few scales (0.02). A larger one would give wide intervals instead of a reason.
 const STEADY: f64 = 0.05;
 
 /// With fewer scales a half of the range has fewer than four, and its slope depends on two of them.
@@ -142,7 +142,7 @@ const FEWEST_DECADES: f64 = 3.0;
 /// The number of decades may be too small by rounding, some ulps of it.
 const ROUNDING_OF_DECADES: f64 = 1e-9;
 
-/// Student's quantile for fewer replicates is above 3, and the spread of so few cannot weigh scales.
+/// Student's quantile for fewer replicates is above 3, and the spread of so few is too uncertain to weigh scales.
 const FEWEST_REPLICATES: usize = 5;
 
 /// Halves of the range whose slopes are compared. With three, the phases of an oscillation could agree.

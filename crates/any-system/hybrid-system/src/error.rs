@@ -48,8 +48,7 @@ pub enum Error {
     /// A guard must be sampled, because the model gives no bounds on it, and there is no sampling interval.
     #[error(
         "guard {surface} has neither bounds nor a solution: set a sampling interval in the limits of the execution, or \
-         by \
-         `sampled` for `Model::run`"
+         by `sampled` for `Model::run`"
     )]
     NoSamplingInterval {
         /// Name of the guard's surface.
@@ -79,8 +78,7 @@ pub enum Error {
     /// A guard under bounds starts at zero, and rounding hides to which side it leaves.
     #[error(
         "rounding hides to which side the guard leaves its zero at the start: derivative {order} is {value}; move the \
-         state \
-         off the surface in the reset, or decide in `HybridSystem::leaving_side`",
+         state off the surface in the reset, or decide in `HybridSystem::leaving_side`",
         value = Number(*.value)
     )]
     UndecidedSign {
@@ -122,8 +120,7 @@ pub enum Error {
     /// Too many events in a row without time passing.
     #[error(
         "{events} events in a row at time {time}, and the resets lead back to each other: {cycle}. Let a reset move \
-         the \
-         state away from the surface, or declare a guard that only watches an observer",
+         the state away from the surface, or declare a guard that only watches an observer",
         time = Number(*.time)
     )]
     TimelessChain {
@@ -199,8 +196,7 @@ pub enum Error {
     /// Two surfaces are reached at one instant: there is no derivative.
     #[error(
         "no sensitivity at time {time}: the surface {surface} is reached at the same instant as another one, and \
-         nearby \
-         orbits reach them in either order. Take the derivative from another start",
+         nearby orbits reach them in either order. Take the derivative from another start",
         time = Number(*.time)
     )]
     CornerSensitivity {
@@ -286,8 +282,7 @@ pub enum Error {
     /// The budgets of an execution end before its search for the next event makes any progress.
     #[error(
         "a budget of {intervals} intervals and {steps} steps ends before the search up to {horizon} makes progress: \
-         set \
-         larger budgets, or a shorter horizon",
+         set larger budgets, or a shorter horizon",
         horizon = Number(*.horizon)
     )]
     BudgetTooSmall {

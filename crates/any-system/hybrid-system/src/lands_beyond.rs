@@ -7,10 +7,8 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
     "{place} guard {surface} of mode {mode}, at time {time}, with the value {value} and a rounding of {rounding}: \
-     declare \
-     the guard a `contact` if it holds, so that the event happens at once, or a `crossing` if it is an event only \
-     where \
-     the flow crosses it",
+     declare the guard a `contact` if it holds, so that the event happens at once, or a `crossing` if it is an event \
+     only where the flow crosses it",
     place = if *.on_surface { "a jump leads through" } else { "a jump leads beyond" },
     time = Number(*.time), value = Number(*.value), rounding = Number(*.rounding)
 )]

@@ -8,8 +8,7 @@ create_exception!(
     UndecidedError,
     PyArithmeticError,
     "What happens cannot be decided: a hop with 1024 bits (sudden or not, on which branch, or grounded or not), or an \
-     event of a \
-     hybrid system that rounding hides."
+     event of a hybrid system that rounding hides."
 );
 
 /// A ValueError with the message of a library's error, which has the numbers in it.

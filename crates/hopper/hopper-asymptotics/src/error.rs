@@ -26,8 +26,7 @@ pub enum Error {
     /// An offset that is not a finite number, or has an exponent of ten beyond ±10 000.
     #[error(
         "the offset {text}: the mantissa must be a number and the exponent of ten between −10000 and 10000; give a \
-         deeper \
-         point by its phase"
+         deeper point by its phase"
     )]
     Offset {
         /// The given offset.

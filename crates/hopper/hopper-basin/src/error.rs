@@ -180,8 +180,7 @@ pub enum Error {
     /// Limits with which no pixel can be covered.
     #[error(
         "a coverage to a tolerance of {tolerance} from {samples} samples in a pixel: give a tolerance above 0 and \
-         below 1, such as \
-         0.004, and at least one sample"
+         below 1, such as 0.004, and at least one sample"
     )]
     CoverageLimits {
         /// The share of a pixel that may stay undecided.

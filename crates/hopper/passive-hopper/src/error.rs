@@ -104,8 +104,7 @@ pub enum Error {
     /// As [`Undecided`](Self::Undecided), for one flight from a given state on the ground.
     #[error(
         "the landing after a lift-off at stretch 1 + {excess:?} with velocity {velocity:?} cannot be decided with 1024 \
-         bits: \
-         it is nearly a touch without speed, or lands nearly at stretch 1"
+         bits: it is nearly a touch without speed, or lands nearly at stretch 1"
     )]
     UndecidedLanding {
         /// Stretch minus one at the start of the flight.

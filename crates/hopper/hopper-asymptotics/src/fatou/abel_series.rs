@@ -16,6 +16,7 @@ use crate::fatou::local_hop_model::{LocalHopModel, Side};
 use crate::fatou::offset::Offset;
 use crate::fatou::polynomial::ORDER;
 use crate::fatou::taylor_model::Model;
+use crate::local_map::LEFT_FACTOR;
 use passive_hopper::MassRatio;
 
 /// Number of terms d_k: the equation has coefficients up to `ORDER` − 2, and the first two vanish by A and c.
@@ -75,7 +76,7 @@ fn leading(local: &Coefficients, side: Side) -> (f64, f64, f64) {
     let share = beta / (lambda * a);
     let [left, right] = LARGEST_WIDTHS;
     let (drift, logarithm, largest) = match side {
-        Side::Left => (local.left_drift(), -2.0 - 0.3 * share, left),
+        Side::Left => (local.left_drift(), -2.0 - 3.0 / LEFT_FACTOR * share, left),
         Side::Right => (lambda / 3.0, 2.0 + 3.0 * share, right),
     };
     (drift, logarithm, (beta * NEAREST_TURN / drift).min(largest))

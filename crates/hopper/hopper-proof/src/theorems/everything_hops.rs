@@ -30,12 +30,10 @@ pub fn everything_hops() -> Result<Theorem, Error> {
         "everything-hops",
         format!(
             "For every M ≤ M_c(1), a number in [{}, {}], and every α ≥ α*_1: f(α) ≥ α*_1. So every such orbit \
-             converges to a fixed point α*_n, n ≥ 1: the \
-             hopper hops for ever (docs/theory.md, Theorems 24 and 29). On the contact part of hump 1 this is Theorem \
-             29. On a contact part f falls with \
-             μ (Theorem 4), so that μ_c(1) is the worst. A window rises (Theorems 48 and 81) from the end of the \
-             contact part below it. From 9π on the bound on \
-             the loss of a hop suffices (Lemma 32): R/α and B/α fall with α.",
+             converges to a fixed point α*_n, n ≥ 1: the hopper hops for ever (docs/theory.md, Theorems 24 and 29). On \
+             the contact part of hump 1 this is Theorem 29. On a contact part f falls with μ (Theorem 4), so that \
+             μ_c(1) is the worst. A window rises (Theorems 48 and 81) from the end of the contact part below it. From \
+             9π on the bound on the loss of a hop suffices (Lemma 32): R/α and B/α fall with α.",
             crisis.low, crisis.high
         ),
     );

@@ -19,9 +19,8 @@ pub fn one_sided(humps: u64) -> Result<Theorem, Error> {
     let mut theorem = Theorem::new(
         "one-sided",
         "For every n ≥ 1 and every M > 0, α*_n attracts an interval on its right, and every orbit from a speed in \
-         [α*_{n−1}, α*_n) stays below \
-         α*_n and does not converge to it (docs/theory.md, Corollary 9, Theorems 24 and 29, Corollary 30). The \
-         intervals below hold for all M.",
+         [α*_{n−1}, α*_n) stays below α*_n and does not converge to it (docs/theory.md, Corollary 9, Theorems 24 and \
+         29, Corollary 30). The intervals below hold for all M.",
     );
     // The largest μ of all is that of M = 1, and a trap of it is one for every μ.
     let strip = Strip::at(1.0)?;

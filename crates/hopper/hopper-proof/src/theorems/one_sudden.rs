@@ -6,13 +6,18 @@ use crate::theorems::digits::at_least;
 use crate::theorems::theorem::Theorem;
 use interval_arithmetic::Enclosure;
 
+/// M₁ from α*_1².
+fn largest_mass_ratio(square: Enclosure) -> Enclosure {
+    (square - Enclosure::ONE) / (square + Enclosure::ONE)
+}
+
 /// For M ≤ M₁ = (α*_1² − 1)/(α*_1² + 1) no hop has two sudden lift-offs.
 ///
 /// The proof is that of docs/theory.md, Theorem 20. It needs two inequalities between numbers, which are the steps.
 pub fn one_sudden() -> Theorem {
     let a = fixed_point(1);
     let square = a.squared();
-    let largest = (square - Enclosure::ONE) / (square + Enclosure::ONE);
+    let largest = largest_mass_ratio(square);
     let mut theorem = Theorem::new(
         "one-sudden",
         format!(
@@ -43,4 +48,18 @@ pub fn one_sudden() -> Theorem {
         needed: needed.low,
     });
     theorem
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hopper_basin::ONE_SUDDEN;
+
+    /// The constant that the libraries use is the number that is proved.
+    #[test]
+    fn the_constant_is_in_the_enclosure() {
+        let proved = largest_mass_ratio(fixed_point(1).squared());
+        assert!(proved.low <= ONE_SUDDEN && ONE_SUDDEN <= proved.high, "{ONE_SUDDEN} {proved:?}");
+        assert!(proved.high - proved.low < 1e-14, "{proved:?}");
+    }
 }

@@ -24,8 +24,7 @@ pub fn rising(windows: &[(u64, f64)]) -> Result<Theorem, Error> {
     let mut theorem = Theorem::new(
         "rising",
         "f rises on window n, from nπ to α*_n, for all M up to the mass ratio below: F has a positive derivative \
-         (docs/theory.md, Theorem 81 next to \
-         α*_n, and by enclosures of the derivative elsewhere).",
+         (docs/theory.md, Theorem 81 next to α*_n, and by enclosures of the derivative elsewhere).",
     );
     for &(n, heaviest) in windows {
         if !(heaviest <= 1.0) {

@@ -18,10 +18,8 @@ pub fn trap_edges(humps: u64, count: usize) -> Result<Theorem, Error> {
     let mut theorem = Theorem::new(
         "traps",
         "At each M with a crossing, f maps [α*_n, α*_n + Δ_n] into itself, every orbit in it converges to α*_n, and f \
-         is below α*_n just beyond. A \
-         shorter interval is a trap for all smaller μ = M/(1+M)², so for M and 1/M alike. Without a crossing the trap \
-         is the contact part \
-         (docs/theory.md, Theorem 29).",
+         is below α*_n just beyond. A shorter interval is a trap for all smaller μ = M/(1+M)², so for M and 1/M alike. \
+         Without a crossing the trap is the contact part (docs/theory.md, Theorem 29).",
     );
     for n in 1..=humps {
         let crisis = ProvedCrisis::new(n)?.mass_ratio().high;

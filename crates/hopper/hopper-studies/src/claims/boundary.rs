@@ -193,8 +193,7 @@ pub(super) fn accumulation(map: &impl Map, points: &[Vec<f64>; 2]) -> Result<Evi
         .ours(format!(
             "the boundary at $M$ = {M} accumulates at fixed points from the left and at their preimages: clusters of \
              boundary points at the scales 10^{{−4}} … 10^{{−7}} number {} on hump 1 (towards $α$^{{∗}}_{{2}}, order \
-             1) \
-             and {} on hump 2 (preimages of $α$^{{∗}}_{{2}}, which accumulate at $α$^{{∗}}_{{3}}, order 2)",
+             1) and {} on hump 2 (preimages of $α$^{{∗}}_{{2}}, which accumulate at $α$^{{∗}}_{{3}}, order 2)",
             list(&first),
             list(&second)
         ))

@@ -169,8 +169,7 @@ pub(super) fn invariance(
         ))
         .error(format!(
             "largest difference of $α$′^{{2}}: printed {:.1e} (1 + $α$^{{2}}), {:.0} % of the rounding bound; \
-             integrated \
-             {:.1e} (1 + $α$^{{2}}), {:.1} % of the bound from the tolerance",
+             integrated {:.1e} (1 + $α$^{{2}}), {:.1} % of the bound from the tolerance",
             printed.largest,
             100.0 * printed.of_bound,
             integrated.largest,
@@ -220,8 +219,7 @@ pub(super) fn stable_form(map: &impl Map, pairs: u64) -> Result<Evidence, Error>
         )
         .error(format!(
             "largest difference of $α$′^{{2}} in {} pairs: {:.1e} (1 + $α$^{{2}}), {:.0} % of the rounding of 1/$M$, \
-             of \
-             both $μ$ and of both $α$′^{{2}}",
+             of both $μ$ and of both $α$′^{{2}}",
             found.pairs,
             found.largest,
             100.0 * found.of_bound

@@ -123,8 +123,7 @@ pub(super) fn one_way(map: &impl Map) -> Result<Evidence, Error> {
         .error(format!("{} wrong of {}", 2 * all - right_attracts - left_repels, 2 * all))
         .how(format!(
             "{DISTANCES} distances from min(0.3 $λ$^{{−3}}, 10^{{−3}}) down, each half of the last; $n$ = 1, 2, 3, 10, \
-             {} \
-             mass ratios",
+             {} mass ratios",
             RATIOS.len()
         ))
         .holds(right_attracts == all && left_repels == all))
@@ -176,8 +175,7 @@ pub(super) fn exponents(map: &impl Map, left_factor: f64) -> Result<Evidence, Er
     Ok(Evidence::about("$f$ ≈ $α$ − $λ$($α$ − $α$^{∗})^{4/3}; the left side is not described")
         .ours(format!(
             "4/3 on both sides; the left loses {mean:.4} times as much in the mean of {} cases; by theory \
-             {left_factor}, \
-             as its second landing is three times as fast",
+             {left_factor}, as its second landing is three times as fast",
             measured.len()
         ))
         .error(format!("exponent {exponent:.1e}; factor {left_factor} (1 ± {factor:.1e})"))

@@ -102,8 +102,7 @@ pub(super) fn edges(
         ))
         .error(format!(
             "root against the printed map {:.1e} relative, {:.0} % of the rounding bound; $λ$^{{−3}} printed {:.0} % \
-             of \
-             $Δ$, corrected {:.0} %",
+             of $Δ$, corrected {:.0} %",
             largest(errors),
             100.0 * bound,
             100.0 * from_printed,

@@ -80,10 +80,8 @@ pub(crate) fn large(fitted: &Plan, growth: f64, none_shared: &Plan) -> String {
 pub(crate) fn model() -> String {
     format!(
         "Every worker takes the next tile of one queue as soon as it is free, begins {START_UP} s after its start, and \
-         takes \
-         {SLOWER} times as long for one tile in {SLOW_ONE_IN}. One try in {LOST_ONE_IN} is lost at a random instant \
-         with its worker: \
-         the tile goes to the end of the queue, and another worker starts."
+         takes {SLOWER} times as long for one tile in {SLOW_ONE_IN}. One try in {LOST_ONE_IN} is lost at a random \
+         instant with its worker: the tile goes to the end of the queue, and another worker starts."
     )
 }
 

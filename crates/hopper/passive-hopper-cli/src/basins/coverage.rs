@@ -59,8 +59,7 @@ impl Coverage {
         if PixelShares::edges(y, rows).is_err() || open < least {
             let reason = format!(
                 "with {rows} rows, {} of a pixel is {}, and must be at least {}, where f64 has a thousand numbers; \
-                 give fewer rows, a \
-                 higher window, or a larger number in --coverage",
+                 give fewer rows, a higher window, or a larger number in --coverage",
                 number(tolerance),
                 number(open),
                 number(least)

@@ -102,8 +102,7 @@ impl JobFolder {
                 out.display(),
                 &format!(
                     "this folder has the results of another job or version: '{found}', and not '{wanted}'; give \
-                     another folder, or \
-                     add --force to replace them"
+                     another folder, or add --force to replace them"
                 ),
             ),
             resumable_job::Error::UnknownJob { path } => Error::misuse(

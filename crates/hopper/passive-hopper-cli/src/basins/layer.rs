@@ -228,7 +228,10 @@ mod tests {
         files.dedup();
         assert_eq!((all, files.len()), (5 * stored_layers().count(), all));
         for own in stored_layers() {
-            assert!(tables::of_layer(own.layer.key).is_some(), "{} has no table", own.layer.key);
+            let key = own.layer.key;
+            let table = tables::of_layer(key).unwrap_or_else(|| panic!("{key} has no table"));
+            let shown = tables::ALL.iter().filter(|kind| std::ptr::eq(**kind, table)).count();
+            assert_eq!(shown, 1, "the table of {key} is not in the help");
         }
     }
 

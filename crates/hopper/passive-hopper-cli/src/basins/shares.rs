@@ -77,8 +77,7 @@ pub(crate) fn run(
     let edges = preimage.map(|near| followed(n, near, &grid)).transpose()?;
     let description = format!(
         "shares about {n}, {upwards:?}, preimage {preimage:?}, M {:?} to {:?}, y {:?} to {:?}, {} × {} pixels; \
-         computation \
-         {SHARE_VERSION}",
+         computation {SHARE_VERSION}",
         grid.x.left, grid.x.right, grid.y.left, grid.y.right, grid.columns, grid.rows
     );
     let job = JobFolder::open(place, description, &[PICTURE_FILE, LEGEND, RESULTS.digests])?;
@@ -159,8 +158,7 @@ fn followed(
     if chart.hops() == 0 {
         return Err(Error::Misuse(format!(
             "--preimage {mass_ratio} {speed}: the speed is near α*_{n} itself; leave the option out, or give a speed \
-             near a \
-             preimage after at least one hop"
+             near a preimage after at least one hop"
         )));
     }
     let start = FollowedEdge::new(&chart)?;
@@ -169,8 +167,7 @@ fn followed(
     if edges.iter().all(Option::is_none) {
         return Err(Error::Misuse(format!(
             "--preimage {mass_ratio} {speed}: the preimage near the speed {speed} at M = {mass_ratio} exists at no \
-             mass ratio of the raster, {} to {}; give \
-             mass ratios nearer to {mass_ratio} in --mass-ratio",
+             mass ratio of the raster, {} to {}; give mass ratios nearer to {mass_ratio} in --mass-ratio",
             grid.x.left, grid.x.right
         )));
     }

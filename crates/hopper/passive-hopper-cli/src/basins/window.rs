@@ -86,8 +86,7 @@ pub(crate) fn range(option: &str, values: &[f64]) -> Result<Interval, Error> {
         "the second number must be larger than the first; give the smaller one first"
     } else if !(to - from > NARROWEST * to.abs()) {
         "the numbers differ by less than 1e-12 of the second, so that neighbouring pixels would be one point; give a \
-         wider \
-         range"
+         wider range"
     } else {
         return Ok(Interval::new(from, to)?);
     };

@@ -77,8 +77,7 @@ pub(crate) fn run(
     let edge = FollowedEdge::new(&chart)?;
     let description = format!(
         "zoom, M {mass_ratio:?}, speed {speed:?}, {frames} frames, {step:?} decades a frame, {columns} × {rows} \
-         pixels; \
-         computation {SHARE_VERSION}, colours {FRAME_VERSION}"
+         pixels; computation {SHARE_VERSION}, colours {FRAME_VERSION}"
     );
     let job =
         JobFolder::open(place, description, &[OVERVIEW, ANIMATION, SUMMARY, RESULTS.digests])?;
