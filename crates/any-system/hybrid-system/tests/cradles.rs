@@ -64,7 +64,7 @@ fn energy(mode: u8, x: &State<{ 2 * BALLS }>) -> f64 {
 
 /// Without optimization one gap of so many is tried, in one scene of so many. These scenes have all masses, origins,
 /// restitutions and ways. Gaps that once went wrong are tried in every scene.
-const FEWER: [usize; 2] = if cfg!(debug_assertions) { [11, 5] } else { [1, 1] };
+const FEWER: [usize; 2] = if cfg!(debug_assertions) { [22, 10] } else { [1, 1] };
 
 /// The exponents of the gaps of a scene, from `last` to `first`, and those `known` to have gone wrong.
 fn exponents(scene: usize, (first, last): (i32, i32), known: [i32; 2]) -> Vec<i32> {

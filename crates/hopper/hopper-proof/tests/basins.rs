@@ -128,7 +128,10 @@ fn fractions_lie_between_their_bounds() {
 /// equally spaced speeds; also where hops have several sudden lift-offs, and where F is not continuous.
 #[test]
 fn bounds_of_fractions_agree_with_each_other_and_with_fates() {
-    for (ratio, widths) in [(0.1, [1e-3, 1e-7]), (0.5, [1e-2, 1e-5]), (1.0, [1e-2, 1e-4])] {
+    // Without optimization M = 1 is left out, which takes half of the time.
+    let ratios = if cfg!(debug_assertions) { 2 } else { 3 };
+    let all = [(0.1, [1e-3, 1e-7]), (0.5, [1e-2, 1e-5]), (1.0, [1e-2, 1e-4])];
+    for (ratio, widths) in all.into_iter().take(ratios) {
         let found = widths.map(|width| ProvedFractions::new(ratio, width).unwrap());
         let fates = Fates::new(MassRatio::new(ratio).unwrap()).unwrap();
         let window = first_humps(5);

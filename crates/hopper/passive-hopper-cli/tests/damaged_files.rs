@@ -8,7 +8,7 @@ use super::basin_calls::{Files, Folder, Random, basins, ends, text, undisturbed}
 use std::path::PathBuf;
 
 /// Rounds unless `HOPPER_ROUNDS` says another number.
-const ROUNDS: usize = 25;
+const ROUNDS: usize = if cfg!(debug_assertions) { 10 } else { 25 };
 
 /// 5 tiles.
 const JOB: [&str; 3] = ["--pixels", "80", "20"];

@@ -12,7 +12,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 /// Kills of the test, unless `HOPPER_KILLS` says another number.
-const KILLS: usize = 16;
+const KILLS: usize = if cfg!(debug_assertions) { 8 } else { 16 };
 
 /// 20 tiles of labels and 20 of numbers of hops.
 const JOB: [&str; 6] = ["--pixels", "320", "40", "--layer", "label", "hops"];

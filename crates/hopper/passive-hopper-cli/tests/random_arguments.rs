@@ -7,7 +7,7 @@ use basin_of_attraction::SplitMix64;
 use std::panic::catch_unwind;
 
 /// Random calls. Without optimization these are fewer.
-const CALLS: u32 = if cfg!(debug_assertions) { 400 } else { 3000 };
+const CALLS: u32 = if cfg!(debug_assertions) { 200 } else { 3000 };
 
 /// Words that calls are made of: names, options, values, and what is none.
 const WORDS: &[&str] = &[

@@ -18,11 +18,12 @@ use crate::figures::fig_05_construction::levels;
 use crate::independent::blind_landing::{printed_landing, sampled_excess};
 use crate::independent::integrated_hopper::integrated;
 use crate::independent::map::{printed, stable};
-use basin_of_attraction::{Branch, Interval, IntervalSet, PreimageTree};
+use basin_of_attraction::{Branch, Interval, IntervalBasins, IntervalSet, PreimageTree};
 use hopper_asymptotics::{Coefficients, Form, LEFT_FACTOR};
 use hopper_basin::{Trap, crisis};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// One test for each claim, and a test that no claim is left out. Each line has the name of the test, the name of the
 /// claim, the check of the true thing, and the checks of false things.
@@ -179,6 +180,10 @@ fn uncorrected(n: u64, mass_ratio: MassRatio) -> Result<f64, Error> {
     Ok(Coefficients::new(n, mass_ratio, Form::Printed)?.lambda)
 }
 
+/// Computed once for all that is said about them.
+static BOUNDARY: LazyLock<[Vec<f64>; 2]> = LazyLock::new(|| boundary_points().unwrap());
+static FIRST_HUMP: LazyLock<IntervalBasins> = LazyLock::new(|| first_hump().unwrap());
+
 const PAIRS: Pairs = Pairs { printed: 2000, integrated: 40 };
 const WINDOWS: Windows = Windows { printed: 4, sampled: 2 };
 const PLACES: Places = Places { printed: 1, integrated: 1 };
@@ -299,10 +304,10 @@ claims! {
         remainder(&printed_tree(&printed)?)?,
         [remainder(&cantor_tree()?)?];
     accumulation_fails_for_a_cantor_set: "where the pieces accumulate",
-        accumulation(&printed, &boundary_points()?)?,
+        accumulation(&printed, &BOUNDARY)?,
         [
             accumulation(&printed, &[cantor_points(1), cantor_points(2)])?,
-            accumulation(&at_mass(1.01), &boundary_points()?)?
+            accumulation(&at_mass(1.01), &BOUNDARY)?
         ];
     the_law_of_leaving_fails_without_its_10: "how fast the pieces shrink",
         leaving(&printed, LEFT_FACTOR)?,
@@ -314,10 +319,10 @@ claims! {
             countable(&printed, 2.0)?
         ];
     the_box_count_fails_without_its_10: "the dimension of the boundary",
-        boundary_boxes(&left_hop, LEFT_FACTOR, &first_hump()?)?,
+        boundary_boxes(&left_hop, LEFT_FACTOR, &FIRST_HUMP)?,
         [
-            boundary_boxes(&left_hop, 1.0, &first_hump()?)?,
-            boundary_boxes(&left_hop, 9.0, &first_hump()?)?
+            boundary_boxes(&left_hop, 1.0, &FIRST_HUMP)?,
+            boundary_boxes(&left_hop, 9.0, &FIRST_HUMP)?
         ];
 }
 
