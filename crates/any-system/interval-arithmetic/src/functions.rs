@@ -19,6 +19,20 @@ fn has_places(x: Enclosure) -> bool {
     x.magnitude() <= LARGEST_ARGUMENT && x.low <= x.high
 }
 
+/// The k of all (k + `shift`)π that may be in the interval; `None` if these are more than four, and if they cannot be
+/// told.
+#[inline]
+pub(crate) fn multiples_of_pi(x: Enclosure, shift: f64) -> Option<std::ops::RangeInclusive<i64>> {
+    if !has_places(x) {
+        return None;
+    }
+    // The rounded places reach one further than the exact ones, on both sides.
+    let pi = std::f64::consts::PI;
+    let first = (x.low / pi - shift).floor() as i64;
+    let last = (x.high / pi - shift).ceil() as i64;
+    (last - first <= 3).then_some(first..=last)
+}
+
 /// The least and the greatest value of a function that has the value 1 at (2k + `shift`)π, −1 half a turn later, and is
 /// monotone between. `at_low` and `at_high` are its values at the ends, within one `f64`.
 #[inline]
@@ -28,14 +42,8 @@ fn wave(x: Enclosure, at_low: f64, at_high: f64, shift: f64) -> Enclosure {
     if x.low == x.high {
         return Enclosure { low, high };
     }
-    // The extrema are at kπ + shift·π. Candidates reach one further than the rounded places, on both sides.
-    let pi = std::f64::consts::PI;
-    let first = (x.low / pi - shift).floor() as i64;
-    let last = (x.high / pi - shift).ceil() as i64;
-    if last - first > 3 {
-        return ALL;
-    }
-    for k in first..=last {
+    let Some(places) = multiples_of_pi(x, shift) else { return ALL };
+    for k in places {
         let place = PI * (k as f64 + shift);
         if place.low <= x.high && x.low <= place.high {
             if k % 2 == 0 {

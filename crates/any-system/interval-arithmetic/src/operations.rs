@@ -57,13 +57,21 @@ impl Mul for Enclosure {
     }
 }
 
-/// The quotient; all numbers if the divisor holds zero.
+/// The quotient; all numbers if the divisor holds zero inside. With zero as an end of the divisor, the quotient by its
+/// other numbers: without a bound on one side, if the dividend has one sign.
+///
+/// ```
+/// # use interval_arithmetic::Enclosure;
+/// let near = Enclosure::ONE / Enclosure::between(0.0, 0.5)?;
+/// assert!(near.low > 1.99 && near.high == f64::INFINITY);
+/// # Ok::<(), interval_arithmetic::Error>(())
+/// ```
 impl Div for Enclosure {
     type Output = Self;
     #[inline]
     fn div(self, other: Self) -> Self {
         if other.sign().is_none() {
-            return Enclosure::WHOLE;
+            return self.divided_by_an_end_at_zero(other);
         }
         let (low, high) = extremes([
             self.low / other.low,
@@ -97,6 +105,25 @@ macro_rules! with_numbers {
 with_numbers!(Add add, Sub sub, Mul mul, Div div);
 
 impl Enclosure {
+    /// The quotients by the numbers beside zero of a divisor that holds it.
+    #[cold]
+    fn divided_by_an_end_at_zero(self, other: Self) -> Self {
+        if other.high == 0.0 && other.low < 0.0 {
+            return (-self).divided_by_an_end_at_zero(-other);
+        }
+        if !(other.low == 0.0 && 0.0 < other.high) {
+            return Enclosure::WHOLE;
+        }
+        // The divisors are from zero, without it, up to other.high.
+        if self.low >= 0.0 && self.low <= self.high {
+            Enclosure { low: down(self.low / other.high).max(0.0), high: f64::INFINITY }
+        } else if self.high <= 0.0 && self.low <= self.high {
+            Enclosure { low: f64::NEG_INFINITY, high: up(self.high / other.high).min(0.0) }
+        } else {
+            Enclosure::WHOLE
+        }
+    }
+
     /// The difference, with each end moved outwards only if it was rounded inwards: up to two `f64` narrower than
     /// by `−`, and slower.
     #[inline]

@@ -62,11 +62,27 @@ proptest! {
         for (all, one) in [
             (x + y, u + v), (x - y, u - v), (x * y, u * v), (x / y, u / v), (x.squared(), u.squared()),
             (x.sin(), u.sin()), (x.cos(), u.cos()), (x.arctan(), u.arctan()), (x.abs(), u.abs()), (-x, -u),
+            (x.tan(), u.tan()), (x.exp(), u.exp()), (x.sinh(), u.sinh()), (x.cosh(), u.cosh()), (x.tanh(), u.tanh()),
+            (x.asinh(), u.asinh()), (x.powi(3), u.powi(3)), (x.powi(-3), u.powi(-3)), (x.powi(-2), u.powi(-2)),
+            (x.powi(4), u.powi(4)), (x.atan2(y), u.atan2(v)),
         ] {
             prop_assert!(one.is_inside(&all), "{one:?} {all:?}");
         }
-        // sin² + cos² = 1, at one number.
-        prop_assert!((u.sin().squared() + u.cos().squared()).contains(1.0));
+        let (part, point) = (y * (1.0 / 6.0), v * (1.0 / 6.0));
+        for (all, one) in [
+            (x.ln(), u.ln()), (x.sqrt(), u.sqrt()), (x.acosh(), u.acosh()), (x.powf(y), u.powf(v)),
+            (part.asin(), point.asin()), (part.acos(), point.acos()), (part.atanh(), point.atanh()),
+        ] {
+            // What is refused at one number is refused for all.
+            prop_assert!(all.is_none_or(|all| one.is_some_and(|one| one.is_inside(&all))), "{one:?} {all:?}");
+        }
+        // A function and its inverse.
+        prop_assert!(v.sinh().asinh().contains(v.low) && v.exp().ln().unwrap().contains(v.low));
+        prop_assert!(point.asin().unwrap().sin().contains(point.low) && v.arctan().tan().contains(v.low));
+        let power = v.abs().powf(point).and_then(Enclosure::ln);
+        let product = v.abs().ln().map(|logarithm| logarithm * point);
+        let agree = power.zip(product).is_none_or(|(a, b)| a.intersection(&b).is_some());
+        prop_assert!(agree, "{power:?} {product:?}");
     }
 }
 
@@ -90,6 +106,62 @@ fn pi_is_inside() {
     assert_eq!(PI.low, std::f64::consts::PI);
     assert_eq!(PI.high, std::f64::consts::PI.next_up());
     assert!(pxfm::f_sin(PI.low) > 1e-16 && pxfm::f_sin(PI.high) < -1e-16);
+}
+
+/// Zero as an end of a divisor has a bound on one side.
+#[test]
+fn quotients_by_an_end_at_zero_have_one_bound() {
+    let (one, beyond) = (Enclosure::ONE, Enclosure::new(0.0, 0.5));
+    let near = one / beyond;
+    assert!(near.low <= 2.0 && near.low > 1.999 && near.high == f64::INFINITY);
+    assert_eq!(one / -beyond, -near);
+    assert_eq!(-one / beyond, -near);
+    assert_eq!(Enclosure::ZERO / beyond, Enclosure::new(0.0, f64::INFINITY));
+    assert_eq!(Enclosure::new(-1.0, 1.0) / beyond, Enclosure::WHOLE);
+    assert_eq!(one / Enclosure::new(-0.0, 0.5), near);
+}
+
+/// Ends of domains, infinite ends, and the size at which pxfm 0.1.30 is wrong.
+#[test]
+fn functions_hold_their_values_at_ends_of_domains() {
+    let infinity = f64::INFINITY;
+    let at = |low, high| Enclosure::new(low, high);
+    assert_eq!(Enclosure::WHOLE.exp(), at(0.0, infinity));
+    assert_eq!(Enclosure::WHOLE.cosh(), at(1.0, infinity));
+    assert_eq!(Enclosure::WHOLE.tanh(), at(-1.0, 1.0));
+    assert_eq!(at(0.0, infinity).ln(), Some(Enclosure::WHOLE));
+    assert_eq!((Enclosure::ZERO.ln(), at(-1e-300, 1.0).ln()), (None, None));
+    assert_eq!(at(-1.0, 1.0).atanh(), Some(Enclosure::WHOLE));
+    assert_eq!(at(-1.0, 1.0f64.next_up()).asin(), None);
+    assert_eq!(at(1.0f64.next_down(), 2.0).acosh(), None);
+    assert!(at(-1.0, 1.0).acos().is_some_and(|all| all.low == 0.0 && all.high == PI.high));
+    // The exact values, from mpmath.
+    assert!(point(-709.7411184795164).exp().contains(5.798940657683220e-309));
+    assert!(point(-745.2).exp().contains(0.0) && point(-800.0).exp().high > 0.0);
+    assert!(point(1e160).powi(-2).contains(1e-320) && point(-1e107).powi(-3).contains(-1e-321));
+    assert!(point(1e160).powf(point(-2.0)).is_some_and(|power| power.contains(1e-320)));
+    assert!(point(800.0).exp().low < infinity && point(800.0).exp().high == infinity);
+    assert_eq!(at(0.0, 0.5).powf(at(-1.0, 1.0)), Some(at(0.0, infinity)));
+    assert_eq!(at(0.0, 0.5).powi(-2).high, infinity);
+    assert_eq!((at(-0.5, 0.5).powi(-1), at(-0.5, 0.5).powi(0)), (Enclosure::WHOLE, Enclosure::ONE));
+    assert!(at(-2.0, 0.5).powi(i32::MIN).contains(0.0));
+}
+
+/// The angle of a box with points on both sides of the cut, or with the origin, may be each.
+#[test]
+fn angles_know_their_cut() {
+    let at = |low, high| Enclosure::new(low, high);
+    let all = at(-PI.high, PI.high);
+    assert_eq!(at(-1.0, 1.0).atan2(at(-2.0, -1.0)), all);
+    assert_eq!(at(-1.0, 0.0).atan2(at(-2.0, -1.0)), all);
+    assert_eq!(at(-1.0, 1.0).atan2(at(-1.0, 1.0)), all);
+    assert_eq!(at(0.0, 1.0).atan2(at(-1.0, 1.0)), at(0.0, PI.high));
+    let above = at(0.0, 1.0).atan2(at(-2.0, -1.0));
+    assert!(above.high == PI.high && above.low > 2.35);
+    // −0 is zero.
+    assert!(point(-0.0).atan2(point(-1.0)).contains(std::f64::consts::PI));
+    assert!(at(-1.0, 1.0).atan2(at(1.0, 2.0)).magnitude() < 0.79);
+    assert_eq!(at(f64::NAN, 1.0).atan2(Enclosure::ONE), all);
 }
 
 /// What is no interval is refused, and never becomes a certain statement.
@@ -116,6 +188,14 @@ fn no_interval_says_anything_certain() {
     assert_eq!(one / Enclosure::new(-1.0, 1.0), Enclosure::WHOLE);
     assert_eq!(one / Enclosure::ZERO, Enclosure::WHOLE);
     assert_eq!(wrong.sqrt(), None);
+    assert_eq!(
+        (wrong.ln(), wrong.asin(), wrong.acosh(), wrong.powf(one)),
+        (None, None, None, None)
+    );
+    for found in [wrong.tan(), wrong.sinh(), wrong.asinh(), wrong.powi(3), wrong.atan2(one)] {
+        assert_eq!(found.sign(), None, "{found:?}");
+    }
+    assert!(one.powf(wrong).is_some_and(|found| found.high == f64::INFINITY));
     assert_eq!(wrong.sin(), Enclosure::new(-1.0, 1.0));
     assert_eq!(Enclosure::WHOLE.cos(), Enclosure::new(-1.0, 1.0));
     let infinite = Enclosure::new(f64::MAX, f64::MAX) * 2.0;

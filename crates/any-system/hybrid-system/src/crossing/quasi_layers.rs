@@ -162,7 +162,7 @@ impl Layers {
             };
             let factor = match kind.sigma.value {
                 0.0 => 1.0,
-                sigma => pxfm::f_exp(sigma * time),
+                sigma => interval_arithmetic::exp(sigma * time),
             };
             for (layer, sum) in sums.iter_mut().enumerate() {
                 let Place { cos: p, sin: q, end } = self.place(first + layer, term);
@@ -188,7 +188,7 @@ impl Layers {
             // No rate is positive: the exponential is largest at the left end.
             let factor = match sigma.value {
                 0.0 => 1.0,
-                sigma => pxfm::f_exp(sigma * left),
+                sigma => interval_arithmetic::exp(sigma * left),
             };
             let mut roundings = (omega.value.abs() + sigma.value.abs()) * right;
             if omega.value != 0.0 {

@@ -52,7 +52,7 @@ impl Term {
         if self.sigma.value == 0.0 {
             oscillation
         } else {
-            pxfm::f_exp(self.sigma.value * time) * oscillation
+            interval_arithmetic::exp(self.sigma.value * time) * oscillation
         }
     }
 
