@@ -3,9 +3,9 @@
 
 use super::cantor::{THIRD, cantor_label, interval};
 use basin_of_attraction::{
-    BoxCount, Branch, Error, Fate, Grid, IntervalBasins, Label, LabelImage, PreimageTree,
-    Refinement, ResidualSet, TrapSet, classify, entropy, equally_spaced_fractions, geometric_limit,
-    interval_basins, occupied_boxes, power_law, raster, uncertain_fraction,
+    BoxCount, Branch, Error, Fate, Fractions, Grid, IntervalBasins, Label, LabelImage,
+    PreimageTree, Refinement, ResidualSet, TrapSet, classify, entropy, equally_spaced_fractions,
+    geometric_limit, interval_basins, occupied_boxes, power_law, raster, uncertain_fraction,
 };
 use std::ops::ControlFlow::Continue;
 
@@ -364,6 +364,12 @@ fn boxes_with_an_undecided_part_are_counted() {
         interval_basins(&no_map, &traps, &[], interval(0.0, 1.0), Refinement::default()).unwrap();
     let count = basins.boxes(0.05, 1e-6).unwrap();
     assert_eq!((count.boxes, count.mixed, count.open), (20, 0, 16));
+    // Each basin has a tenth, and at most the rest that is known of no other.
+    let fractions = Fractions::from_intervals(&basins).unwrap();
+    let first = fractions.found[&Label::from(1)];
+    assert!((first.value - 0.1).abs() < 1e-15 && (first.upper - 0.9).abs() < 1e-12, "{first:?}");
+    assert!((fractions.unseen - 0.8).abs() < 1e-12);
+    assert_eq!(basins.trap_grounds().len(), 2);
     let nowhere =
         interval_basins(&no_map, &[], &[], interval(0.0, 1.0), Refinement::default()).unwrap();
     assert_eq!(nowhere.boxes(0.05, 1e-6).unwrap().open, 20);

@@ -134,9 +134,9 @@ fn functions_hold_their_values_at_ends_of_domains() {
     assert_eq!(at(-1.0, 1.0).atanh(), Some(Enclosure::WHOLE));
     assert_eq!(at(-1.0, 1.0f64.next_up()).asin(), None);
     assert_eq!(at(1.0f64.next_down(), 2.0).acosh(), None);
-    assert!(at(-1.0, 1.0).acos().is_some_and(|all| all.low == 0.0 && all.high == PI.high));
+    assert_eq!(at(-1.0, 1.0).acos(), Some(at(0.0, PI.high)));
     // The exact values, from mpmath.
-    assert!(point(-709.7411184795164).exp().contains(5.798940657683220e-309));
+    assert!(point(-709.7411184795164).exp().contains(5.798_940_657_683_22e-309));
     assert!(point(-745.2).exp().contains(0.0) && point(-800.0).exp().high > 0.0);
     assert!(point(1e160).powi(-2).contains(1e-320) && point(-1e107).powi(-3).contains(-1e-321));
     assert!(point(1e160).powf(point(-2.0)).is_some_and(|power| power.contains(1e-320)));
@@ -157,7 +157,8 @@ fn angles_know_their_cut() {
     assert_eq!(at(-1.0, 1.0).atan2(at(-1.0, 1.0)), all);
     assert_eq!(at(0.0, 1.0).atan2(at(-1.0, 1.0)), at(0.0, PI.high));
     let above = at(0.0, 1.0).atan2(at(-2.0, -1.0));
-    assert!(above.high == PI.high && above.low > 2.35);
+    assert_eq!(above.high, PI.high);
+    assert!(above.low > 2.35);
     // −0 is zero.
     assert!(point(-0.0).atan2(point(-1.0)).contains(std::f64::consts::PI));
     assert!(at(-1.0, 1.0).atan2(at(1.0, 2.0)).magnitude() < 0.79);

@@ -8,7 +8,7 @@ export const KEYS = [
   ["Enter", "pin the middle"],
   ["H", "the whole window"],
   ["L", "M linear or logarithmic"],
-  ["1 2 3 4", "fate, hops, coverage, proofs"],
+  ["1 2 …", "the layers, in the order of their buttons"],
   ["D", "deep zoom to the nearest edge"],
   ["Esc", "leave the deep zoom, the tour"],
   ["space", "play or pause"],
