@@ -1,0 +1,183 @@
+//! What formulas are computed in: numbers, or enclosures of numbers.
+
+use crate::constant::Constant;
+use crate::node::{Binary, Unary};
+use interval_arithmetic::Enclosure;
+
+/// A kind of number in which every part of a formula has a value.
+pub trait Algebra: Clone {
+    /// A number of the formula.
+    fn constant(constant: &Constant) -> Self;
+    /// A function of one number. Outside its domain the value is not [valid](Self::is_valid).
+    fn unary(function: Unary, x: &Self) -> Self;
+    /// A function of two numbers. Outside its domain the value is not [valid](Self::is_valid).
+    fn binary(function: Binary, x: &Self, y: &Self) -> Self;
+    /// The square of a number: an enclosure of it is never below zero.
+    fn square(x: &Self) -> Self;
+    /// x + y z, the step of every series.
+    fn add_product(x: &Self, y: &Self, z: &Self) -> Self;
+    /// x · k, or x / k for `over`, of a whole number k.
+    fn times(x: &Self, k: f64) -> Self;
+    /// The number 0.
+    fn zero() -> Self;
+    /// True if there is a value.
+    fn is_valid(&self) -> bool;
+}
+
+impl Algebra for f64 {
+    fn constant(constant: &Constant) -> Self {
+        constant.value()
+    }
+
+    #[inline]
+    fn unary(function: Unary, x: &Self) -> Self {
+        let x = *x;
+        match function {
+            Unary::Negative => -x,
+            Unary::SquareRoot => x.sqrt(),
+            Unary::Exponential => interval_arithmetic::exp(x),
+            Unary::Logarithm => pxfm::f_log(x),
+            Unary::Sine => pxfm::f_sin(x),
+            Unary::Cosine => pxfm::f_cos(x),
+            Unary::Tangent => pxfm::f_tan(x),
+            Unary::ArcSine => pxfm::f_asin(x),
+            Unary::ArcCosine => pxfm::f_acos(x),
+            Unary::ArcTangent => pxfm::f_atan(x),
+            Unary::HyperbolicSine => pxfm::f_sinh(x),
+            Unary::HyperbolicCosine => pxfm::f_cosh(x),
+            Unary::HyperbolicTangent => pxfm::f_tanh(x),
+            Unary::InverseHyperbolicSine => pxfm::f_asinh(x),
+            Unary::InverseHyperbolicCosine => pxfm::f_acosh(x),
+            Unary::InverseHyperbolicTangent => pxfm::f_atanh(x),
+            Unary::Absolute => x.abs(),
+            // 0 of 0, which `signum` does not give.
+            Unary::Sign if x == 0.0 => 0.0,
+            Unary::Sign => x.signum(),
+        }
+    }
+
+    #[inline]
+    fn binary(function: Binary, x: &Self, y: &Self) -> Self {
+        let (x, y) = (*x, *y);
+        match function {
+            Binary::Sum => x + y,
+            Binary::Difference => x - y,
+            Binary::Product => x * y,
+            Binary::Quotient => x / y,
+            // A base below zero has integer powers only, which are products.
+            Binary::Power if x < 0.0 => f64::NAN,
+            Binary::Power => interval_arithmetic::pow(x, y),
+            // −0 is zero.
+            Binary::ArcTangent2 if x == 0.0 && y == 0.0 => f64::NAN,
+            Binary::ArcTangent2 => pxfm::f_atan2(x + 0.0, y + 0.0),
+            // Minima of `f64` pass over NaN.
+            Binary::Minimum if x.is_nan() || y.is_nan() => f64::NAN,
+            Binary::Maximum if x.is_nan() || y.is_nan() => f64::NAN,
+            Binary::Minimum => x.min(y),
+            Binary::Maximum => x.max(y),
+        }
+    }
+
+    #[inline]
+    fn square(x: &Self) -> Self {
+        x * x
+    }
+
+    #[inline]
+    fn add_product(x: &Self, y: &Self, z: &Self) -> Self {
+        x + y * z
+    }
+
+    #[inline]
+    fn times(x: &Self, k: f64) -> Self {
+        x * k
+    }
+
+    fn zero() -> Self {
+        0.0
+    }
+
+    #[inline]
+    fn is_valid(&self) -> bool {
+        self.is_finite()
+    }
+}
+
+/// Outside of a domain.
+const NO_VALUE: Enclosure = Enclosure::new(f64::NAN, f64::NAN);
+
+impl Algebra for Enclosure {
+    fn constant(constant: &Constant) -> Self {
+        constant.enclosure()
+    }
+
+    fn unary(function: Unary, x: &Self) -> Self {
+        if !x.is_valid() {
+            return NO_VALUE;
+        }
+        let x = *x;
+        match function {
+            Unary::Negative => -x,
+            Unary::SquareRoot => x.sqrt().unwrap_or(NO_VALUE),
+            Unary::Exponential => x.exp(),
+            Unary::Logarithm => x.ln().unwrap_or(NO_VALUE),
+            Unary::Sine => x.sin(),
+            Unary::Cosine => x.cos(),
+            Unary::Tangent => x.tan(),
+            Unary::ArcSine => x.asin().unwrap_or(NO_VALUE),
+            Unary::ArcCosine => x.acos().unwrap_or(NO_VALUE),
+            Unary::ArcTangent => x.arctan(),
+            Unary::HyperbolicSine => x.sinh(),
+            Unary::HyperbolicCosine => x.cosh(),
+            Unary::HyperbolicTangent => x.tanh(),
+            Unary::InverseHyperbolicSine => x.asinh(),
+            Unary::InverseHyperbolicCosine => x.acosh().unwrap_or(NO_VALUE),
+            Unary::InverseHyperbolicTangent => x.atanh().unwrap_or(NO_VALUE),
+            Unary::Absolute => x.abs(),
+            Unary::Sign => {
+                let sign = |end: f64| f64::unary(Unary::Sign, &end);
+                Enclosure::new(sign(x.low), sign(x.high))
+            }
+        }
+    }
+
+    fn binary(function: Binary, x: &Self, y: &Self) -> Self {
+        if !(x.is_valid() && y.is_valid()) {
+            return NO_VALUE;
+        }
+        let (x, y) = (*x, *y);
+        match function {
+            Binary::Sum => x + y,
+            Binary::Difference => x - y,
+            Binary::Product => x * y,
+            Binary::Quotient if y.low <= 0.0 && 0.0 <= y.high => NO_VALUE,
+            Binary::Quotient => x / y,
+            Binary::Power if x.low < 0.0 => NO_VALUE,
+            Binary::Power => x.powf(y).unwrap_or(NO_VALUE),
+            Binary::ArcTangent2 if x.contains(0.0) && y.contains(0.0) => NO_VALUE,
+            Binary::ArcTangent2 => x.atan2(y),
+            Binary::Minimum => Enclosure::new(x.low.min(y.low), x.high.min(y.high)),
+            Binary::Maximum => Enclosure::new(x.low.max(y.low), x.high.max(y.high)),
+        }
+    }
+
+    fn square(x: &Self) -> Self {
+        if x.is_valid() { x.squared() } else { NO_VALUE }
+    }
+
+    fn add_product(x: &Self, y: &Self, z: &Self) -> Self {
+        if x.is_valid() && y.is_valid() && z.is_valid() { *x + *y * *z } else { NO_VALUE }
+    }
+
+    fn times(x: &Self, k: f64) -> Self {
+        if x.is_valid() { *x * k } else { NO_VALUE }
+    }
+
+    fn zero() -> Self {
+        Enclosure::ZERO
+    }
+
+    fn is_valid(&self) -> bool {
+        self.low <= self.high
+    }
+}

@@ -1,0 +1,206 @@
+//! Symbols that a closure computes with.
+
+use crate::graph::Graph;
+use crate::node::{Binary, Node, Unary};
+use std::cell::RefCell;
+use std::ops::{Add, Div, Index, Mul, Neg, Sub};
+
+/// A part of a formula, as a closure sees it: a symbol that can be added, multiplied and given to functions.
+///
+/// It has no value, so that it cannot be compared: `if x[0] > 0.0` does not compile. Make the comparison a guard between
+/// two modes, or write [`min`](Self::min), [`max`](Self::max) or [`abs`](Self::abs).
+#[derive(Clone, Copy)]
+pub struct Expression<'g> {
+    graph: &'g RefCell<Graph>,
+    place: usize,
+}
+
+impl<'g> Expression<'g> {
+    pub(crate) fn of(graph: &'g RefCell<Graph>, node: Node) -> Self {
+        Expression { graph, place: graph.borrow_mut().place(node) }
+    }
+
+    pub(crate) fn place(self) -> usize {
+        self.place
+    }
+
+    fn with(self, add: impl FnOnce(&mut Graph) -> usize) -> Self {
+        Expression { graph: self.graph, place: add(&mut self.graph.borrow_mut()) }
+    }
+
+    fn binary(self, function: Binary, other: usize) -> Self {
+        self.with(|graph| graph.binary(function, self.place, other))
+    }
+
+    /// A number next to this symbol: its `f64`, exactly.
+    pub fn number(self, value: f64) -> Self {
+        self.with(|graph| graph.number(value))
+    }
+
+    /// π, which is no `f64`.
+    pub fn pi(self) -> Self {
+        Self::of(self.graph, Node::Constant(crate::constant::Constant::Pi))
+    }
+
+    /// The power with an integer exponent, by products.
+    pub fn powi(self, exponent: i32) -> Self {
+        self.with(|graph| graph.integer_power(self.place, exponent))
+    }
+
+    /// The power x^y; its base must be above zero.
+    pub fn pow(self, exponent: impl Into<Operand<'g>>) -> Self {
+        let exponent = exponent.into().place(self.graph);
+        self.with(|graph| graph.power(self.place, exponent))
+    }
+
+    /// The angle of the point (x, y) from the positive x axis, above −π and up to π; `self` is y.
+    pub fn atan2(self, x: impl Into<Operand<'g>>) -> Self {
+        self.binary(Binary::ArcTangent2, x.into().place(self.graph))
+    }
+
+    /// The smaller one. It has no derivative where both are equal.
+    pub fn min(self, other: impl Into<Operand<'g>>) -> Self {
+        self.binary(Binary::Minimum, other.into().place(self.graph))
+    }
+
+    /// The larger one. It has no derivative where both are equal.
+    pub fn max(self, other: impl Into<Operand<'g>>) -> Self {
+        self.binary(Binary::Maximum, other.into().place(self.graph))
+    }
+}
+
+macro_rules! functions {
+    ($($(#[$doc:meta])* $name:ident $function:ident;)*) => {
+        impl<'g> Expression<'g> {$(
+            $(#[$doc])*
+            pub fn $name(self) -> Self {
+                self.with(|graph| graph.unary(Unary::$function, self.place))
+            }
+        )*}
+    };
+}
+functions! {
+    /// The square root; the number must be at or above zero.
+    sqrt SquareRoot;
+    /// The exponential.
+    exp Exponential;
+    /// The natural logarithm; the number must be above zero.
+    ln Logarithm;
+    /// The sine, of radians.
+    sin Sine;
+    /// The cosine, of radians.
+    cos Cosine;
+    /// The tangent, of radians.
+    tan Tangent;
+    /// The arc sine; the number must be in [−1, 1].
+    asin ArcSine;
+    /// The arc cosine; the number must be in [−1, 1].
+    acos ArcCosine;
+    /// The arc tangent.
+    atan ArcTangent;
+    /// The hyperbolic sine.
+    sinh HyperbolicSine;
+    /// The hyperbolic cosine.
+    cosh HyperbolicCosine;
+    /// The hyperbolic tangent.
+    tanh HyperbolicTangent;
+    /// The inverse hyperbolic sine.
+    asinh InverseHyperbolicSine;
+    /// The inverse hyperbolic cosine; the number must be at or above 1.
+    acosh InverseHyperbolicCosine;
+    /// The inverse hyperbolic tangent; the number must be between −1 and 1.
+    atanh InverseHyperbolicTangent;
+    /// The absolute value. It has no derivative at zero.
+    abs Absolute;
+    /// The sign, −1, 0 or 1. It has a jump at zero.
+    sign Sign;
+}
+
+/// What can stand next to an operator: a symbol or a number.
+#[derive(Clone, Copy)]
+pub enum Operand<'g> {
+    /// A symbol.
+    Symbol(Expression<'g>),
+    /// A number: its `f64`, exactly.
+    Number(f64),
+}
+
+impl<'g> Operand<'g> {
+    fn place(self, graph: &RefCell<Graph>) -> usize {
+        match self {
+            Operand::Symbol(symbol) => symbol.place,
+            Operand::Number(value) => graph.borrow_mut().number(value),
+        }
+    }
+}
+
+impl<'g> From<Expression<'g>> for Operand<'g> {
+    fn from(symbol: Expression<'g>) -> Self {
+        Operand::Symbol(symbol)
+    }
+}
+
+impl From<f64> for Operand<'_> {
+    fn from(value: f64) -> Self {
+        Operand::Number(value)
+    }
+}
+
+macro_rules! operators {
+    ($($operator:ident $method:ident $function:ident;)*) => {$(
+        impl<'g, T: Into<Operand<'g>>> $operator<T> for Expression<'g> {
+            type Output = Self;
+            fn $method(self, other: T) -> Self {
+                self.binary(Binary::$function, other.into().place(self.graph))
+            }
+        }
+        impl<'g> $operator<Expression<'g>> for f64 {
+            type Output = Expression<'g>;
+            fn $method(self, other: Expression<'g>) -> Expression<'g> {
+                other.number(self).binary(Binary::$function, other.place)
+            }
+        }
+    )*};
+}
+operators! {
+    Add add Sum;
+    Sub sub Difference;
+    Mul mul Product;
+    Div div Quotient;
+}
+
+impl Neg for Expression<'_> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        self.with(|graph| graph.unary(Unary::Negative, self.place))
+    }
+}
+
+/// The parameters by their names, `p["damping"]`, or by their places.
+pub struct Parameters<'g> {
+    pub(crate) names: &'g [String],
+    pub(crate) symbols: Vec<Expression<'g>>,
+    /// What `p["…"]` gives for a name that is none; such a name makes the formulas an error.
+    pub(crate) unknown: RefCell<Option<String>>,
+    pub(crate) zero: Expression<'g>,
+}
+
+impl<'g> Parameters<'g> {
+    /// The sum of symbols, such as of forces over bodies; 0 of no symbols.
+    pub fn sum(&self, terms: impl IntoIterator<Item = Expression<'g>>) -> Expression<'g> {
+        terms.into_iter().reduce(|sum, term| sum + term).unwrap_or(self.zero)
+    }
+}
+
+impl<'g> Index<&str> for Parameters<'g> {
+    type Output = Expression<'g>;
+    fn index(&self, name: &str) -> &Expression<'g> {
+        match self.names.iter().position(|known| known == name) {
+            Some(at) => &self.symbols[at],
+            None => {
+                self.unknown.borrow_mut().get_or_insert_with(|| name.to_owned());
+                &self.zero
+            }
+        }
+    }
+}

@@ -1,0 +1,315 @@
+//! Functions of time, state and parameters.
+
+use crate::constant::{Constant, Decimal};
+use crate::derivative::partials;
+use crate::error::Error;
+use crate::expression::{Expression, Parameters};
+use crate::graph::Graph;
+use crate::node::Node;
+use std::cell::RefCell;
+
+/// The largest number of parts of formulas. Ten times what 10 000 parts need for their second derivatives in one
+/// direction; a value of so many parts takes milliseconds.
+pub(crate) const MOST_PARTS: usize = 1_000_000;
+
+/// Functions of time, state and parameters, in names of the user: a field, a guard, a jump, or what is wanted of a state.
+///
+/// Equal parts are computed once. Formulas are data: they compare, print, and are written to JSON.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Formulas {
+    pub(crate) names: Names,
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) outputs: Vec<usize>,
+}
+
+/// The names of formulas, and the values of parameters.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Names {
+    /// The components of the state.
+    pub states: Vec<String>,
+    /// The parameters.
+    pub parameters: Vec<String>,
+    /// The values of the parameters.
+    pub values: Vec<Constant>,
+}
+
+const NO_VALUE: &str = "a parameter without a value: give a decimal, such as -0.25 or 1e-3";
+
+/// Names that have a meaning of their own.
+pub(crate) const RESERVED: [&str; 4] = ["t", "pi", "π", "e"];
+
+impl Names {
+    /// Names of the components of a state, and of parameters with their values: decimals as text.
+    ///
+    /// # Errors
+    /// [`Error::Name`] for a name that is used twice, that is no name, or that has a meaning, and for a value that is no
+    /// decimal.
+    pub fn new(states: &[&str], parameters: &[(&str, &str)]) -> Result<Names, Error> {
+        let values = parameters.iter().map(|(name, value)| {
+            let known = Decimal::new(value).map(Constant::Decimal);
+            known.ok_or(Error::Name { name: (*name).to_owned(), reason: NO_VALUE })
+        });
+        let names = Names {
+            states: states.iter().map(|name| (*name).to_owned()).collect(),
+            parameters: parameters.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            values: values.collect::<Result<_, Error>>()?,
+        };
+        names.check()?;
+        Ok(names)
+    }
+
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let all: Vec<&String> = self.states.iter().chain(&self.parameters).collect();
+        for (at, &name) in all.iter().enumerate() {
+            let refused = |reason| Err(Error::Name { name: name.clone(), reason });
+            if RESERVED.contains(&name.as_str()) || crate::text::is_function(name) {
+                return refused("taken: it has a meaning in formulas");
+            }
+            if !crate::text::is_name(name) {
+                return refused("no name: a letter first, then letters, digits and _");
+            }
+            if all[..at].contains(&name) {
+                return refused("used twice");
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Formulas {
+    /// The formulas of a closure, which is called once, with symbols: of the time, of the state, and of the parameters.
+    ///
+    /// ```
+    /// use equations::{Formulas, Names};
+    /// let names = Names::new(&["angle", "speed"], &[("damping", "0.1")])?;
+    /// let pendulum = Formulas::new(names, |_, x, p| [x[1], -x[0].sin() - p["damping"] * x[1]])?;
+    /// assert_eq!(pendulum.values(0.0, &[0.0, 2.0])?, [2.0, -0.2]);
+    /// # Ok::<(), equations::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Name`] for a parameter that is not among the names; [`Error::TooLarge`] for more than a million parts.
+    pub fn new<const N: usize>(
+        names: Names,
+        closure: impl for<'g> Fn(
+            Expression<'g>,
+            &[Expression<'g>],
+            &Parameters<'g>,
+        ) -> [Expression<'g>; N],
+    ) -> Result<Formulas, Error> {
+        Formulas::of_vector(names, |time, state, parameters| {
+            closure(time, state, parameters).into()
+        })
+    }
+
+    /// The formulas of a closure that returns a vector, for a number of them that is known when it runs.
+    ///
+    /// # Errors
+    /// As [`Formulas::new`].
+    pub fn of_vector(
+        names: Names,
+        closure: impl for<'g> Fn(
+            Expression<'g>,
+            &[Expression<'g>],
+            &Parameters<'g>,
+        ) -> Vec<Expression<'g>>,
+    ) -> Result<Formulas, Error> {
+        names.check()?;
+        let graph = RefCell::new(Graph::default());
+        let symbol = |node| Expression::of(&graph, node);
+        let state: Vec<_> = (0..names.states.len()).map(|at| symbol(Node::State(at))).collect();
+        let parameters = Parameters {
+            names: &names.parameters,
+            symbols: (0..names.parameters.len()).map(|at| symbol(Node::Parameter(at))).collect(),
+            unknown: RefCell::new(None),
+            zero: symbol(Node::Constant(0.0.into())),
+        };
+        let outputs = closure(symbol(Node::Time), &state, &parameters);
+        let outputs: Vec<usize> = outputs.into_iter().map(Expression::place).collect();
+        if let Some(name) = parameters.unknown.take() {
+            return Err(Error::Name { name, reason: "no parameter of these formulas" });
+        }
+        let nodes = graph.borrow().nodes().to_vec();
+        Formulas::of_parts(names, nodes, outputs)
+    }
+
+    /// The formulas of a list of parts, without those that no output needs.
+    pub(crate) fn of_parts(
+        names: Names,
+        nodes: Vec<Node>,
+        outputs: Vec<usize>,
+    ) -> Result<Formulas, Error> {
+        if nodes.len() > MOST_PARTS {
+            return Err(Error::TooLarge { limit: MOST_PARTS });
+        }
+        let mut needed = vec![false; nodes.len()];
+        outputs.iter().for_each(|&place| needed[place] = true);
+        for place in (0..nodes.len()).rev() {
+            if needed[place] {
+                nodes[place].operands().for_each(|operand| needed[operand] = true);
+            }
+        }
+        let mut new_place = vec![0; nodes.len()];
+        let mut kept = Vec::new();
+        for (place, node) in nodes.into_iter().enumerate().filter(|(place, _)| needed[*place]) {
+            new_place[place] = kept.len();
+            kept.push(match node {
+                Node::Unary(function, a) => Node::Unary(function, new_place[a]),
+                Node::Binary(function, a, b) => Node::Binary(function, new_place[a], new_place[b]),
+                node => node,
+            });
+        }
+        let outputs = outputs.into_iter().map(|place| new_place[place]).collect();
+        Ok(Formulas { names, nodes: kept, outputs })
+    }
+
+    /// The names of the state's components and of the parameters, with their values.
+    pub fn names(&self) -> &Names {
+        &self.names
+    }
+
+    /// The number of formulas.
+    pub fn count(&self) -> usize {
+        self.outputs.len()
+    }
+
+    /// The number of different parts.
+    pub fn parts(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// The same formulas with other values of the parameters, given as decimals by name.
+    ///
+    /// # Errors
+    /// [`Error::Name`] for a name that is no parameter, and for a value that is no decimal.
+    pub fn with_parameters(mut self, values: &[(&str, &str)]) -> Result<Formulas, Error> {
+        for &(name, value) in values {
+            let refused = |reason| Error::Name { name: name.to_owned(), reason };
+            let at = self.names.parameters.iter().position(|known| known == name);
+            let at = at.ok_or(refused("no parameter of these formulas"))?;
+            let value = Decimal::new(value).ok_or(refused(NO_VALUE))?;
+            self.names.values[at] = Constant::Decimal(value);
+        }
+        Ok(self)
+    }
+
+    /// The derivatives in one direction of state and parameters, with the same names. The direction's components are
+    /// numbers; a direction along the state's component k is 1 there and 0 elsewhere.
+    ///
+    /// Derivatives are formulas again, so that they have derivatives, values, enclosures and series.
+    ///
+    /// ```
+    /// use equations::{Formulas, Names};
+    /// let names = Names::new(&["x"], &[("a", "3")])?;
+    /// let power = Formulas::new(names, |_, x, p| [p["a"] * x[0].powi(4)])?;
+    /// let third = power.derivative(&[1.0], &[0.0])?.derivative(&[1.0], &[0.0])?.derivative(&[1.0], &[0.0])?;
+    /// assert_eq!(third.values(0.0, &[2.0])?, [144.0]); // 24 a x
+    /// # Ok::<(), equations::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Length`]; [`Error::Kink`] for a function with a kink or a jump; [`Error::TooLarge`].
+    pub fn derivative(&self, states: &[f64], parameters: &[f64]) -> Result<Formulas, Error> {
+        length("components of the direction", self.names.states.len(), states.len())?;
+        length("parameters of the direction", self.names.parameters.len(), parameters.len())?;
+        let mut graph = Graph::of(self.nodes.clone());
+        let outputs = self.along(&mut graph, |node| match node {
+            Node::State(at) => states[*at],
+            Node::Parameter(at) => parameters[*at],
+            _ => 0.0,
+        })?;
+        Formulas::of_parts(self.names.clone(), graph.into_nodes(), outputs)
+    }
+
+    /// All first derivatives by the components of the state, row by row: ∂f_i/∂x_j is the output i n + j.
+    ///
+    /// # Errors
+    /// As [`Formulas::derivative`].
+    pub fn jacobian(&self) -> Result<Formulas, Error> {
+        self.all_derivatives(self.names.states.len(), Node::State)
+    }
+
+    /// All first derivatives by the parameters, row by row: ∂f_i/∂p_j is the output i k + j.
+    ///
+    /// # Errors
+    /// As [`Formulas::derivative`].
+    pub fn parameter_jacobian(&self) -> Result<Formulas, Error> {
+        self.all_derivatives(self.names.parameters.len(), Node::Parameter)
+    }
+
+    fn all_derivatives(
+        &self,
+        count: usize,
+        variable: impl Fn(usize) -> Node,
+    ) -> Result<Formulas, Error> {
+        let mut graph = Graph::of(self.nodes.clone());
+        let columns: Vec<Vec<usize>> = (0..count)
+            .map(|at| {
+                let variable = variable(at);
+                self.along(&mut graph, |node| f64::from(*node == variable))
+            })
+            .collect::<Result<_, Error>>()?;
+        let outputs =
+            (0..self.count()).flat_map(|row| columns.iter().map(move |column| column[row]));
+        Formulas::of_parts(self.names.clone(), graph.clone().into_nodes(), outputs.collect())
+    }
+
+    /// The places of another's outputs in a graph that begins with these parts.
+    pub(crate) fn joined(&self, graph: &mut Graph, other: &Formulas) -> Result<Vec<usize>, Error> {
+        if self.names != other.names {
+            let name = other.names.states.iter().chain(&other.names.parameters).next();
+            let reason = "of formulas with other variables or parameters; give both the same names";
+            return Err(Error::Name { name: name.cloned().unwrap_or_default(), reason });
+        }
+        let mut places: Vec<usize> = Vec::with_capacity(other.nodes.len());
+        for node in &other.nodes {
+            let node = match node {
+                Node::Unary(function, a) => Node::Unary(*function, places[*a]),
+                Node::Binary(function, a, b) => Node::Binary(*function, places[*a], places[*b]),
+                node => node.clone(),
+            };
+            places.push(graph.place(node));
+        }
+        Ok(other.outputs.iter().map(|&place| places[place]).collect())
+    }
+
+    /// The text of a part of a graph with these names.
+    pub(crate) fn text_of(&self, graph: &Graph, place: usize) -> String {
+        let nodes = graph.nodes()[..=place].to_vec();
+        Formulas { names: self.names.clone(), nodes, outputs: vec![] }.part(place)
+    }
+
+    /// The derivatives of the outputs, where those of the variables are numbers.
+    fn along(
+        &self,
+        graph: &mut Graph,
+        direction: impl Fn(&Node) -> f64,
+    ) -> Result<Vec<usize>, Error> {
+        let mut changes: Vec<usize> = Vec::with_capacity(self.nodes.len());
+        let zero = graph.number(0.0);
+        for (place, node) in self.nodes.iter().enumerate() {
+            let moves = node.operands().any(|operand| changes[operand] != zero);
+            let change = if !moves {
+                graph.number(direction(node))
+            } else {
+                let rates =
+                    partials(graph, place).ok_or_else(|| Error::Kink { part: self.part(place) })?;
+                let terms: Vec<usize> = rates
+                    .into_iter()
+                    .map(|(rate, operand)| graph.product(rate, changes[operand]))
+                    .collect();
+                terms.into_iter().fold(zero, |sum, term| graph.sum(sum, term))
+            };
+            if graph.nodes().len() > MOST_PARTS {
+                return Err(Error::TooLarge { limit: MOST_PARTS });
+            }
+            changes.push(change);
+        }
+        Ok(self.outputs.iter().map(|&place| changes[place]).collect())
+    }
+}
+
+/// An error unless the lengths are equal.
+pub(crate) fn length(what: &'static str, needed: usize, given: usize) -> Result<(), Error> {
+    if needed == given { Ok(()) } else { Err(Error::Length { what, needed, given }) }
+}

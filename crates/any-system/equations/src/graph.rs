@@ -1,0 +1,140 @@
+//! All parts of some formulas, equal ones merged.
+
+use crate::constant::Constant;
+use crate::node::{Binary, Node, Unary};
+use std::collections::HashMap;
+
+/// A list of parts. Each one stands behind those of which it is a function, and no two are equal.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Graph {
+    nodes: Vec<Node>,
+    known: HashMap<Node, usize>,
+}
+
+/// What equal parts have in common. Sums and products of the same two parts are equal in either order: they have the
+/// same bits. They stay as they were written first.
+fn merged(node: &Node) -> Node {
+    match *node {
+        Node::Binary(kind @ (Binary::Sum | Binary::Product), a, b) if a > b => {
+            Node::Binary(kind, b, a)
+        }
+        _ => node.clone(),
+    }
+}
+
+impl Graph {
+    /// The graph of a list without equal parts.
+    pub(crate) fn of(nodes: Vec<Node>) -> Self {
+        let known = nodes.iter().enumerate().map(|(at, node)| (merged(node), at)).collect();
+        Graph { nodes, known }
+    }
+
+    pub(crate) fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    pub(crate) fn into_nodes(self) -> Vec<Node> {
+        self.nodes
+    }
+
+    /// The place of a part, which is added if it is new.
+    pub(crate) fn place(&mut self, node: Node) -> usize {
+        let key = merged(&node);
+        if let Some(&known) = self.known.get(&key) {
+            return known;
+        }
+        self.nodes.push(node);
+        self.known.insert(key, self.nodes.len() - 1);
+        self.nodes.len() - 1
+    }
+
+    pub(crate) fn number(&mut self, value: f64) -> usize {
+        self.place(Node::Constant(value.into()))
+    }
+
+    fn is_number(&self, at: usize, value: f64) -> bool {
+        matches!(&self.nodes[at], Node::Constant(Constant::Double(bits)) if *bits == value.to_bits())
+    }
+
+    /// A function of one part.
+    pub(crate) fn unary(&mut self, function: Unary, a: usize) -> usize {
+        self.place(Node::Unary(function, a))
+    }
+
+    /// A function of two parts, as it is written.
+    pub(crate) fn binary(&mut self, function: Binary, a: usize, b: usize) -> usize {
+        self.place(Node::Binary(function, a, b))
+    }
+
+    /// A sum of a derivative: without parts that are 0.
+    pub(crate) fn sum(&mut self, a: usize, b: usize) -> usize {
+        match (self.is_number(a, 0.0), self.is_number(b, 0.0)) {
+            (true, _) => b,
+            (_, true) => a,
+            // a + (−c) has the bits of a − c.
+            _ => match self.nodes[b] {
+                Node::Unary(Unary::Negative, c) => self.binary(Binary::Difference, a, c),
+                _ => self.binary(Binary::Sum, a, b),
+            },
+        }
+    }
+
+    /// A product of a derivative: 0 if a factor is, and without factors that are 1 or −1.
+    pub(crate) fn product(&mut self, a: usize, b: usize) -> usize {
+        if self.is_number(a, 0.0) || self.is_number(b, 1.0) {
+            a
+        } else if self.is_number(b, 0.0) || self.is_number(a, 1.0) {
+            b
+        } else if self.is_number(a, -1.0) {
+            self.unary(Unary::Negative, b)
+        } else if self.is_number(b, -1.0) {
+            self.unary(Unary::Negative, a)
+        } else {
+            self.binary(Binary::Product, a, b)
+        }
+    }
+
+    /// The part with an integer exponent: by squaring, so that 0 and numbers below it have powers too.
+    pub(crate) fn integer_power(&mut self, base: usize, exponent: i32) -> usize {
+        let mut left = exponent.unsigned_abs();
+        let (mut square, mut product) = (base, None);
+        while left > 0 {
+            if left % 2 == 1 {
+                product = Some(match product {
+                    None => square,
+                    Some(product) => self.binary(Binary::Product, product, square),
+                });
+            }
+            left /= 2;
+            if left > 0 {
+                square = self.binary(Binary::Product, square, square);
+            }
+        }
+        let one = self.number(1.0);
+        match product {
+            None => one,
+            Some(product) if exponent < 0 => self.binary(Binary::Quotient, one, product),
+            Some(product) => product,
+        }
+    }
+
+    /// A power, as it is written: by products for an integer, as a square root for ½.
+    pub(crate) fn power(&mut self, base: usize, exponent: usize) -> usize {
+        let (negative, number) = match &self.nodes[exponent] {
+            Node::Unary(Unary::Negative, number) => (true, *number),
+            _ => (false, exponent),
+        };
+        if let Node::Constant(constant) = &self.nodes[number] {
+            let enclosure = constant.enclosure();
+            let value = if negative { -enclosure.low } else { enclosure.low };
+            let exact = enclosure.low == enclosure.high;
+            if exact && value.fract() == 0.0 && value.abs() <= f64::from(i32::MAX) {
+                return self.integer_power(base, value as i32);
+            }
+            if exact && value == 0.5 {
+                return self.unary(Unary::SquareRoot, base);
+            }
+        }
+        self.binary(Binary::Power, base, exponent)
+    }
+}

@@ -1,0 +1,201 @@
+//! Formulas as JSON, with exact numbers.
+//!
+//! ```text
+//! {"format": "equations", "version": 1,
+//!  "states": ["angle", "speed"], "parameters": [["damping", "0.1"]],
+//!  "parts": [["state", 1], ["state", 0], ["sin", 1], …], "outputs": [0, 7]}
+//! ```
+//!
+//! Each part has its name first, then the places of parts before it, or its number as text.
+
+use crate::constant::{Constant, Decimal};
+use crate::error::Error;
+use crate::formulas::{Formulas, MOST_PARTS, Names};
+use crate::graph::Graph;
+use crate::node::{BINARY, Binary, Node, UNARY, Unary};
+use serde_json::{Value, json};
+
+/// The version of the format. A reader refuses others.
+const VERSION: u64 = 1;
+
+/// The longest file, in bytes: a million parts of some sixty characters.
+const LONGEST: usize = 100_000_000;
+
+/// Operators, with their names in files. Functions have the names that they have in text.
+const OPERATORS: [(&str, Binary); 5] = [
+    ("+", Binary::Sum),
+    ("-", Binary::Difference),
+    ("*", Binary::Product),
+    ("/", Binary::Quotient),
+    ("^", Binary::Power),
+];
+
+impl Formulas {
+    /// The formulas as JSON. The same formulas have the same bytes.
+    ///
+    /// ```
+    /// use equations::{Formulas, Names};
+    /// let field = Formulas::from_text(Names::new(&["x"], &[("a", "0.2")])?, &["a*x*(1 - x)"])?;
+    /// let again = Formulas::from_json(&field.to_json())?;
+    /// assert_eq!(again, field);
+    /// assert_eq!(again.values(0.0, &[0.3])?, field.values(0.0, &[0.3])?);
+    /// # Ok::<(), equations::Error>(())
+    /// ```
+    pub fn to_json(&self) -> String {
+        let parameters = self.names.parameters.iter().zip(&self.names.values);
+        let file = json!({
+            "format": "equations",
+            "version": VERSION,
+            "states": self.names.states,
+            "parameters": parameters.map(|(name, value)| json!([name, written(value)])).collect::<Vec<_>>(),
+            "parts": self.nodes.iter().map(part).collect::<Vec<_>>(),
+            "outputs": self.outputs,
+        });
+        file.to_string()
+    }
+
+    /// The formulas of a file. Any bytes are safe: what is no such file is an error with its place.
+    ///
+    /// # Errors
+    /// [`Error::File`]; [`Error::Name`]; [`Error::TooLarge`].
+    pub fn from_json(text: &str) -> Result<Formulas, Error> {
+        if text.len() > LONGEST {
+            return Err(wrong("the file", format!("it is longer than {LONGEST} bytes")));
+        }
+        let file: Value =
+            serde_json::from_str(text).map_err(|error| wrong("the file", error.to_string()))?;
+        if file["format"] != "equations" || file["version"] != VERSION {
+            let reason = format!("\"format\" must be \"equations\", and \"version\" {VERSION}");
+            return Err(wrong("the file", reason));
+        }
+        let names = names(&file)?;
+        let mut graph = Graph::default();
+        let parts = list(&file, "parts")?;
+        if parts.len() > MOST_PARTS {
+            return Err(Error::TooLarge { limit: MOST_PARTS });
+        }
+        for (at, part) in parts.iter().enumerate() {
+            let node =
+                node(part, at, &names).map_err(|reason| wrong(&format!("parts[{at}]"), reason))?;
+            if graph.place(node) != at {
+                let reason = format!("it equals an earlier part: {part}");
+                return Err(wrong(&format!("parts[{at}]"), reason));
+            }
+        }
+        let outputs = list(&file, "outputs")?.iter().enumerate().map(|(at, output)| {
+            place(output, parts.len()).map_err(|reason| wrong(&format!("outputs[{at}]"), reason))
+        });
+        let outputs = outputs.collect::<Result<Vec<_>, Error>>()?;
+        Formulas::of_parts(names, graph.into_nodes(), outputs)
+    }
+}
+
+fn wrong(place: &str, reason: String) -> Error {
+    // A value of a file may be long.
+    Error::File { place: place.to_owned(), reason: reason.chars().take(200).collect() }
+}
+
+fn list<'a>(file: &'a Value, key: &str) -> Result<&'a Vec<Value>, Error> {
+    file[key].as_array().ok_or_else(|| wrong(key, "a list is expected".to_owned()))
+}
+
+fn names(file: &Value) -> Result<Names, Error> {
+    let mut names = Names::default();
+    for (at, name) in list(file, "states")?.iter().enumerate() {
+        let refused = || wrong(&format!("states[{at}]"), "a name is expected".to_owned());
+        names.states.push(name.as_str().ok_or_else(refused)?.to_owned());
+    }
+    for (at, parameter) in list(file, "parameters")?.iter().enumerate() {
+        let refused = |reason: &str| wrong(&format!("parameters[{at}]"), reason.to_owned());
+        let pair = (parameter[0].as_str(), parameter[1].as_str());
+        let (Some(name), Some(value)) = pair else {
+            return Err(refused("a name and a number as text are expected"));
+        };
+        names.parameters.push(name.to_owned());
+        names.values.push(constant(value).ok_or_else(|| refused("the number is none"))?);
+    }
+    names.check()?;
+    Ok(names)
+}
+
+/// A number as text: a decimal, or a double with an f before it.
+fn written(constant: &Constant) -> String {
+    match constant {
+        Constant::Decimal(decimal) => decimal.text().to_owned(),
+        Constant::Double(bits) => format!("f{:.16e}", f64::from_bits(*bits)),
+        Constant::Pi => "pi".to_owned(),
+        Constant::Euler => "e".to_owned(),
+    }
+}
+
+fn constant(text: &str) -> Option<Constant> {
+    match (text, text.strip_prefix('f')) {
+        ("pi", _) => Some(Constant::Pi),
+        ("e", _) => Some(Constant::Euler),
+        (_, Some(double)) => {
+            Decimal::new(double).map(|known| Constant::Decimal(known).value().into())
+        }
+        (_, None) => Decimal::new(text).map(Constant::Decimal),
+    }
+}
+
+fn part(node: &Node) -> Value {
+    let name_of = |found: Option<&'static str>| found.unwrap_or("negative");
+    match node {
+        Node::Time => json!(["time"]),
+        Node::State(at) => json!(["state", at]),
+        Node::Parameter(at) => json!(["parameter", at]),
+        Node::Constant(constant) => json!(["number", written(constant)]),
+        Node::Unary(function, a) => {
+            let found = UNARY.iter().find(|(_, known)| known == function);
+            json!([name_of(found.map(|(name, _)| *name)), a])
+        }
+        Node::Binary(function, a, b) => {
+            let found = OPERATORS.iter().chain(&BINARY).find(|(_, known)| known == function);
+            json!([name_of(found.map(|(name, _)| *name)), a, b])
+        }
+    }
+}
+
+/// A place among the first `count` of something.
+fn place(value: &Value, count: usize) -> Result<usize, String> {
+    let found = value.as_u64().and_then(|at| usize::try_from(at).ok()).filter(|&at| at < count);
+    found.ok_or_else(|| format!("{value} is no place below {count}"))
+}
+
+/// The part at a place. Its operands are earlier: there are no cycles.
+fn node(part: &Value, at: usize, names: &Names) -> Result<Node, String> {
+    let entries = part.as_array().filter(|entries| entries.len() <= 3);
+    let name = entries.and_then(|entries| entries.first()?.as_str());
+    let (Some(entries), Some(name)) = (entries, name) else {
+        return Err("a list with a name first, and at most two places, is expected".to_owned());
+    };
+    let takes = |count: usize| match entries.len() == count + 1 {
+        true => Ok(()),
+        false => Err(format!("{name} takes {count} entries behind its name")),
+    };
+    let operand = |entry: usize| place(&entries[entry], at);
+    match name {
+        "time" => takes(0).map(|()| Node::Time),
+        "state" => takes(1).and_then(|()| place(&entries[1], names.states.len())).map(Node::State),
+        "parameter" => {
+            takes(1).and_then(|()| place(&entries[1], names.parameters.len())).map(Node::Parameter)
+        }
+        "number" => {
+            takes(1)?;
+            let found = entries[1].as_str().and_then(constant);
+            found.map(Node::Constant).ok_or_else(|| format!("{} is no number as text", entries[1]))
+        }
+        "negative" => takes(1).and_then(|()| Ok(Node::Unary(Unary::Negative, operand(1)?))),
+        _ => {
+            if let Some(&(_, function)) = UNARY.iter().find(|(known, _)| *known == name) {
+                takes(1)?;
+                return Ok(Node::Unary(function, operand(1)?));
+            }
+            let found = OPERATORS.iter().chain(&BINARY).find(|(known, _)| *known == name);
+            let &(_, function) = found.ok_or_else(|| format!("there is no part {name:?}"))?;
+            takes(2)?;
+            Ok(Node::Binary(function, operand(1)?, operand(2)?))
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! Equations, written once: values, exact derivatives, Taylor series in time, enclosures, text.
+//!
+//! A model's field, guard or jump is a [`Formulas`]: functions of time, state and parameters, from a closure that is
+//! called once with symbols, or from text.
+//!
+//! | item | role |
+//! |---|---|
+//! | [`Names`] | the names of state and parameters, with the parameters' values |
+//! | [`Formulas::new`], [`Formulas::from_text`] | formulas from a closure, from text |
+//! | [`Formulas::values`], [`Formulas::enclosures`] | what they are: in `f64`, for whole intervals |
+//! | [`Formulas::derivative`], [`Formulas::jacobian`], [`Formulas::parameter_jacobian`] | exact derivatives, as formulas again |
+//! | [`Series`] | Taylor series along the motion, to any order, in `f64` or in enclosures |
+//! | [`Formulas::texts`], [`Formulas::latex`] | the formulas, written |
+//! | [`Formulas::to_json`], [`Formulas::from_json`] | the formulas as data, with exact numbers |
+//! | [`Expression`], [`Parameters`] | what a closure computes with |
+//!
+//! ```
+//! use equations::{Formulas, Names, Series};
+//! let names = Names::new(&["angle", "speed"], &[("damping", "0.1")])?;
+//! let pendulum = Formulas::new(names, |_, x, p| [x[1], -x[0].sin() - p["damping"] * x[1]])?;
+//! assert_eq!(pendulum.texts()[1], "-sin(angle) - damping*speed");
+//! assert_eq!(pendulum.jacobian()?.texts()[2], "-cos(angle)");
+//! let (motion, _) = Series::new(&pendulum, None)?.coefficients(0.0, &[0.0, 1.0], 3)?;
+//! assert_eq!(motion[0][..3], [0.0, 1.0, -0.05]); // angle = s − 0.05 s² + …
+//! # Ok::<(), equations::Error>(())
+//! ```
+//!
+//! A number in text is the decimal that is written: 0.2 is 1/5, enclosures contain it, and `f64` takes the nearest
+//! double. A number in a closure is its double, exactly. Functions come from pxfm, so that values have the same bits on
+//! every machine.
+
+mod algebra;
+mod constant;
+mod derivative;
+mod error;
+mod evaluate;
+mod expression;
+mod formulas;
+mod graph;
+mod json;
+mod node;
+mod print;
+mod series;
+mod text;
+
+pub use algebra::Algebra;
+pub use constant::{Constant, Decimal};
+pub use error::Error;
+pub use expression::{Expression, Operand, Parameters};
+pub use formulas::{Formulas, Names};
+pub use node::{Binary, Node, Unary};
+pub use series::Series;

@@ -1,0 +1,188 @@
+//! Taylor series in time, along the motion ẋ = f(t, x; p).
+
+use crate::algebra::Algebra;
+use crate::derivative::partials;
+use crate::error::Error;
+use crate::evaluate::Place;
+use crate::formulas::{Formulas, length};
+use crate::graph::Graph;
+use crate::node::{Binary, Node, Unary};
+use std::fmt;
+
+/// What makes the coefficient k of a part from those of others.
+enum Rule {
+    /// The time: coefficients t, 1, 0, …
+    Time,
+    /// A component of the state: coefficient k + 1 is that of its rate, divided by k + 1.
+    State(usize),
+    /// A number or a parameter.
+    Constant,
+    Negative(usize),
+    Sum(usize, usize),
+    Difference(usize, usize),
+    Product(usize, usize),
+    /// a / b.
+    Quotient(usize, usize),
+    /// y′ = Σ g u′, with the parts g and u.
+    Chain(Vec<(usize, usize)>),
+}
+
+/// Taylor series in time of the motion ẋ = f(t, x; p), and of any formulas along it.
+///
+/// The series of a function f(u) comes from its derivative: y′ = g u′ gives k y_k = Σ j u_j g_{k−j}. The parts g are
+/// parts of the same graph, so that one recurrence serves all functions. The order 0 is the value, with the same bits.
+pub struct Series {
+    field: Formulas,
+    rules: Vec<Rule>,
+    rates: Vec<usize>,
+    watched: Vec<usize>,
+}
+
+impl Series {
+    /// The series of a field, one formula for each component of the state, and of formulas that are watched along the
+    /// motion, such as guards.
+    ///
+    /// # Errors
+    /// [`Error::Length`] if the field has another number of formulas than the state has components, or the watched
+    /// formulas have other names; [`Error::Kink`] for a function with a kink or a jump; [`Error::TooLarge`].
+    pub fn new(field: &Formulas, watched: Option<&Formulas>) -> Result<Series, Error> {
+        length("formulas of the field", field.names.states.len(), field.count())?;
+        let mut graph = Graph::of(field.nodes.clone());
+        let watched =
+            watched.map_or(Ok(Vec::new()), |watched| field.joined(&mut graph, watched))?;
+        let mut rules = Vec::new();
+        let mut place = 0;
+        // Parts that are added for derivatives have series too.
+        while place < graph.nodes().len() {
+            let rule = match graph.nodes()[place].clone() {
+                Node::Time => Rule::Time,
+                Node::State(at) => Rule::State(at),
+                Node::Parameter(_) | Node::Constant(_) => Rule::Constant,
+                Node::Unary(Unary::Negative, a) => Rule::Negative(a),
+                Node::Binary(Binary::Sum, a, b) => Rule::Sum(a, b),
+                Node::Binary(Binary::Difference, a, b) => Rule::Difference(a, b),
+                Node::Binary(Binary::Product, a, b) => Rule::Product(a, b),
+                Node::Binary(Binary::Quotient, a, b) => Rule::Quotient(a, b),
+                _ => {
+                    let found = partials(&mut graph, place);
+                    Rule::Chain(
+                        found.ok_or_else(|| Error::Kink { part: field.text_of(&graph, place) })?,
+                    )
+                }
+            };
+            rules.push(rule);
+            place += 1;
+            if graph.nodes().len() > crate::formulas::MOST_PARTS {
+                return Err(Error::TooLarge { limit: crate::formulas::MOST_PARTS });
+            }
+        }
+        let (rates, names) = (field.outputs.clone(), field.names.clone());
+        let field = Formulas { names, nodes: graph.into_nodes(), outputs: rates.clone() };
+        Ok(Series { field, rules, rates, watched })
+    }
+
+    /// The coefficients up to `order` at a time and a state: those of the state's components, and those of the watched
+    /// formulas. x(t + s) = Σ x_k s^k.
+    ///
+    /// ```
+    /// use equations::{Formulas, Names, Series};
+    /// let names = Names::new(&["x", "v"], &[])?;
+    /// let oscillator = Formulas::from_text(names, &["v", "-x"])?;
+    /// let series = Series::new(&oscillator, None)?;
+    /// let (state, _) = series.coefficients(0.0, &[0.0, 1.0], 5)?;
+    /// assert_eq!(state[0], [0.0, 1.0, 0.0, -1.0 / 6.0, 0.0, 1.0 / 120.0]); // the sine
+    /// # Ok::<(), equations::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Length`]; [`Error::NoValue`] for a part without a value, or whose derivative has none, as that of √x at 0.
+    pub fn coefficients<A: Algebra + fmt::Debug>(
+        &self,
+        time: A,
+        state: &[A],
+        order: usize,
+    ) -> Result<(Vec<Vec<A>>, Vec<Vec<A>>), Error> {
+        let place = self.field.place(time, state)?;
+        let values = self.field.all_values(&place);
+        if !values.iter().all(A::is_valid) {
+            return Err(self.field.no_value(&place, &values));
+        }
+        let mut all: Vec<Vec<A>> = values.into_iter().map(|value| vec![value]).collect();
+        for k in 1..=order {
+            for at in 0..all.len() {
+                let next = self.coefficient(&all, at, k);
+                all[at].push(next);
+            }
+            self.check(&place, &all)?;
+        }
+        let at = |component: usize| self.state_place(component).map(|place| all[place].clone());
+        let states = (0..state.len()).map(|component| {
+            at(component).unwrap_or_else(|| self.unused(&all, &state[component], component))
+        });
+        Ok((states.collect(), self.watched.iter().map(|&place| all[place].clone()).collect()))
+    }
+
+    fn state_place(&self, component: usize) -> Option<usize> {
+        self.field.nodes.iter().position(|node| *node == Node::State(component))
+    }
+
+    /// The series of a component that no formula has: the integral of its rate.
+    fn unused<A: Algebra>(&self, all: &[Vec<A>], start: &A, component: usize) -> Vec<A> {
+        let rate = &all[self.rates[component]];
+        let rest = (1..rate.len()).map(|k| divided(&rate[k - 1], k));
+        std::iter::once(start.clone()).chain(rest).collect()
+    }
+
+    fn check<A: Algebra + fmt::Debug>(
+        &self,
+        place: &Place<'_, A>,
+        all: &[Vec<A>],
+    ) -> Result<(), Error> {
+        let last: Vec<A> = all.iter().map(|series| series[series.len() - 1].clone()).collect();
+        if last.iter().all(A::is_valid) { Ok(()) } else { Err(self.field.no_value(place, &last)) }
+    }
+
+    fn coefficient<A: Algebra>(&self, all: &[Vec<A>], at: usize, k: usize) -> A {
+        let zero = A::zero;
+        // Σ_{j = from}^{to} a_j b_{k−j}.
+        let convolution = |a: &[A], b: &[A], from: usize, to: usize| {
+            (from..=to).fold(zero(), |sum, j| A::add_product(&sum, &a[j], &b[k - j]))
+        };
+        match &self.rules[at] {
+            Rule::Time if k == 1 => A::constant(&1.0.into()),
+            Rule::Time | Rule::Constant => zero(),
+            Rule::State(component) => divided(&all[self.rates[*component]][k - 1], k),
+            Rule::Negative(a) => A::unary(Unary::Negative, &all[*a][k]),
+            Rule::Sum(a, b) => A::binary(Binary::Sum, &all[*a][k], &all[*b][k]),
+            Rule::Difference(a, b) => A::binary(Binary::Difference, &all[*a][k], &all[*b][k]),
+            Rule::Product(a, b) if a == b => square(&all[*a], k),
+            Rule::Product(a, b) => convolution(&all[*a], &all[*b], 0, k),
+            Rule::Quotient(a, b) => {
+                // a = y b: y_k = (a_k − Σ_{j < k} y_j b_{k−j})/b_0.
+                let known = convolution(&all[at], &all[*b], 0, k - 1);
+                let rest = A::binary(Binary::Difference, &all[*a][k], &known);
+                A::binary(Binary::Quotient, &rest, &all[*b][0])
+            }
+            Rule::Chain(terms) => {
+                // k y_k = Σ_{j = 1}^{k} j u_j g_{k−j}.
+                let sum = terms.iter().fold(zero(), |sum, &(g, u)| {
+                    (1..=k).fold(sum, |sum, j| {
+                        A::add_product(&sum, &A::times(&all[u][j], j as f64), &all[g][k - j])
+                    })
+                });
+                divided(&sum, k)
+            }
+        }
+    }
+}
+
+/// The coefficient k of a square: each product of two different ones occurs twice.
+fn square<A: Algebra>(a: &[A], k: usize) -> A {
+    let pairs = (0..k.div_ceil(2)).fold(A::zero(), |sum, j| A::add_product(&sum, &a[j], &a[k - j]));
+    let twice = A::times(&pairs, 2.0);
+    if k.is_multiple_of(2) { A::binary(Binary::Sum, &twice, &A::square(&a[k / 2])) } else { twice }
+}
+
+fn divided<A: Algebra>(x: &A, k: usize) -> A {
+    A::binary(Binary::Quotient, x, &A::constant(&(k as f64).into()))
+}
