@@ -6,6 +6,7 @@ from typing import Callable, NamedTuple
 
 import basins
 import edge_fates
+import functions
 import hops
 import phases
 import scenes
@@ -65,4 +66,5 @@ TABLES = (
     _table("phases.jsonl", phases.phase, 16),
     _table("slow_orbits.jsonl", phases.slow_orbit, 8),
     _table("events.jsonl", scenes.scene, 5),
+    _table("functions.jsonl", functions.function, 81),
 )

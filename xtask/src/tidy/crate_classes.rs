@@ -17,8 +17,9 @@ pub(super) enum CrateClass {
 }
 
 /// Every crate, with its class and the reason for it.
-const CLASSES: [(&str, CrateClass, &str); 17] = [
+const CLASSES: [(&str, CrateClass, &str); 18] = [
     ("hybrid-system", Computing, "executions are functions of the system and its start"),
+    ("equations", Computing, "values are functions of formulas, time and state"),
     ("interval-arithmetic", Computing, "enclosures are functions of numbers"),
     ("hopper-proof", Computing, "proofs are functions of a window"),
     ("return-map", Computing, "maps and their fixed points are functions of a system"),
@@ -46,8 +47,9 @@ const CLASSES: [(&str, CrateClass, &str); 17] = [
 ];
 
 /// Crates that any other system could use. They do not contain the word hopper.
-pub(super) const GENERIC: [&str; 6] = [
+pub(super) const GENERIC: [&str; 7] = [
     "hybrid-system",
+    "equations",
     "interval-arithmetic",
     "return-map",
     "basin-of-attraction",

@@ -75,7 +75,7 @@ fn of_unary(graph: &mut Graph, function: Unary, u: usize, y: usize) -> Option<us
             graph.binary(Binary::Sum, one, square)
         }
         Unary::ArcSine | Unary::ArcCosine => {
-            let radicand = graph.binary(Binary::Difference, one, square);
+            let radicand = factors(graph, one, u);
             let slope = over_root(graph, radicand);
             if function == Unary::ArcSine { slope } else { graph.unary(Unary::Negative, slope) }
         }
@@ -86,23 +86,29 @@ fn of_unary(graph: &mut Graph, function: Unary, u: usize, y: usize) -> Option<us
         Unary::HyperbolicSine => graph.unary(Unary::HyperbolicCosine, u),
         Unary::HyperbolicCosine => graph.unary(Unary::HyperbolicSine, u),
         Unary::HyperbolicTangent => {
-            let square = graph.integer_power(y, 2);
-            graph.binary(Binary::Difference, one, square)
+            // 1 − tanh² is a difference of equal numbers far from 0.
+            let cosine = graph.unary(Unary::HyperbolicCosine, u);
+            let square = graph.integer_power(cosine, 2);
+            over(graph, square)
         }
         Unary::InverseHyperbolicSine => {
             let radicand = graph.binary(Binary::Sum, one, square);
             over_root(graph, radicand)
         }
         Unary::InverseHyperbolicCosine => {
-            // √(u² − 1) by factors: no digits are lost next to 1.
-            let factors = [Binary::Difference, Binary::Sum].map(|kind| graph.binary(kind, u, one));
-            let radicand = graph.binary(Binary::Product, factors[0], factors[1]);
+            let radicand = factors(graph, u, one);
             over_root(graph, radicand)
         }
         Unary::InverseHyperbolicTangent => {
-            let divisor = graph.binary(Binary::Difference, one, square);
+            let divisor = factors(graph, one, u);
             over(graph, divisor)
         }
         Unary::Absolute | Unary::Sign => return None,
     })
+}
+
+/// a² − b² by factors: no digits are lost where both are nearly equal.
+fn factors(graph: &mut Graph, a: usize, b: usize) -> usize {
+    let [difference, sum] = [Binary::Difference, Binary::Sum].map(|kind| graph.binary(kind, a, b));
+    graph.binary(Binary::Product, difference, sum)
 }

@@ -35,9 +35,11 @@ pub enum Error {
         given: usize,
     },
     /// A value is not finite, or an argument is outside the domain of its function.
-    #[error("{part} has no value at t = {time}, ({state}), parameters ({parameters})")]
+    #[error(
+        "{part} has no finite value, or no finite derivative, at t = {time}, state ({state}), parameters ({parameters})"
+    )]
     NoValue {
-        /// The first part of the formula without a finite value.
+        /// The part of the formula from which this comes.
         part: String,
         /// The time.
         time: String,

@@ -57,7 +57,7 @@ impl Formulas {
         if self.outputs.iter().all(|&at| all[at].is_valid()) {
             return Ok(self.outputs.iter().map(|&at| all[at].clone()).collect());
         }
-        Err(self.no_value(&place, &all))
+        Err(self.no_value(&place, &all, &self.outputs))
     }
 
     /// Where formulas are computed, with the values of the parameters.
@@ -89,13 +89,18 @@ impl Formulas {
         values
     }
 
-    /// The error that names the first part without a value.
+    /// The error that names the part without a value from which it comes that one of `wanted` has none.
     pub(crate) fn no_value<A: Algebra + std::fmt::Debug>(
         &self,
         place: &Place<'_, A>,
         values: &[A],
+        wanted: &[usize],
     ) -> Error {
-        let first = values.iter().position(|value| !value.is_valid()).unwrap_or(0);
+        let is_wrong = |at: &usize| !values[*at].is_valid();
+        let mut first = wanted.iter().copied().find(is_wrong).unwrap_or(0);
+        while let Some(operand) = self.nodes[first].operands().find(is_wrong) {
+            first = operand;
+        }
         let list = |values: &[A]| {
             values.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>().join(", ")
         };

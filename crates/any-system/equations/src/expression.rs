@@ -48,23 +48,23 @@ impl<'g> Expression<'g> {
     }
 
     /// The power x^y; its base must be above zero.
-    pub fn pow(self, exponent: impl Into<Operand<'g>>) -> Self {
+    pub fn pow(self, exponent: impl Into<Term<'g>>) -> Self {
         let exponent = exponent.into().place(self.graph);
         self.with(|graph| graph.power(self.place, exponent))
     }
 
     /// The angle of the point (x, y) from the positive x axis, above −π and up to π; `self` is y.
-    pub fn atan2(self, x: impl Into<Operand<'g>>) -> Self {
+    pub fn atan2(self, x: impl Into<Term<'g>>) -> Self {
         self.binary(Binary::ArcTangent2, x.into().place(self.graph))
     }
 
     /// The smaller one. It has no derivative where both are equal.
-    pub fn min(self, other: impl Into<Operand<'g>>) -> Self {
+    pub fn min(self, other: impl Into<Term<'g>>) -> Self {
         self.binary(Binary::Minimum, other.into().place(self.graph))
     }
 
     /// The larger one. It has no derivative where both are equal.
-    pub fn max(self, other: impl Into<Operand<'g>>) -> Self {
+    pub fn max(self, other: impl Into<Term<'g>>) -> Self {
         self.binary(Binary::Maximum, other.into().place(self.graph))
     }
 }
@@ -118,37 +118,37 @@ functions! {
 
 /// What can stand next to an operator: a symbol or a number.
 #[derive(Clone, Copy)]
-pub enum Operand<'g> {
+pub enum Term<'g> {
     /// A symbol.
     Symbol(Expression<'g>),
     /// A number: its `f64`, exactly.
     Number(f64),
 }
 
-impl<'g> Operand<'g> {
+impl<'g> Term<'g> {
     fn place(self, graph: &RefCell<Graph>) -> usize {
         match self {
-            Operand::Symbol(symbol) => symbol.place,
-            Operand::Number(value) => graph.borrow_mut().number(value),
+            Term::Symbol(symbol) => symbol.place,
+            Term::Number(value) => graph.borrow_mut().number(value),
         }
     }
 }
 
-impl<'g> From<Expression<'g>> for Operand<'g> {
+impl<'g> From<Expression<'g>> for Term<'g> {
     fn from(symbol: Expression<'g>) -> Self {
-        Operand::Symbol(symbol)
+        Term::Symbol(symbol)
     }
 }
 
-impl From<f64> for Operand<'_> {
+impl From<f64> for Term<'_> {
     fn from(value: f64) -> Self {
-        Operand::Number(value)
+        Term::Number(value)
     }
 }
 
 macro_rules! operators {
     ($($operator:ident $method:ident $function:ident;)*) => {$(
-        impl<'g, T: Into<Operand<'g>>> $operator<T> for Expression<'g> {
+        impl<'g, T: Into<Term<'g>>> $operator<T> for Expression<'g> {
             type Output = Self;
             fn $method(self, other: T) -> Self {
                 self.binary(Binary::$function, other.into().place(self.graph))

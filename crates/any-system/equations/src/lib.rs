@@ -9,10 +9,10 @@
 //! | [`Formulas::new`], [`Formulas::from_text`] | formulas from a closure, from text |
 //! | [`Formulas::values`], [`Formulas::enclosures`] | what they are: in `f64`, for whole intervals |
 //! | [`Formulas::derivative`], [`Formulas::jacobian`], [`Formulas::parameter_jacobian`] | exact derivatives, as formulas again |
-//! | [`Series`] | Taylor series along the motion, to any order, in `f64` or in enclosures |
+//! | [`Series`], [`Coefficients`] | Taylor series along the motion, to any order, in `f64` or in enclosures |
 //! | [`Formulas::texts`], [`Formulas::latex`] | the formulas, written |
 //! | [`Formulas::to_json`], [`Formulas::from_json`] | the formulas as data, with exact numbers |
-//! | [`Expression`], [`Parameters`] | what a closure computes with |
+//! | [`Expression`], [`Term`], [`Parameters`] | what a closure computes with |
 //!
 //! ```
 //! use equations::{Formulas, Names, Series};
@@ -20,8 +20,8 @@
 //! let pendulum = Formulas::new(names, |_, x, p| [x[1], -x[0].sin() - p["damping"] * x[1]])?;
 //! assert_eq!(pendulum.texts()[1], "-sin(angle) - damping*speed");
 //! assert_eq!(pendulum.jacobian()?.texts()[2], "-cos(angle)");
-//! let (motion, _) = Series::new(&pendulum, None)?.coefficients(0.0, &[0.0, 1.0], 3)?;
-//! assert_eq!(motion[0][..3], [0.0, 1.0, -0.05]); // angle = s − 0.05 s² + …
+//! let motion = Series::new(&pendulum, None)?.coefficients(0.0, &[0.0, 1.0], 3)?;
+//! assert_eq!(motion.state[0][..3], [0.0, 1.0, -0.05]); // angle = s − 0.05 s² + …
 //! # Ok::<(), equations::Error>(())
 //! ```
 //!
@@ -46,7 +46,7 @@ mod text;
 pub use algebra::Algebra;
 pub use constant::{Constant, Decimal};
 pub use error::Error;
-pub use expression::{Expression, Operand, Parameters};
+pub use expression::{Expression, Parameters, Term};
 pub use formulas::{Formulas, Names};
 pub use node::{Binary, Node, Unary};
-pub use series::Series;
+pub use series::{Coefficients, Series};

@@ -52,8 +52,8 @@ impl Formulas {
             }
         }
         let mut texts: Vec<(String, Strength)> = Vec::with_capacity(place + 1);
-        for at in 0..=place {
-            let (text, strength) = match needed[at] {
+        for (at, is_needed) in needed.into_iter().enumerate() {
+            let (text, strength) = match is_needed {
                 true => self.write(at, &texts, form),
                 false => (String::new(), Strength::Name),
             };

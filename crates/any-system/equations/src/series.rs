@@ -9,6 +9,15 @@ use crate::graph::Graph;
 use crate::node::{Binary, Node, Unary};
 use std::fmt;
 
+/// The coefficients of series in time, x(t + s) = Σ x_k s^k, from k = 0 on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coefficients<A> {
+    /// Of each component of the state.
+    pub state: Vec<Vec<A>>,
+    /// Of each watched formula.
+    pub watched: Vec<Vec<A>>,
+}
+
 /// What makes the coefficient k of a part from those of others.
 enum Rule {
     /// The time: coefficients t, 1, 0, …
@@ -81,16 +90,15 @@ impl Series {
         Ok(Series { field, rules, rates, watched })
     }
 
-    /// The coefficients up to `order` at a time and a state: those of the state's components, and those of the watched
-    /// formulas. x(t + s) = Σ x_k s^k.
+    /// The coefficients up to `order` at a time and a state.
     ///
     /// ```
     /// use equations::{Formulas, Names, Series};
     /// let names = Names::new(&["x", "v"], &[])?;
     /// let oscillator = Formulas::from_text(names, &["v", "-x"])?;
     /// let series = Series::new(&oscillator, None)?;
-    /// let (state, _) = series.coefficients(0.0, &[0.0, 1.0], 5)?;
-    /// assert_eq!(state[0], [0.0, 1.0, 0.0, -1.0 / 6.0, 0.0, 1.0 / 120.0]); // the sine
+    /// let found = series.coefficients(0.0, &[0.0, 1.0], 5)?;
+    /// assert_eq!(found.state[0], [0.0, 1.0, 0.0, -1.0 / 6.0, 0.0, 1.0 / 120.0]); // the sine
     /// # Ok::<(), equations::Error>(())
     /// ```
     ///
@@ -101,25 +109,25 @@ impl Series {
         time: A,
         state: &[A],
         order: usize,
-    ) -> Result<(Vec<Vec<A>>, Vec<Vec<A>>), Error> {
+    ) -> Result<Coefficients<A>, Error> {
         let place = self.field.place(time, state)?;
         let values = self.field.all_values(&place);
-        if !values.iter().all(A::is_valid) {
-            return Err(self.field.no_value(&place, &values));
-        }
+        self.check(&place, &values)?;
         let mut all: Vec<Vec<A>> = values.into_iter().map(|value| vec![value]).collect();
         for k in 1..=order {
             for at in 0..all.len() {
                 let next = self.coefficient(&all, at, k);
                 all[at].push(next);
             }
-            self.check(&place, &all)?;
+            let last: Vec<A> = all.iter().map(|series| series[k].clone()).collect();
+            self.check(&place, &last)?;
         }
         let at = |component: usize| self.state_place(component).map(|place| all[place].clone());
         let states = (0..state.len()).map(|component| {
             at(component).unwrap_or_else(|| self.unused(&all, &state[component], component))
         });
-        Ok((states.collect(), self.watched.iter().map(|&place| all[place].clone()).collect()))
+        let watched = self.watched.iter().map(|&place| all[place].clone()).collect();
+        Ok(Coefficients { state: states.collect(), watched })
     }
 
     fn state_place(&self, component: usize) -> Option<usize> {
@@ -133,13 +141,15 @@ impl Series {
         std::iter::once(start.clone()).chain(rest).collect()
     }
 
+    /// An error unless the coefficients of one order have values, of what is asked for.
     fn check<A: Algebra + fmt::Debug>(
         &self,
         place: &Place<'_, A>,
-        all: &[Vec<A>],
+        values: &[A],
     ) -> Result<(), Error> {
-        let last: Vec<A> = all.iter().map(|series| series[series.len() - 1].clone()).collect();
-        if last.iter().all(A::is_valid) { Ok(()) } else { Err(self.field.no_value(place, &last)) }
+        let wanted: Vec<usize> = self.rates.iter().chain(&self.watched).copied().collect();
+        let is_valid = wanted.iter().all(|&at| values[at].is_valid());
+        if is_valid { Ok(()) } else { Err(self.field.no_value(place, values, &wanted)) }
     }
 
     fn coefficient<A: Algebra>(&self, all: &[Vec<A>], at: usize, k: usize) -> A {

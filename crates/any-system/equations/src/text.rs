@@ -116,7 +116,7 @@ impl Reader<'_> {
         Some(found)
     }
 
-    fn expect(&mut self, wanted: char) -> Result<(), Error> {
+    fn demand(&mut self, wanted: char) -> Result<(), Error> {
         match self.take(&[wanted]) {
             Some(_) => Ok(()),
             None => Err(self.wrong(match self.peek() {
@@ -197,7 +197,7 @@ impl Reader<'_> {
     fn atom(&mut self) -> Result<usize, Error> {
         if self.take(&['(']).is_some() {
             let found = self.sum()?;
-            self.expect(')')?;
+            self.demand(')')?;
             return Ok(found);
         }
         match self.peek() {
@@ -258,17 +258,17 @@ impl Reader<'_> {
     }
 
     fn function(&mut self, name: &str) -> Result<usize, Error> {
-        self.expect('(')?;
+        self.demand('(')?;
         if name == DOUBLE {
             let sign = if self.take(&['-', '−']).is_some() { -1.0 } else { 1.0 };
             let number = sign * Constant::Decimal(self.decimal()?).value();
-            self.expect(')')?;
+            self.demand(')')?;
             return Ok(self.graph.number(number));
         }
         let first = self.sum()?;
         let place = match BINARY.iter().find(|(known, _)| *known == name) {
             Some(&(_, function)) => {
-                self.expect(',')?;
+                self.demand(',')?;
                 let second = self.sum()?;
                 self.graph.binary(function, first, second)
             }
@@ -279,7 +279,7 @@ impl Reader<'_> {
                 self.graph.unary(function, first)
             }
         };
-        self.expect(')')?;
+        self.demand(')')?;
         Ok(place)
     }
 }

@@ -1,0 +1,138 @@
+//! Models that users write.
+
+use equations::{Formulas, Names, Series};
+use interval_arithmetic::Enclosure;
+
+/// Bodies in a plane that attract each other, with the positions first: in fifteen lines.
+#[test]
+fn many_bodies_are_a_sum_over_the_others() {
+    const BODIES: usize = 6;
+    let letters = ["x", "y", "u", "v"];
+    let states: Vec<String> =
+        (0..4 * BODIES).map(|k| format!("{}{}", letters[k % 4], k / 4)).collect();
+    let states: Vec<&str> = states.iter().map(String::as_str).collect();
+    let names = Names::new(&states, &[("G", "2.95912208286e-4")]).unwrap();
+    let field = Formulas::of_vector(names, |_, x, p| {
+        let bodies = 0..BODIES;
+        let pull = |i: usize, axis: usize| {
+            p.sum(bodies.clone().filter(|&j| j != i).map(|j| {
+                let [dx, dy] = [0, 1].map(|axis| x[4 * j + axis] - x[4 * i + axis]);
+                let square = dx.powi(2) + dy.powi(2);
+                p["G"] * [dx, dy][axis] / (square * square.sqrt())
+            }))
+        };
+        bodies.clone().flat_map(|i| [x[4 * i + 2], x[4 * i + 3], pull(i, 0), pull(i, 1)]).collect()
+    })
+    .unwrap();
+    // 30 pairs of thirteen parts.
+    assert_eq!(field.count(), 24);
+    assert!(field.parts() < 450, "{}", field.parts());
+    let state: Vec<f64> = (0..24).map(|k| pxfm::f_sin(k as f64)).collect();
+    let values = field.values(0.0, &state).unwrap();
+    // Forces of equal masses have the sum zero.
+    for axis in [2, 3] {
+        let sum: f64 = (0..BODIES).map(|i| values[4 * i + axis]).sum();
+        assert!(sum.abs() < 1e-17, "{sum:e}");
+    }
+    assert!(Series::new(&field, None).unwrap().coefficients(0.0, &state, 12).is_ok());
+}
+
+/// Kepler's orbit from its pericentre: energy and angular momentum are constant along the series, order by order.
+#[test]
+fn first_integrals_have_no_higher_coefficients() {
+    let names = Names::new(&["x", "y", "u", "v"], &[]).unwrap();
+    let field =
+        Formulas::from_text(names.clone(), &["u", "v", "-x/(x^2 + y^2)^1.5", "-y/(x^2 + y^2)^1.5"]);
+    let watched =
+        Formulas::from_text(names, &["(u^2 + v^2)/2 - 1/sqrt(x^2 + y^2)", "x*v - y*u"]).unwrap();
+    let series = Series::new(&field.unwrap(), Some(&watched)).unwrap();
+    let start = [0.4, 0.0, 0.0, 2.0];
+    let found = series.coefficients(0.0, &start, 15).unwrap().watched;
+    for integral in &found {
+        for (k, coefficient) in integral.iter().enumerate().skip(1) {
+            // Coefficients of the motion grow like 4^k at this pericentre.
+            assert!(coefficient.abs() < 1e-13 * 8f64.powi(k as i32), "{k}: {coefficient:e}");
+        }
+    }
+    let start = start.map(Enclosure::from);
+    let found = series.coefficients(Enclosure::ZERO, &start, 15).unwrap().watched;
+    for integral in &found {
+        assert!(integral.iter().skip(1).all(|coefficient| coefficient.contains(0.0)));
+    }
+}
+
+/// van der Pol at μ = 5 from (2, 0): the coefficients of x, from the recurrence by hand.
+#[test]
+fn the_series_of_van_der_pol_is_that_of_its_recurrence() {
+    let names = Names::new(&["x", "v"], &[("mu", "5")]).unwrap();
+    let field =
+        Formulas::new(names, |_, x, p| [x[1], p["mu"] * (1.0 - x[0].powi(2)) * x[1] - x[0]])
+            .unwrap();
+    let series = Series::new(&field, None).unwrap();
+    let found = series.coefficients(0.0, &[2.0, 0.0], 4).unwrap().state;
+    // x″ = −2, x‴ = 5(1 − 4)(−2) = 30, x⁗ = −15·30 + 2 − 5·2·2·0·… = −450 + 2.
+    assert_eq!(found[0], [2.0, 0.0, -1.0, 5.0, -448.0 / 24.0]);
+}
+
+/// A model at other parameters is the same formulas.
+#[test]
+fn parameters_are_changed_by_name() {
+    let names = Names::new(&["x"], &[("a", "0.2"), ("b", "3")]).unwrap();
+    let map = Formulas::new(names, |_, x, p| [p["a"] * x[0] + p["b"]]).unwrap();
+    let other = map.clone().with_parameters(&[("a", "-1.5")]).unwrap();
+    assert_eq!(other.values(0.0, &[2.0]).unwrap(), [0.0]);
+    assert_eq!(map.values(0.0, &[2.0]).unwrap(), [3.4]);
+    assert!(map.clone().with_parameters(&[("c", "1")]).is_err());
+    assert!(map.clone().with_parameters(&[("a", "x")]).is_err());
+    // A fifth is no f64, and its enclosure knows.
+    let found = map.enclosures(Enclosure::ZERO, &[Enclosure::ONE]).unwrap()[0];
+    assert!(found.low < 3.2 && 3.2 < found.high.next_up());
+    assert_eq!(map.parameter_jacobian().unwrap().values(0.0, &[2.0]).unwrap(), [2.0, 1.0]);
+}
+
+/// Ten thousand parts have second derivatives of some ten times as many.
+#[test]
+fn second_derivatives_grow_by_a_factor() {
+    let names = Names::new(&["x"], &[]).unwrap();
+    let chain = Formulas::new(names, |_, x, _| {
+        let mut y = x[0];
+        for k in 0..3400 {
+            y = (y * 0.999 + f64::from(k) * 1e-4).sin();
+        }
+        [y]
+    })
+    .unwrap();
+    assert!(chain.parts() > 10_000);
+    let second = chain.derivative(&[1.0], &[]).unwrap().derivative(&[1.0], &[]).unwrap();
+    assert!(second.parts() < 10 * chain.parts(), "{}", second.parts());
+    assert!(second.values(0.0, &[0.3]).unwrap()[0].is_finite());
+}
+
+#[test]
+fn formulas_are_written_as_they_are_read() {
+    let names = Names::new(&["x", "x_max"], &[("mu", "0.1")]).unwrap();
+    for text in [
+        "x^2 - (mu + x_max)*t",
+        "-(x + 1)^2/(2*x_max)",
+        "x - (x_max - mu)",
+        "x/(x_max*mu)",
+        "(x/x_max)*mu",
+        "-x*x_max",
+        "2^(-x)",
+        "sqrt(x)*atan2(x, x_max + 1)",
+        "f64(1.0000000000000001e-1)*x",
+        "0.1*x + 1.5e-3",
+        "pi*e*t",
+        "(x^2)^x",
+        "(-x)^2",
+    ] {
+        let formulas = Formulas::from_text(names.clone(), &[text]).unwrap();
+        let again = Formulas::from_text(names.clone(), &[&formulas.texts()[0]]).unwrap();
+        assert_eq!(formulas, again, "{text}: {}", formulas.texts()[0]);
+        assert_eq!(Formulas::from_json(&formulas.to_json()).unwrap(), formulas);
+    }
+    let written = Formulas::from_text(names, &["-sin(mu*x_max)/(1 + x^2)"]).unwrap();
+    assert_eq!(written.texts(), ["-sin(mu*x_max)/(1 + x^2)"]);
+    let known = r"-\operatorname{sin}\left(\mathrm{mu} \, x_{\mathrm{max}}\right)";
+    assert_eq!(written.latex(), [format!(r"\frac{{{known}}}{{1 + {{x}}^{{2}}}}")]);
+}

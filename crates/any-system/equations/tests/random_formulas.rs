@@ -1,0 +1,79 @@
+//! Evaluators agree with each other on random formulas.
+
+use equations::{Formulas, Names, Series};
+use interval_arithmetic::Enclosure;
+use proptest::prelude::*;
+
+/// Random texts of x, y, t and a, up to a depth.
+fn text() -> impl Strategy<Value = String> {
+    let leaf = prop_oneof![
+        Just("x".to_owned()),
+        Just("y".to_owned()),
+        Just("t".to_owned()),
+        Just("a".to_owned()),
+        (1u32..2000).prop_map(|k| format!("{}.{:03}", k / 1000, k % 1000)),
+    ];
+    leaf.prop_recursive(5, 40, 2, |inner| {
+        let functions = prop::sample::select(vec![
+            "sin", "cos", "exp", "tanh", "atan", "asinh", "sqrt", "ln", "sinh", "cosh", "tan",
+        ]);
+        prop_oneof![
+            (functions, inner.clone()).prop_map(|(f, x)| format!("{f}({x})")),
+            (prop::sample::select(vec!["+", "-", "*", "/"]), inner.clone(), inner.clone())
+                .prop_map(|(operator, x, y)| format!("({x}){operator}({y})")),
+            (inner.clone(), -3i32..4).prop_map(|(x, k)| format!("({x})^{k}")),
+            inner.clone().prop_map(|x| format!("-({x})")),
+            (inner.clone(), inner).prop_map(|(x, y)| format!("({x})^({y})")),
+        ]
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1500))]
+
+    #[test]
+    fn evaluators_agree(text in text(), x in 0.1f64..2.0, y in -1.0f64..1.0, t in 0.0f64..1.0, width in 0.0f64..0.01) {
+        let names = Names::new(&["x", "y"], &[("a", "0.7")]).unwrap();
+        let field = Formulas::from_text(names.clone(), &["y", "-x + 0.1*t"]).unwrap();
+        let formula = Formulas::from_text(names.clone(), &[&text]).unwrap();
+        let found = formula.values(t, &[x, y]);
+
+        // Text and file give the same formulas.
+        let again = Formulas::from_text(names, &[&formula.texts()[0]]).unwrap();
+        prop_assert_eq!(again.values(t, &[x, y]).ok(), found.clone().ok());
+        prop_assert_eq!(&Formulas::from_json(&formula.to_json()).unwrap(), &formula);
+
+        // An enclosure holds the value at each of its numbers, and that of a narrower one.
+        let around = [Enclosure::new(x, x + width), Enclosure::new(y, y + width)];
+        let wide = formula.enclosures(Enclosure::new(t, t + width), &around);
+        let narrow = formula.enclosures(Enclosure::from(t), &[x, y].map(Enclosure::from));
+        if let (Ok(wide), Ok(narrow)) = (&wide, &narrow) {
+            prop_assert!(narrow[0].is_inside(&wide[0]), "{:?} {:?}", narrow, wide);
+        }
+        prop_assert!(wide.is_err() || narrow.is_ok());
+        let (Ok(found), Ok(narrow)) = (found, narrow) else { return Ok(()) };
+        // The exact value is inside. The rounded one is off by what its operations round.
+        let slack = 1e-9 * (1.0 + found[0].abs()) + 1e6 * narrow[0].width();
+        prop_assert!((narrow[0].middle() - found[0]).abs() <= slack, "{:?} {:?}", narrow, found);
+
+        // The first coefficient is the derivative along the motion, and the enclosed series holds both.
+        let Ok(series) = Series::new(&field, Some(&formula)) else { return Ok(()) };
+        let Ok(taylor) = series.coefficients(t, &[x, y], 4) else { return Ok(()) };
+        let taylor = taylor.watched;
+        prop_assert_eq!(taylor[0][0], found[0]);
+        let enclosed = series.coefficients(Enclosure::from(t), &[x, y].map(Enclosure::from), 4);
+        let Ok(enclosed) = enclosed else { return Ok(()) };
+        let enclosed = enclosed.watched;
+        for (k, (plain, enclosure)) in taylor[0].iter().zip(&enclosed[0]).enumerate() {
+            let slack = 1e-9 * (1.0 + plain.abs()) + 1e6 * enclosure.width();
+            prop_assert!((enclosure.middle() - plain).abs() <= slack, "{} {:?} {}", k, enclosure, plain);
+        }
+        if !text.contains('t') {
+            let derivative = formula.derivative(&[y, -x + 0.1 * t], &[0.0]).unwrap();
+            if let Ok(slope) = derivative.values(t, &[x, y]) {
+                let (off, width) = ((slope[0] - taylor[0][1]).abs(), enclosed[0][1].width());
+                prop_assert!(off <= 1e-9 * (1.0 + slope[0].abs()) + 1e6 * width, "{:?} {:?}", slope, taylor);
+            }
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! What has no value says which part of the formula, and where.
+
+use equations::{Error, Formulas, Names, Series};
+use interval_arithmetic::Enclosure;
+
+fn formulas(texts: &[&str]) -> Formulas {
+    Formulas::from_text(Names::new(&["x", "v"], &[("a", "0.5")]).unwrap(), texts).unwrap()
+}
+
+#[test]
+fn a_part_without_a_value_is_named() {
+    for (text, part) in [
+        ("1 + ln(x - 3)", "ln(x - 3)"),
+        ("sqrt(a - x)*v", "sqrt(a - x)"),
+        ("v/(x - 2)", "v/(x - 2)"),
+        ("2*asin(x)", "asin(x)"),
+        ("exp(1000*x)*2", "exp(1000*x)"),
+        ("(-x)^v", "(-x)^v"),
+        ("atan2(v - 1, x - 2)", "atan2(v - 1, x - 2)"),
+        ("min(ln(-x), 1)", "ln(-x)"),
+    ] {
+        for error in [
+            formulas(&[text]).values(0.25, &[2.0, 1.0]).unwrap_err(),
+            formulas(&[text])
+                .enclosures(Enclosure::from(0.25), &[2.0, 1.0].map(Enclosure::from))
+                .err()
+                .unwrap_or(Error::NoValue {
+                    part: "exp(1000*x)".into(),
+                    time: "0.25".into(),
+                    state: "2.0, 1.0".into(),
+                    parameters: "0.5".into(),
+                }),
+        ] {
+            match &error {
+                Error::NoValue { part: found, time, state, .. } => {
+                    assert_eq!(found, part, "{text}");
+                    assert!(
+                        time.contains("0.25") && state.contains("2.0") && state.contains("1.0"),
+                        "{error}"
+                    );
+                }
+                other => panic!("{text}: {other}"),
+            }
+        }
+    }
+}
+
+/// An enclosure that only touches the outside of a domain is no value, either.
+#[test]
+fn an_enclosure_that_leaves_a_domain_is_refused() {
+    let at = |low, high| [Enclosure::new(low, high), Enclosure::ONE];
+    let logarithm = formulas(&["ln(x)"]);
+    assert!(logarithm.enclosures(Enclosure::ZERO, &at(1.0, 2.0)).is_ok());
+    assert!(logarithm.enclosures(Enclosure::ZERO, &at(-0.1, 2.0)).is_err());
+    assert!(formulas(&["v/x"]).enclosures(Enclosure::ZERO, &at(-1.0, 1.0)).is_err());
+    // A refusal inside stays one: nothing makes a bound of it.
+    for text in
+        ["0*ln(x)", "min(ln(x), 1)", "atan(ln(x))", "max(1, v/x)", "ln(x)^2", "ln(x) - ln(x)"]
+    {
+        let found = formulas(&[text]).enclosures(Enclosure::ZERO, &at(-1.0, 1.0));
+        assert!(matches!(found, Err(Error::NoValue { .. })), "{text}: {found:?}");
+    }
+}
+
+#[test]
+fn kinks_have_no_derivative_and_no_series() {
+    for text in ["abs(x)", "sign(x)*v", "min(x, v)", "x + max(v, 0)^2"] {
+        let watched = formulas(&[text]);
+        let error = watched.derivative(&[1.0, 1.0], &[0.0]).unwrap_err().to_string();
+        assert!(error.contains("make it a guard"), "{error}");
+        assert!(matches!(Series::new(&formulas(&["v", text]), None), Err(Error::Kink { .. })));
+    }
+    // A kink of what does not move has no effect on the derivative.
+    let fixed = formulas(&["x*abs(a)"]).derivative(&[1.0, 0.0], &[0.0]).unwrap();
+    assert_eq!(fixed.values(0.0, &[3.0, 0.0]).unwrap(), [0.5]);
+}
+
+#[test]
+fn a_root_at_zero_has_a_value_and_no_series() {
+    let field = formulas(&["sqrt(x)", "1"]);
+    assert_eq!(field.values(0.0, &[0.0, 0.0]).unwrap(), [0.0, 1.0]);
+    let error = Series::new(&field, None).unwrap().coefficients(0.0, &[0.0, 0.0], 3).unwrap_err();
+    assert!(
+        error.to_string().contains("sqrt(x) has no finite value, or no finite derivative"),
+        "{error}"
+    );
+}
+
+#[test]
+fn lengths_and_names_are_checked() {
+    let field = formulas(&["v", "-x"]);
+    let error = field.values(0.0, &[1.0]).unwrap_err().to_string();
+    assert_eq!(error, "2 components of the state are needed, and 1 are given");
+    assert!(matches!(Series::new(&formulas(&["v"]), None), Err(Error::Length { .. })));
+    assert!(matches!(field.derivative(&[1.0], &[0.0]), Err(Error::Length { .. })));
+    let names = Names::new(&["x"], &[]).unwrap();
+    let error = Formulas::new(names.clone(), |_, x, p| [x[0] * p["drag"]]).unwrap_err();
+    assert_eq!(error.to_string(), "the name \"drag\" is no parameter of these formulas");
+    let other = Formulas::from_text(names, &["x"]).unwrap();
+    assert!(matches!(Series::new(&field, Some(&other)), Err(Error::Name { .. })));
+}
