@@ -8,6 +8,7 @@
 //! | [`Names`] | the names of state and parameters, with the parameters' values |
 //! | [`Formulas::new`], [`Formulas::from_text`] | formulas from a closure, from text |
 //! | [`Formulas::values`], [`Formulas::enclosures`] | what they are: in `f64`, for whole intervals |
+//! | [`Formulas::values_of_many`] | the values at many states, with the same bits |
 //! | [`Formulas::derivative`], [`Formulas::jacobian`], [`Formulas::parameter_jacobian`] | exact derivatives, as formulas again |
 //! | [`Series`], [`Coefficients`] | Taylor series along the motion, to any order, in `f64` or in enclosures |
 //! | [`Formulas::texts`], [`Formulas::latex`] | the formulas, written |
@@ -38,6 +39,7 @@ mod expression;
 mod formulas;
 mod graph;
 mod json;
+mod lanes;
 mod node;
 mod print;
 mod series;

@@ -38,6 +38,12 @@ proptest! {
         let formula = Formulas::from_text(names.clone(), &[&text]).unwrap();
         let found = formula.values(t, &[x, y]);
 
+        // Many states at once have the bits of one.
+        let states: Vec<[f64; 2]> = (0..11).map(|k| [x + 0.1 * f64::from(k), y]).collect();
+        for (many, state) in formula.values_of_many(&[t], &states).unwrap().iter().zip(&states) {
+            prop_assert_eq!(many, &formula.values(t, state));
+        }
+
         // Text and file give the same formulas.
         let again = Formulas::from_text(names, &[&formula.texts()[0]]).unwrap();
         prop_assert_eq!(again.values(t, &[x, y]).ok(), found.clone().ok());

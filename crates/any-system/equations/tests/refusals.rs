@@ -91,6 +91,9 @@ fn lengths_and_names_are_checked() {
     let field = formulas(&["v", "-x"]);
     let error = field.values(0.0, &[1.0]).unwrap_err().to_string();
     assert_eq!(error, "2 components of the state are needed, and 1 are given");
+    assert!(matches!(field.values_of_many(&[0.0, 1.0], &[[1.0, 2.0]]), Err(Error::Length { .. })));
+    assert!(matches!(field.values_of_many(&[0.0], &[[1.0]]), Err(Error::Length { .. })));
+    assert_eq!(field.values_of_many(&[], &[] as &[[f64; 2]]), Ok(vec![]));
     assert!(matches!(Series::new(&formulas(&["v"]), None), Err(Error::Length { .. })));
     assert!(matches!(field.derivative(&[1.0], &[0.0]), Err(Error::Length { .. })));
     let names = Names::new(&["x"], &[]).unwrap();
