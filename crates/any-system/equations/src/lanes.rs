@@ -3,6 +3,7 @@
 use crate::algebra::Algebra;
 use crate::constant::Constant;
 use crate::error::Error;
+use crate::evaluate::Evaluator;
 use crate::formulas::{Formulas, length};
 use crate::node::{Binary, Unary};
 use std::array::from_fn;
@@ -102,6 +103,7 @@ impl Formulas {
         }
         let time_of = |at: usize| if times.len() == 1 { times[0] } else { times[at] };
         let mut results = Vec::with_capacity(states.len());
+        let mut evaluator = Evaluator::new(self);
         for (block, chunk) in states.chunks(WIDTH).enumerate() {
             let first = block * WIDTH;
             // The last block is filled with its last state.
@@ -110,9 +112,10 @@ impl Formulas {
             let state: Vec<Lanes> = (0..self.names().states.len())
                 .map(|component| Lanes(from_fn(|lane| chunk[lane_of(lane)].as_ref()[component])))
                 .collect();
-            let values = self.all_values(&self.place(time, &state)?);
+            evaluator.compute(&time, &state);
             for (lane, start) in chunk.iter().enumerate() {
-                let own: Vec<f64> = self.outputs.iter().map(|&at| values[at].0[lane]).collect();
+                let own: Vec<f64> =
+                    self.outputs.iter().map(|&at| evaluator.parts[at].0[lane]).collect();
                 results.push(match own.iter().all(|x| x.is_finite()) {
                     true => Ok(own),
                     // The same computation of one state, which names the part.

@@ -3,7 +3,7 @@
 use crate::algebra::Algebra;
 use crate::derivative::partials;
 use crate::error::Error;
-use crate::evaluate::Place;
+use crate::evaluate::Evaluator;
 use crate::formulas::{Formulas, length};
 use crate::graph::Graph;
 use crate::node::{Binary, Node, Unary};
@@ -110,80 +110,86 @@ impl Series {
         state: &[A],
         order: usize,
     ) -> Result<Coefficients<A>, Error> {
-        let place = self.field.place(time, state)?;
-        let values = self.field.all_values(&place);
-        self.check(&place, &values)?;
-        let mut all: Vec<Vec<A>> = values.into_iter().map(|value| vec![value]).collect();
-        for k in 1..=order {
-            for at in 0..all.len() {
-                let next = self.coefficient(&all, at, k);
-                all[at].push(next);
+        length("components of the state", self.field.names.states.len(), state.len())?;
+        let mut start = Evaluator::new(&self.field);
+        start.compute(&time, state);
+        self.check(&time, state, &start.parts)?;
+        // The coefficients of a part stand side by side.
+        let terms = order + 1;
+        let mut all = vec![A::zero(); start.parts.len() * terms];
+        let mut last = start.parts;
+        last.iter().enumerate().for_each(|(at, value)| all[at * terms] = value.clone());
+        for k in 1..terms {
+            for (at, last) in last.iter_mut().enumerate() {
+                *last = self.coefficient(&all, terms, at, k);
+                all[at * terms + k] = last.clone();
             }
-            let last: Vec<A> = all.iter().map(|series| series[k].clone()).collect();
-            self.check(&place, &last)?;
+            self.check(&time, state, &last)?;
         }
-        let at = |component: usize| self.state_place(component).map(|place| all[place].clone());
+        let series = |place: usize| all[place * terms..][..terms].to_vec();
         let states = (0..state.len()).map(|component| {
-            at(component).unwrap_or_else(|| self.unused(&all, &state[component], component))
+            let place = self.field.nodes.iter().position(|node| *node == Node::State(component));
+            // A component that no formula has is the integral of its rate.
+            place
+                .map_or_else(|| integral(&state[component], &series(self.rates[component])), series)
         });
-        let watched = self.watched.iter().map(|&place| all[place].clone()).collect();
+        let watched = self.watched.iter().map(|&place| series(place)).collect();
         Ok(Coefficients { state: states.collect(), watched })
-    }
-
-    fn state_place(&self, component: usize) -> Option<usize> {
-        self.field.nodes.iter().position(|node| *node == Node::State(component))
-    }
-
-    /// The series of a component that no formula has: the integral of its rate.
-    fn unused<A: Algebra>(&self, all: &[Vec<A>], start: &A, component: usize) -> Vec<A> {
-        let rate = &all[self.rates[component]];
-        let rest = (1..rate.len()).map(|k| divided(&rate[k - 1], k));
-        std::iter::once(start.clone()).chain(rest).collect()
     }
 
     /// An error unless the coefficients of one order have values, of what is asked for.
     fn check<A: Algebra + fmt::Debug>(
         &self,
-        place: &Place<'_, A>,
+        time: &A,
+        state: &[A],
         values: &[A],
     ) -> Result<(), Error> {
         let wanted: Vec<usize> = self.rates.iter().chain(&self.watched).copied().collect();
         let is_valid = wanted.iter().all(|&at| values[at].is_valid());
-        if is_valid { Ok(()) } else { Err(self.field.no_value(place, values, &wanted)) }
+        if is_valid { Ok(()) } else { Err(self.field.no_value(time, state, values, &wanted)) }
     }
 
-    fn coefficient<A: Algebra>(&self, all: &[Vec<A>], at: usize, k: usize) -> A {
-        let zero = A::zero;
-        // Σ_{j = from}^{to} a_j b_{k−j}.
-        let convolution = |a: &[A], b: &[A], from: usize, to: usize| {
-            (from..=to).fold(zero(), |sum, j| A::add_product(&sum, &a[j], &b[k - j]))
-        };
+    fn coefficient<A: Algebra>(&self, all: &[A], terms: usize, at: usize, k: usize) -> A {
+        let series = |place: usize| &all[place * terms..][..terms];
         match &self.rules[at] {
             Rule::Time if k == 1 => A::constant(&1.0.into()),
-            Rule::Time | Rule::Constant => zero(),
-            Rule::State(component) => divided(&all[self.rates[*component]][k - 1], k),
-            Rule::Negative(a) => A::unary(Unary::Negative, &all[*a][k]),
-            Rule::Sum(a, b) => A::binary(Binary::Sum, &all[*a][k], &all[*b][k]),
-            Rule::Difference(a, b) => A::binary(Binary::Difference, &all[*a][k], &all[*b][k]),
-            Rule::Product(a, b) if a == b => square(&all[*a], k),
-            Rule::Product(a, b) => convolution(&all[*a], &all[*b], 0, k),
+            Rule::Time | Rule::Constant => A::zero(),
+            Rule::State(component) => divided(&series(self.rates[*component])[k - 1], k),
+            Rule::Negative(a) => A::unary(Unary::Negative, &series(*a)[k]),
+            Rule::Sum(a, b) => A::binary(Binary::Sum, &series(*a)[k], &series(*b)[k]),
+            Rule::Difference(a, b) => A::binary(Binary::Difference, &series(*a)[k], &series(*b)[k]),
+            Rule::Product(a, b) if a == b => square(series(*a), k),
+            Rule::Product(a, b) => convolution(&series(*a)[..=k], &series(*b)[..=k]),
             Rule::Quotient(a, b) => {
                 // a = y b: y_k = (a_k − Σ_{j < k} y_j b_{k−j})/b_0.
-                let known = convolution(&all[at], &all[*b], 0, k - 1);
-                let rest = A::binary(Binary::Difference, &all[*a][k], &known);
-                A::binary(Binary::Quotient, &rest, &all[*b][0])
+                let known = convolution(&series(at)[..k], &series(*b)[1..=k]);
+                let rest = A::binary(Binary::Difference, &series(*a)[k], &known);
+                A::binary(Binary::Quotient, &rest, &series(*b)[0])
             }
-            Rule::Chain(terms) => {
+            Rule::Chain(factors) => {
                 // k y_k = Σ_{j = 1}^{k} j u_j g_{k−j}.
-                let sum = terms.iter().fold(zero(), |sum, &(g, u)| {
-                    (1..=k).fold(sum, |sum, j| {
-                        A::add_product(&sum, &A::times(&all[u][j], j as f64), &all[g][k - j])
-                    })
-                });
+                let mut sum = A::zero();
+                for &(g, u) in factors {
+                    let (g, u) = (&series(g)[..k], &series(u)[1..=k]);
+                    for (j, (u, g)) in u.iter().zip(g.iter().rev()).enumerate() {
+                        sum = A::add_product(&sum, &A::times(u, (j + 1) as f64), g);
+                    }
+                }
                 divided(&sum, k)
             }
         }
     }
+}
+
+/// Σ a_j b_{n−j} of two series with the terms 0 to n.
+fn convolution<A: Algebra>(a: &[A], b: &[A]) -> A {
+    a.iter().zip(b.iter().rev()).fold(A::zero(), |sum, (a, b)| A::add_product(&sum, a, b))
+}
+
+/// The series with this start and this rate.
+fn integral<A: Algebra>(start: &A, rate: &[A]) -> Vec<A> {
+    let rest = (1..rate.len()).map(|k| divided(&rate[k - 1], k));
+    std::iter::once(start.clone()).chain(rest).collect()
 }
 
 /// The coefficient k of a square: each product of two different ones occurs twice.
