@@ -24,6 +24,32 @@ pub trait Algebra: Clone {
     fn is_valid(&self) -> bool;
 }
 
+/// Each function of one `f64`.
+#[inline]
+pub(crate) fn of_number(function: Unary) -> fn(f64) -> f64 {
+    match function {
+        Unary::Negative => |x| -x,
+        Unary::SquareRoot => f64::sqrt,
+        Unary::Exponential => interval_arithmetic::exp,
+        Unary::Logarithm => pxfm::f_log,
+        Unary::Sine => pxfm::f_sin,
+        Unary::Cosine => pxfm::f_cos,
+        Unary::Tangent => pxfm::f_tan,
+        Unary::ArcSine => pxfm::f_asin,
+        Unary::ArcCosine => pxfm::f_acos,
+        Unary::ArcTangent => pxfm::f_atan,
+        Unary::HyperbolicSine => pxfm::f_sinh,
+        Unary::HyperbolicCosine => pxfm::f_cosh,
+        Unary::HyperbolicTangent => pxfm::f_tanh,
+        Unary::InverseHyperbolicSine => pxfm::f_asinh,
+        Unary::InverseHyperbolicCosine => pxfm::f_acosh,
+        Unary::InverseHyperbolicTangent => pxfm::f_atanh,
+        Unary::Absolute => f64::abs,
+        // 0 of 0, which `signum` does not give.
+        Unary::Sign => |x| if x == 0.0 { 0.0 } else { x.signum() },
+    }
+}
+
 impl Algebra for f64 {
     fn constant(constant: &Constant) -> Self {
         constant.value()
@@ -31,29 +57,7 @@ impl Algebra for f64 {
 
     #[inline]
     fn unary(function: Unary, x: &Self) -> Self {
-        let x = *x;
-        match function {
-            Unary::Negative => -x,
-            Unary::SquareRoot => x.sqrt(),
-            Unary::Exponential => interval_arithmetic::exp(x),
-            Unary::Logarithm => pxfm::f_log(x),
-            Unary::Sine => pxfm::f_sin(x),
-            Unary::Cosine => pxfm::f_cos(x),
-            Unary::Tangent => pxfm::f_tan(x),
-            Unary::ArcSine => pxfm::f_asin(x),
-            Unary::ArcCosine => pxfm::f_acos(x),
-            Unary::ArcTangent => pxfm::f_atan(x),
-            Unary::HyperbolicSine => pxfm::f_sinh(x),
-            Unary::HyperbolicCosine => pxfm::f_cosh(x),
-            Unary::HyperbolicTangent => pxfm::f_tanh(x),
-            Unary::InverseHyperbolicSine => pxfm::f_asinh(x),
-            Unary::InverseHyperbolicCosine => pxfm::f_acosh(x),
-            Unary::InverseHyperbolicTangent => pxfm::f_atanh(x),
-            Unary::Absolute => x.abs(),
-            // 0 of 0, which `signum` does not give.
-            Unary::Sign if x == 0.0 => 0.0,
-            Unary::Sign => x.signum(),
-        }
+        of_number(function)(*x)
     }
 
     #[inline]

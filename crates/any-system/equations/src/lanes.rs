@@ -1,6 +1,6 @@
 //! Many states at once, with the bits of one.
 
-use crate::algebra::Algebra;
+use crate::algebra::{Algebra, of_number};
 use crate::constant::Constant;
 use crate::error::Error;
 use crate::evaluate::Evaluator;
@@ -38,7 +38,7 @@ impl Algebra for Lanes {
             // These are instructions of the processor for all lanes.
             Unary::Negative => x.each(|x| -x),
             Unary::SquareRoot => x.each(f64::sqrt),
-            _ => x.each(|x| f64::unary(function, &x)),
+            _ => x.each(of_number(function)),
         }
     }
 
@@ -73,56 +73,67 @@ impl Algebra for Lanes {
     }
 }
 
+/// The values of formulas at many states.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Columns {
+    /// For each formula its values, state by state. They are NaN at the states in `failed`.
+    pub values: Vec<Vec<f64>>,
+    /// The places of states at which a formula has no value, with the errors.
+    pub failed: Vec<(usize, Error)>,
+}
+
 impl Formulas {
-    /// The values at many states, with the bits of [`values`](Self::values): the result of each state, or its error.
-    ///
-    /// `times` has the time of each state, or one time of all.
+    /// The values at many states, with the bits of [`values`](Self::values). `states` has a column for each component of
+    /// the state, and `times` the time of each state, or one time of all.
     ///
     /// ```
     /// use equations::{Formulas, Names};
-    /// let root = Formulas::from_text(Names::new(&["x"], &[])?, &["sqrt(x)", "t"])?;
-    /// let found = root.values_of_many(&[0.5], &[[4.0], [-1.0], [9.0]])?;
-    /// assert_eq!(found[0], Ok(vec![2.0, 0.5]));
-    /// assert!(found[1].is_err());
-    /// assert_eq!(found[2], Ok(vec![3.0, 0.5]));
+    /// let formulas = Formulas::from_text(Names::new(&["x", "y"], &[])?, &["sqrt(x)", "y - x"])?;
+    /// let found = formulas.columns(&[0.0], &[&[4.0, 9.0, -1.0], &[1.0, 2.0, 3.0]])?;
+    /// assert_eq!(found.values[0][..2], [2.0, 3.0]);
+    /// assert_eq!(found.values[1][..2], [-3.0, -7.0]);
+    /// assert_eq!(found.failed[0].0, 2); // the root of −1
     /// # Ok::<(), equations::Error>(())
     /// ```
     ///
     /// # Errors
-    /// [`Error::Length`] for a state with another number of components, or another number of times.
-    pub fn values_of_many<S: AsRef<[f64]>>(
-        &self,
-        times: &[f64],
-        states: &[S],
-    ) -> Result<Vec<Result<Vec<f64>, Error>>, Error> {
+    /// [`Error::Length`] for another number of columns, and for columns or times of different lengths.
+    pub fn columns(&self, times: &[f64], states: &[&[f64]]) -> Result<Columns, Error> {
+        length("columns", self.names().states.len(), states.len())?;
+        let count = states.first().map_or(times.len(), |column| column.len());
+        for column in states {
+            length("states in a column", count, column.len())?;
+        }
         if times.len() != 1 {
-            length("times", states.len(), times.len())?;
+            length("times", count, times.len())?;
         }
-        for state in states {
-            length("components of the state", self.names().states.len(), state.as_ref().len())?;
-        }
-        let time_of = |at: usize| if times.len() == 1 { times[0] } else { times[at] };
-        let mut results = Vec::with_capacity(states.len());
+        let mut values = vec![vec![f64::NAN; count]; self.count()];
+        let mut failed = Vec::new();
         let mut evaluator = Evaluator::new(self);
-        for (block, chunk) in states.chunks(WIDTH).enumerate() {
-            let first = block * WIDTH;
+        let mut state = vec![Lanes::zero(); states.len()];
+        for first in (0..count).step_by(WIDTH) {
+            let width = WIDTH.min(count - first);
             // The last block is filled with its last state.
-            let lane_of = |lane: usize| lane.min(chunk.len() - 1);
-            let time = Lanes(from_fn(|lane| time_of(first + lane_of(lane))));
-            let state: Vec<Lanes> = (0..self.names().states.len())
-                .map(|component| Lanes(from_fn(|lane| chunk[lane_of(lane)].as_ref()[component])))
-                .collect();
+            let lanes = |column: &[f64]| Lanes(from_fn(|lane| column[first + lane.min(width - 1)]));
+            let time = if times.len() == 1 { Lanes([times[0]; WIDTH]) } else { lanes(times) };
+            state.iter_mut().zip(states).for_each(|(state, column)| *state = lanes(column));
             evaluator.compute(&time, &state);
-            for (lane, start) in chunk.iter().enumerate() {
-                let own: Vec<f64> =
-                    self.outputs.iter().map(|&at| evaluator.parts[at].0[lane]).collect();
-                results.push(match own.iter().all(|x| x.is_finite()) {
-                    true => Ok(own),
-                    // The same computation of one state, which names the part.
-                    false => self.values(time_of(first + lane), start.as_ref()),
-                });
+            let found = || self.outputs.iter().map(|&at| evaluator.parts[at]);
+            for (column, found) in values.iter_mut().zip(found()) {
+                column[first..first + width].copy_from_slice(&found.0[..width]);
+            }
+            if found().all(|found| found.is_valid()) {
+                continue;
+            }
+            for lane in 0..width {
+                // The same computation of one state has the same bits, and names the part.
+                let state: Vec<f64> = state.iter().map(|component| component.0[lane]).collect();
+                if let Err(error) = self.values(time.0[lane], &state) {
+                    values.iter_mut().for_each(|column| column[first + lane] = f64::NAN);
+                    failed.push((first + lane, error));
+                }
             }
         }
-        Ok(results)
+        Ok(Columns { values, failed })
     }
 }

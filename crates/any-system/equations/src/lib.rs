@@ -8,7 +8,7 @@
 //! | [`Names`] | the names of state and parameters, with the parameters' values |
 //! | [`Formulas::new`], [`Formulas::from_text`] | formulas from a closure, from text |
 //! | [`Formulas::values`], [`Formulas::enclosures`], [`Evaluator`] | what they are: in `f64`, for whole intervals |
-//! | [`Formulas::values_of_many`] | the values at many states, with the same bits |
+//! | [`Formulas::columns`], [`Columns`] | the values at many states, with the same bits |
 //! | [`Formulas::derivative`], [`Formulas::jacobian`], [`Formulas::parameter_jacobian`] | exact derivatives, as formulas again |
 //! | [`Series`], [`Coefficients`] | Taylor series along the motion, to any order, in `f64` or in enclosures |
 //! | [`Formulas::texts`], [`Formulas::latex`] | the formulas, written |
@@ -51,5 +51,6 @@ pub use error::Error;
 pub use evaluate::Evaluator;
 pub use expression::{Expression, Parameters, Term};
 pub use formulas::{Formulas, Names};
+pub use lanes::Columns;
 pub use node::{Binary, Node, Unary};
 pub use series::{Coefficients, Series};

@@ -91,9 +91,12 @@ fn lengths_and_names_are_checked() {
     let field = formulas(&["v", "-x"]);
     let error = field.values(0.0, &[1.0]).unwrap_err().to_string();
     assert_eq!(error, "2 components of the state are needed, and 1 are given");
-    assert!(matches!(field.values_of_many(&[0.0, 1.0], &[[1.0, 2.0]]), Err(Error::Length { .. })));
-    assert!(matches!(field.values_of_many(&[0.0], &[[1.0]]), Err(Error::Length { .. })));
-    assert_eq!(field.values_of_many(&[], &[] as &[[f64; 2]]), Ok(vec![]));
+    for (times, x, v) in [(2, 1, 1), (1, 1, 2), (0, 3, 3)] {
+        let found = field.columns(&vec![0.0; times], &[&vec![1.0; x], &vec![2.0; v]]);
+        assert!(matches!(found, Err(Error::Length { .. })), "{found:?}");
+    }
+    assert!(matches!(field.columns(&[0.0], &[&[1.0]]), Err(Error::Length { .. })));
+    assert_eq!(field.columns(&[], &[&[], &[]]).unwrap().values, [[], []] as [[f64; 0]; 2]);
     assert!(matches!(Series::new(&formulas(&["v"]), None), Err(Error::Length { .. })));
     assert!(matches!(field.derivative(&[1.0], &[0.0]), Err(Error::Length { .. })));
     let names = Names::new(&["x"], &[]).unwrap();
