@@ -62,6 +62,36 @@ pub enum Error {
         /// The limit.
         limit: usize,
     },
+    /// Tolerances that no step can meet.
+    #[error(
+        "the tolerances are {relative} and {absolute}: the relative one must be from 1e-17 to 0.1, the absolute one \
+         at or above 0"
+    )]
+    Tolerance {
+        /// The relative tolerance that was given.
+        relative: f64,
+        /// The absolute tolerance that was given.
+        absolute: f64,
+    },
+    /// A time is not finite.
+    #[error("the times {time} and {end} must be finite")]
+    Time {
+        /// The time of the start.
+        time: f64,
+        /// The time of the end.
+        end: f64,
+    },
+    /// The steps of a motion do not reach its end.
+    #[error(
+        "the motion towards t = {end} comes no further than t = {time}: it has a pole or is stiff; end before it, or take \
+         larger tolerances"
+    )]
+    Stuck {
+        /// The time that is reached.
+        time: f64,
+        /// The time of the end.
+        end: f64,
+    },
     /// A file is no formulas.
     #[error("{place}: {reason}")]
     File {

@@ -11,6 +11,7 @@
 //! | [`Formulas::columns`], [`Columns`] | the values at many states, with the same bits |
 //! | [`Formulas::derivative`], [`Formulas::jacobian`], [`Formulas::parameter_jacobian`] | exact derivatives, as formulas again |
 //! | [`Series`], [`Coefficients`] | Taylor series along the motion, to any order, in `f64` or in enclosures |
+//! | [`TaylorFlow`], [`Step`] | the motion by Taylor's method: a polynomial for each step |
 //! | [`Formulas::texts`], [`Formulas::latex`] | the formulas, written |
 //! | [`Formulas::to_json`], [`Formulas::from_json`] | the formulas as data, with exact numbers |
 //! | [`Expression`], [`Term`], [`Parameters`] | what a closure computes with |
@@ -43,6 +44,7 @@ mod lanes;
 mod node;
 mod print;
 mod series;
+mod taylor_flow;
 mod text;
 
 pub use algebra::Algebra;
@@ -54,3 +56,4 @@ pub use formulas::{Formulas, Names};
 pub use lanes::Columns;
 pub use node::{Binary, Node, Unary};
 pub use series::{Coefficients, Series};
+pub use taylor_flow::{Step, TaylorFlow};

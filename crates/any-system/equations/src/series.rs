@@ -19,6 +19,7 @@ pub struct Coefficients<A> {
 }
 
 /// What makes the coefficient k of a part from those of others.
+#[derive(Debug)]
 enum Rule {
     /// The time: coefficients t, 1, 0, …
     Time,
@@ -40,6 +41,7 @@ enum Rule {
 ///
 /// The series of a function f(u) comes from its derivative: y′ = g u′ gives k y_k = Σ j u_j g_{k−j}. The parts g are
 /// parts of the same graph, so that one recurrence serves all functions. The order 0 is the value, with the same bits.
+#[derive(Debug)]
 pub struct Series {
     field: Formulas,
     rules: Vec<Rule>,
@@ -88,6 +90,11 @@ impl Series {
         let (rates, names) = (field.outputs.clone(), field.names.clone());
         let field = Formulas { names, nodes: graph.into_nodes(), outputs: rates.clone() };
         Ok(Series { field, rules, rates, watched })
+    }
+
+    /// The number of components of the state.
+    pub fn dimension(&self) -> usize {
+        self.rates.len()
     }
 
     /// The coefficients up to `order` at a time and a state.

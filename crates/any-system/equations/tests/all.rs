@@ -6,3 +6,4 @@ mod models;
 mod random_formulas;
 mod reading;
 mod refusals;
+mod taylor_flows;
