@@ -20,7 +20,7 @@ pub trait Algebra: Clone {
     fn times(x: &Self, k: f64) -> Self;
     /// The number 0.
     fn zero() -> Self;
-    /// True if there is a value.
+    /// True if there is a value, and it is finite.
     fn is_valid(&self) -> bool;
 }
 
@@ -41,6 +41,8 @@ pub(crate) fn of_number(function: Unary) -> fn(f64) -> f64 {
         Unary::HyperbolicSine => pxfm::f_sinh,
         Unary::HyperbolicCosine => pxfm::f_cosh,
         Unary::HyperbolicTangent => pxfm::f_tanh,
+        // Where the cosine is above all `f64`, the secant is below 10⁻³⁰⁸.
+        Unary::HyperbolicSecant => |x| 1.0 / pxfm::f_cosh(x),
         Unary::InverseHyperbolicSine => pxfm::f_asinh,
         Unary::InverseHyperbolicCosine => pxfm::f_acosh,
         Unary::InverseHyperbolicTangent => pxfm::f_atanh,
@@ -134,6 +136,7 @@ impl Algebra for Enclosure {
             Unary::HyperbolicSine => x.sinh(),
             Unary::HyperbolicCosine => x.cosh(),
             Unary::HyperbolicTangent => x.tanh(),
+            Unary::HyperbolicSecant => Enclosure::ONE / x.cosh(),
             Unary::InverseHyperbolicSine => x.asinh(),
             Unary::InverseHyperbolicCosine => x.acosh().unwrap_or(NO_VALUE),
             Unary::InverseHyperbolicTangent => x.atanh().unwrap_or(NO_VALUE),
@@ -182,6 +185,6 @@ impl Algebra for Enclosure {
     }
 
     fn is_valid(&self) -> bool {
-        self.low <= self.high
+        self.low <= self.high && self.low.is_finite() && self.high.is_finite()
     }
 }

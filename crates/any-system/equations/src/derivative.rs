@@ -87,9 +87,13 @@ fn of_unary(graph: &mut Graph, function: Unary, u: usize, y: usize) -> Option<us
         Unary::HyperbolicCosine => graph.unary(Unary::HyperbolicSine, u),
         Unary::HyperbolicTangent => {
             // 1 − tanh² is a difference of equal numbers far from 0.
-            let cosine = graph.unary(Unary::HyperbolicCosine, u);
-            let square = graph.integer_power(cosine, 2);
-            over(graph, square)
+            let secant = graph.unary(Unary::HyperbolicSecant, u);
+            graph.integer_power(secant, 2)
+        }
+        Unary::HyperbolicSecant => {
+            let tangent = graph.unary(Unary::HyperbolicTangent, u);
+            let product = graph.binary(Binary::Product, y, tangent);
+            graph.unary(Unary::Negative, product)
         }
         Unary::InverseHyperbolicSine => {
             let radicand = graph.binary(Binary::Sum, one, square);

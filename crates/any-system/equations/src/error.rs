@@ -48,6 +48,25 @@ pub enum Error {
         /// The parameters.
         parameters: String,
     },
+    /// A closure used a symbol of other formulas.
+    #[error(
+        "a symbol of other formulas is used in these: give it to this closure as a state or a parameter"
+    )]
+    Foreign,
+    /// A number of a closure, or of a direction, is not finite.
+    #[error("the number {value} is no number of a formula: it must be finite")]
+    Number {
+        /// The number.
+        value: f64,
+    },
+    /// More terms of a series are asked for than the limit.
+    #[error("a series of order {order} is asked for; at most {most} are computed")]
+    Order {
+        /// The order that was asked for.
+        order: usize,
+        /// The limit.
+        most: usize,
+    },
     /// A derivative or a series of a function with a kink or a jump is asked for.
     #[error(
         "{part} has a kink or a jump, and no derivative there: make it a guard between two modes"

@@ -46,14 +46,15 @@ impl<'f, A: Algebra + Debug> Evaluator<'f, A> {
     /// As [`Formulas::values`].
     pub fn values(&mut self, time: A, state: &[A]) -> Result<&[A], Error> {
         length("components of the state", self.formulas.names.states.len(), state.len())?;
+        self.formulas.check_start(&time, state)?;
         self.compute(&time, state);
+        // A part that is infinite may leave no trace, as in 1/(1/x) or min(ln(x), 1).
+        if !self.parts.iter().all(A::is_valid) {
+            return Err(self.formulas.no_value(&time, state, &self.parts));
+        }
         self.outputs.clear();
         self.outputs.extend(self.formulas.outputs.iter().map(|&at| self.parts[at].clone()));
-        if self.outputs.iter().all(A::is_valid) {
-            Ok(&self.outputs)
-        } else {
-            Err(self.formulas.no_value(&time, state, &self.parts, &self.formulas.outputs))
-        }
+        Ok(&self.outputs)
     }
 
     /// The values of all parts.
@@ -77,8 +78,8 @@ impl Formulas {
     /// in less time.
     ///
     /// # Errors
-    /// [`Error::Length`] for another number of components; [`Error::NoValue`] if a value is not finite, with the part of
-    /// which this is so.
+    /// [`Error::Length`] for another number of components; [`Error::NoValue`] if a part has no finite value, with this
+    /// part: outside of a domain, at a pole, beyond the largest `f64`.
     pub fn values(&self, time: f64, state: &[f64]) -> Result<Vec<f64>, Error> {
         Evaluator::new(self).values(time, state).map(<[f64]>::to_vec)
     }
@@ -106,25 +107,39 @@ impl Formulas {
         Evaluator::new(self).values(time, state).map(<[Enclosure]>::to_vec)
     }
 
-    /// The error that names the part without a value from which it comes that one of `wanted` has none.
+    /// An error unless time and state have values.
+    pub(crate) fn check_start<A: Algebra + Debug>(
+        &self,
+        time: &A,
+        state: &[A],
+    ) -> Result<(), Error> {
+        let wrong = state.iter().position(|component| !component.is_valid());
+        let part = match wrong {
+            Some(component) => self.names.states[component].clone(),
+            None if !time.is_valid() => "t".to_owned(),
+            None => return Ok(()),
+        };
+        Err(self.no_value_of(part, time, state))
+    }
+
+    /// The error that names the first part without a value: those of which it is a function have values.
     pub(crate) fn no_value<A: Algebra + Debug>(
         &self,
         time: &A,
         state: &[A],
         values: &[A],
-        wanted: &[usize],
     ) -> Error {
-        let is_wrong = |at: &usize| !values[*at].is_valid();
-        let mut first = wanted.iter().copied().find(is_wrong).unwrap_or(0);
-        while let Some(operand) = self.nodes[first].operands().find(is_wrong) {
-            first = operand;
-        }
+        let first = values.iter().position(|value| !value.is_valid()).unwrap_or(0);
+        self.no_value_of(self.part(first), time, state)
+    }
+
+    fn no_value_of<A: Debug>(&self, part: String, time: &A, state: &[A]) -> Error {
         let state: Vec<String> = state.iter().map(|value| format!("{value:?}")).collect();
         let parameters = self.names.parameters.iter().zip(&self.names.values);
         let parameters: Vec<String> =
             parameters.map(|(name, value)| format!("{name} = {value}")).collect();
         Error::NoValue {
-            part: self.part(first),
+            part,
             time: format!("{time:?}"),
             state: state.join(", "),
             parameters: parameters.join(", "),

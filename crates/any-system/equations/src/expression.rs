@@ -1,5 +1,6 @@
 //! Symbols that a closure computes with.
 
+use crate::error::Error;
 use crate::graph::Graph;
 use crate::node::{Binary, Node, Unary};
 use std::cell::RefCell;
@@ -20,21 +21,18 @@ impl<'g> Expression<'g> {
         Expression { graph, place: graph.borrow_mut().place(node) }
     }
 
-    pub(crate) fn place(self) -> usize {
-        self.place
-    }
-
     fn with(self, add: impl FnOnce(&mut Graph) -> usize) -> Self {
         Expression { graph: self.graph, place: add(&mut self.graph.borrow_mut()) }
     }
 
-    fn binary(self, function: Binary, other: usize) -> Self {
+    fn binary(self, function: Binary, other: impl Into<Term<'g>>) -> Self {
+        let other = other.into().place(self.graph);
         self.with(|graph| graph.binary(function, self.place, other))
     }
 
     /// A number next to this symbol: its `f64`, exactly.
     pub fn number(self, value: f64) -> Self {
-        self.with(|graph| graph.number(value))
+        Expression { graph: self.graph, place: Term::Number(value).place(self.graph) }
     }
 
     /// π, which is no `f64`.
@@ -44,7 +42,7 @@ impl<'g> Expression<'g> {
 
     /// The power with an integer exponent, by products.
     pub fn powi(self, exponent: i32) -> Self {
-        self.with(|graph| graph.integer_power(self.place, exponent))
+        self.with(|graph| graph.integer_power(self.place, exponent.into()))
     }
 
     /// The power x^y; its base must be above zero.
@@ -55,17 +53,17 @@ impl<'g> Expression<'g> {
 
     /// The angle of the point (x, y) from the positive x axis, above −π and up to π; `self` is y.
     pub fn atan2(self, x: impl Into<Term<'g>>) -> Self {
-        self.binary(Binary::ArcTangent2, x.into().place(self.graph))
+        self.binary(Binary::ArcTangent2, x)
     }
 
     /// The smaller one. It has no derivative where both are equal.
     pub fn min(self, other: impl Into<Term<'g>>) -> Self {
-        self.binary(Binary::Minimum, other.into().place(self.graph))
+        self.binary(Binary::Minimum, other)
     }
 
     /// The larger one. It has no derivative where both are equal.
     pub fn max(self, other: impl Into<Term<'g>>) -> Self {
-        self.binary(Binary::Maximum, other.into().place(self.graph))
+        self.binary(Binary::Maximum, other)
     }
 }
 
@@ -104,6 +102,8 @@ functions! {
     cosh HyperbolicCosine;
     /// The hyperbolic tangent.
     tanh HyperbolicTangent;
+    /// The hyperbolic secant, 1/cosh: the square root of the slope of tanh, without overflow.
+    sech HyperbolicSecant;
     /// The inverse hyperbolic sine.
     asinh InverseHyperbolicSine;
     /// The inverse hyperbolic cosine; the number must be at or above 1.
@@ -126,10 +126,18 @@ pub enum Term<'g> {
 }
 
 impl<'g> Term<'g> {
-    fn place(self, graph: &RefCell<Graph>) -> usize {
+    pub(crate) fn place(self, graph: &RefCell<Graph>) -> usize {
         match self {
-            Term::Symbol(symbol) => symbol.place,
-            Term::Number(value) => graph.borrow_mut().number(value),
+            Term::Symbol(symbol) if std::ptr::eq(symbol.graph, graph) => symbol.place,
+            Term::Symbol(_) => {
+                graph.borrow_mut().refuse(Error::Foreign);
+                graph.borrow_mut().number(0.0)
+            }
+            Term::Number(value) if value.is_finite() => graph.borrow_mut().number(value),
+            Term::Number(value) => {
+                graph.borrow_mut().refuse(Error::Number { value });
+                graph.borrow_mut().number(0.0)
+            }
         }
     }
 }
@@ -151,13 +159,13 @@ macro_rules! operators {
         impl<'g, T: Into<Term<'g>>> $operator<T> for Expression<'g> {
             type Output = Self;
             fn $method(self, other: T) -> Self {
-                self.binary(Binary::$function, other.into().place(self.graph))
+                self.binary(Binary::$function, other)
             }
         }
         impl<'g> $operator<Expression<'g>> for f64 {
             type Output = Expression<'g>;
             fn $method(self, other: Expression<'g>) -> Expression<'g> {
-                other.number(self).binary(Binary::$function, other.place)
+                other.number(self).binary(Binary::$function, other)
             }
         }
     )*};
@@ -176,12 +184,10 @@ impl Neg for Expression<'_> {
     }
 }
 
-/// The parameters by their names, `p["damping"]`, or by their places.
+/// The parameters by their names, `p["damping"]`. A name that is none makes the formulas an error.
 pub struct Parameters<'g> {
     pub(crate) names: &'g [String],
     pub(crate) symbols: Vec<Expression<'g>>,
-    /// What `p["…"]` gives for a name that is none; such a name makes the formulas an error.
-    pub(crate) unknown: RefCell<Option<String>>,
     pub(crate) zero: Expression<'g>,
 }
 
@@ -198,7 +204,9 @@ impl<'g> Index<&str> for Parameters<'g> {
         match self.names.iter().position(|known| known == name) {
             Some(at) => &self.symbols[at],
             None => {
-                self.unknown.borrow_mut().get_or_insert_with(|| name.to_owned());
+                let reason = "no parameter of these formulas";
+                let error = Error::Name { name: name.to_owned(), reason };
+                self.zero.graph.borrow_mut().refuse(error);
                 &self.zero
             }
         }

@@ -3,10 +3,11 @@
 use crate::constant::{Constant, Decimal};
 use crate::derivative::partials;
 use crate::error::Error;
-use crate::expression::{Expression, Parameters};
+use crate::expression::{Expression, Parameters, Term};
 use crate::graph::Graph;
 use crate::node::Node;
 use std::cell::RefCell;
+use std::collections::HashSet;
 
 /// The largest number of parts of formulas. Ten times what 10 000 parts need for their second derivatives in one
 /// direction; a value of so many parts takes milliseconds.
@@ -59,8 +60,9 @@ impl Names {
     }
 
     pub(crate) fn check(&self) -> Result<(), Error> {
-        let all: Vec<&String> = self.states.iter().chain(&self.parameters).collect();
-        for (at, &name) in all.iter().enumerate() {
+        length("values of parameters", self.parameters.len(), self.values.len())?;
+        let mut known = HashSet::new();
+        for name in self.states.iter().chain(&self.parameters) {
             let refused = |reason| Err(Error::Name { name: name.clone(), reason });
             if RESERVED.contains(&name.as_str()) || crate::text::is_function(name) {
                 return refused("taken: it has a meaning in formulas");
@@ -68,7 +70,7 @@ impl Names {
             if !crate::text::is_name(name) {
                 return refused("no name: a letter first, then letters, digits and _");
             }
-            if all[..at].contains(&name) {
+            if !known.insert(name) {
                 return refused("used twice");
             }
         }
@@ -88,7 +90,8 @@ impl Formulas {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Name`] for a parameter that is not among the names; [`Error::TooLarge`] for more than a million parts.
+    /// [`Error::Name`] for a parameter that is not among the names; [`Error::Foreign`] for a symbol of another closure;
+    /// [`Error::Number`] for a number that is not finite; [`Error::TooLarge`] for more than a million parts.
     pub fn new<const N: usize>(
         names: Names,
         closure: impl for<'g> Fn(
@@ -121,13 +124,13 @@ impl Formulas {
         let parameters = Parameters {
             names: &names.parameters,
             symbols: (0..names.parameters.len()).map(|at| symbol(Node::Parameter(at))).collect(),
-            unknown: RefCell::new(None),
             zero: symbol(Node::Constant(0.0.into())),
         };
         let outputs = closure(symbol(Node::Time), &state, &parameters);
-        let outputs: Vec<usize> = outputs.into_iter().map(Expression::place).collect();
-        if let Some(name) = parameters.unknown.take() {
-            return Err(Error::Name { name, reason: "no parameter of these formulas" });
+        let outputs: Vec<usize> =
+            outputs.into_iter().map(|output| Term::Symbol(output).place(&graph)).collect();
+        if let Some(error) = graph.borrow_mut().wrong.take() {
+            return Err(error);
         }
         let nodes = graph.borrow().nodes().to_vec();
         Formulas::of_parts(names, nodes, outputs)
@@ -208,10 +211,14 @@ impl Formulas {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Length`]; [`Error::Kink`] for a function with a kink or a jump; [`Error::TooLarge`].
+    /// [`Error::Length`]; [`Error::Number`] for a component that is not finite; [`Error::Kink`] for a function with a kink
+    /// or a jump; [`Error::TooLarge`].
     pub fn derivative(&self, states: &[f64], parameters: &[f64]) -> Result<Formulas, Error> {
         length("components of the direction", self.names.states.len(), states.len())?;
         length("parameters of the direction", self.names.parameters.len(), parameters.len())?;
+        if let Some(&value) = states.iter().chain(parameters).find(|value| !value.is_finite()) {
+            return Err(Error::Number { value });
+        }
         let mut graph = Graph::of(self.nodes.clone());
         let outputs = self.along(&mut graph, |node| match node {
             Node::State(at) => states[*at],
@@ -257,9 +264,15 @@ impl Formulas {
     /// The places of another's outputs in a graph that begins with these parts.
     pub(crate) fn joined(&self, graph: &mut Graph, other: &Formulas) -> Result<Vec<usize>, Error> {
         if self.names != other.names {
-            let name = other.names.states.iter().chain(&other.names.parameters).next();
-            let reason = "of formulas with other variables or parameters; give both the same names";
-            return Err(Error::Name { name: name.cloned().unwrap_or_default(), reason });
+            let all = |names: &Names| [&names.states[..], &names.parameters[..]].concat();
+            let (own, others) = (all(&self.names), all(&other.names));
+            let differs =
+                (0..own.len().max(others.len())).find(|&at| own.get(at) != others.get(at));
+            // With equal names a value differs.
+            let at = differs.unwrap_or(self.names.states.len());
+            let name = others.get(at).or(own.get(at)).cloned().unwrap_or_default();
+            let reason = "not the same, or has another value, in the watched formulas";
+            return Err(Error::Name { name, reason });
         }
         let mut places: Vec<usize> = Vec::with_capacity(other.nodes.len());
         for node in &other.nodes {

@@ -1,14 +1,20 @@
 //! All parts of some formulas, equal ones merged.
 
 use crate::constant::Constant;
+use crate::error::Error;
 use crate::node::{Binary, Node, Unary};
 use std::collections::HashMap;
+
+/// 2⁵³: an `f64` of this size is an integer of its own.
+const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;
 
 /// A list of parts. Each one stands behind those of which it is a function, and no two are equal.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Graph {
     nodes: Vec<Node>,
     known: HashMap<Node, usize>,
+    /// What a closure did wrong: it cannot return an error from an operator.
+    pub(crate) wrong: Option<Error>,
 }
 
 /// What equal parts have in common. Sums and products of the same two parts are equal in either order: they have the
@@ -26,7 +32,7 @@ impl Graph {
     /// The graph of a list without equal parts.
     pub(crate) fn of(nodes: Vec<Node>) -> Self {
         let known = nodes.iter().enumerate().map(|(at, node)| (merged(node), at)).collect();
-        Graph { nodes, known }
+        Graph { nodes, known, wrong: None }
     }
 
     pub(crate) fn nodes(&self) -> &[Node] {
@@ -94,8 +100,13 @@ impl Graph {
         }
     }
 
+    /// Keeps the first error of a closure.
+    pub(crate) fn refuse(&mut self, error: Error) {
+        self.wrong.get_or_insert(error);
+    }
+
     /// The part with an integer exponent: by squaring, so that 0 and numbers below it have powers too.
-    pub(crate) fn integer_power(&mut self, base: usize, exponent: i32) -> usize {
+    pub(crate) fn integer_power(&mut self, base: usize, exponent: i64) -> usize {
         let mut left = exponent.unsigned_abs();
         let (mut square, mut product) = (base, None);
         while left > 0 {
@@ -120,21 +131,24 @@ impl Graph {
 
     /// A power, as it is written: by products for an integer, as a square root for ½.
     pub(crate) fn power(&mut self, base: usize, exponent: usize) -> usize {
+        match self.short_exponent(exponent) {
+            Some(0.5) => self.unary(Unary::SquareRoot, base),
+            Some(integer) => self.integer_power(base, integer as i64),
+            None => self.binary(Binary::Power, base, exponent),
+        }
+    }
+
+    /// An exponent that is an integer or ½ exactly.
+    pub(crate) fn short_exponent(&self, exponent: usize) -> Option<f64> {
         let (negative, number) = match &self.nodes[exponent] {
             Node::Unary(Unary::Negative, number) => (true, *number),
             _ => (false, exponent),
         };
-        if let Node::Constant(constant) = &self.nodes[number] {
-            let enclosure = constant.enclosure();
-            let value = if negative { -enclosure.low } else { enclosure.low };
-            let exact = enclosure.low == enclosure.high;
-            if exact && value.fract() == 0.0 && value.abs() <= f64::from(i32::MAX) {
-                return self.integer_power(base, value as i32);
-            }
-            if exact && value == 0.5 {
-                return self.unary(Unary::SquareRoot, base);
-            }
-        }
-        self.binary(Binary::Power, base, exponent)
+        let Node::Constant(constant) = &self.nodes[number] else { return None };
+        let enclosure = constant.enclosure();
+        let value = if negative { -enclosure.low } else { enclosure.low };
+        // Larger integers are all even, and no less exact.
+        let is_integer = value.fract() == 0.0 && value.abs() <= LARGEST_INTEGER;
+        (enclosure.low == enclosure.high && (is_integer || value == 0.5)).then_some(value)
     }
 }

@@ -122,7 +122,8 @@ impl Formulas {
             for (column, found) in values.iter_mut().zip(found()) {
                 column[first..first + width].copy_from_slice(&found.0[..width]);
             }
-            if found().all(|found| found.is_valid()) {
+            let starts = state.iter().chain([&time]);
+            if evaluator.parts.iter().chain(starts).all(Lanes::is_valid) {
                 continue;
             }
             for lane in 0..width {

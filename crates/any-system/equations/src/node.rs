@@ -36,6 +36,7 @@ pub enum Unary {
     HyperbolicSine,
     HyperbolicCosine,
     HyperbolicTangent,
+    HyperbolicSecant,
     InverseHyperbolicSine,
     InverseHyperbolicCosine,
     InverseHyperbolicTangent,
@@ -59,7 +60,7 @@ pub enum Binary {
 }
 
 /// Each function of one number, with its name in text and in files.
-pub(crate) const UNARY: [(&str, Unary); 17] = [
+pub(crate) const UNARY: [(&str, Unary); 18] = [
     ("sqrt", Unary::SquareRoot),
     ("exp", Unary::Exponential),
     ("ln", Unary::Logarithm),
@@ -72,6 +73,7 @@ pub(crate) const UNARY: [(&str, Unary); 17] = [
     ("sinh", Unary::HyperbolicSine),
     ("cosh", Unary::HyperbolicCosine),
     ("tanh", Unary::HyperbolicTangent),
+    ("sech", Unary::HyperbolicSecant),
     ("asinh", Unary::InverseHyperbolicSine),
     ("acosh", Unary::InverseHyperbolicCosine),
     ("atanh", Unary::InverseHyperbolicTangent),

@@ -5,8 +5,8 @@ use crate::formulas::Formulas;
 use crate::node::{BINARY, Binary, Node, UNARY, Unary};
 use std::fmt;
 
-/// The longest text of a part. Parts that occur often make texts that grow without bound.
-const LONGEST: usize = 100_000;
+/// The longest text of a part, in bytes. Parts that occur often make texts that grow without bound.
+const LONGEST: usize = 10_000;
 
 /// How strongly a text holds together: a sum, a product, a sign, a power, a name.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -26,41 +26,50 @@ enum Form {
 }
 
 impl Formulas {
-    /// Each formula as plain text, in the names of the user; `…` stands for what would be longer than 100 000
-    /// characters.
+    /// Each formula as plain text, in the names of the user. [`from_text`](Self::from_text) reads it again, unless it is
+    /// nested more than 200 deep, or has `…` for a part that is longer than 10 000 bytes: JSON has no such limits.
     pub fn texts(&self) -> Vec<String> {
-        self.outputs.iter().map(|&place| self.part(place)).collect()
+        self.written(&self.outputs, Form::Plain)
     }
 
     /// Each formula in LaTeX, for mathematical mode.
     pub fn latex(&self) -> Vec<String> {
-        self.outputs.iter().map(|&place| self.written(place, Form::Latex).0).collect()
+        self.written(&self.outputs, Form::Latex)
     }
 
     /// A part as plain text.
     pub(crate) fn part(&self, place: usize) -> String {
-        self.written(place, Form::Plain).0
+        self.written(&[place], Form::Plain).pop().unwrap_or_default()
     }
 
-    /// The texts of the parts that one needs, from the first on: there is no recursion, however deep the formula is.
-    fn written(&self, place: usize, form: Form) -> (String, Strength) {
-        let mut needed = vec![false; place + 1];
-        needed[place] = true;
-        for at in (0..=place).rev() {
-            if needed[at] {
-                self.nodes[at].operands().for_each(|operand| needed[operand] = true);
+    /// The texts of some parts. All parts that they need are written from the first on, without recursion, and dropped
+    /// behind their last use.
+    fn written(&self, wanted: &[usize], form: Form) -> Vec<String> {
+        let count = wanted.iter().max().map_or(0, |last| last + 1);
+        let mut uses = vec![0usize; count];
+        wanted.iter().for_each(|&place| uses[place] += 1);
+        for at in (0..count).rev() {
+            if uses[at] > 0 {
+                self.nodes[at].operands().for_each(|operand| uses[operand] += 1);
             }
         }
-        let mut texts: Vec<(String, Strength)> = Vec::with_capacity(place + 1);
-        for (at, is_needed) in needed.into_iter().enumerate() {
-            let (text, strength) = match is_needed {
-                true => self.write(at, &texts, form),
-                false => (String::new(), Strength::Name),
-            };
+        let mut texts: Vec<(String, Strength)> = Vec::with_capacity(count);
+        for at in 0..count {
+            if uses[at] == 0 {
+                texts.push((String::new(), Strength::Name));
+                continue;
+            }
+            let (text, strength) = self.write(at, &texts, form);
+            for operand in self.nodes[at].operands() {
+                uses[operand] -= 1;
+                if uses[operand] == 0 {
+                    texts[operand].0 = String::new();
+                }
+            }
             let fits = text.len() <= LONGEST;
             texts.push(if fits { (text, strength) } else { ("…".to_owned(), Strength::Name) });
         }
-        texts.swap_remove(place)
+        wanted.iter().map(|&place| texts[place].0.clone()).collect()
     }
 
     fn write(&self, at: usize, texts: &[(String, Strength)], form: Form) -> (String, Strength) {
@@ -82,7 +91,8 @@ impl Formulas {
             Node::Parameter(at) => (name(&self.names.parameters[*at]), Strength::Name),
             Node::Constant(constant) => number(constant, form),
             Node::Unary(Unary::Negative, a) => {
-                (format!("-{}", held(*a, Strength::Sign)), Strength::Sign)
+                let least = if form == Form::Plain { Strength::Sign } else { Strength::Power };
+                (format!("-{}", held(*a, least)), Strength::Sign)
             }
             Node::Unary(function, a) => (unary(*function, &texts[*a].0, form), Strength::Name),
             Node::Binary(function, a, b) => match function {
@@ -103,7 +113,7 @@ impl Formulas {
                     }
                 },
                 Binary::Product => {
-                    let sign = if form == Form::Plain { "*" } else { " \\, " };
+                    let sign = if form == Form::Plain { "*" } else { " \\cdot " };
                     let text = format!(
                         "{}{sign}{}",
                         held(*a, Strength::Product),
@@ -112,7 +122,7 @@ impl Formulas {
                     (text, Strength::Product)
                 }
                 Binary::Quotient if form == Form::Latex => {
-                    (format!("\\frac{{{}}}{{{}}}", texts[*a].0, texts[*b].0), Strength::Name)
+                    (format!("\\frac{{{}}}{{{}}}", texts[*a].0, texts[*b].0), Strength::Product)
                 }
                 Binary::Quotient => {
                     let text =
@@ -146,20 +156,26 @@ impl Formulas {
 }
 
 fn number(constant: &Constant, form: Form) -> (String, Strength) {
-    let text = constant.to_string();
-    let strength = if text.starts_with('-') { Strength::Sign } else { Strength::Name };
-    let text = match (constant, form) {
-        (Constant::Pi, Form::Latex) => "\\pi".to_owned(),
-        (_, Form::Latex) => match text.split_once(['e', 'E']) {
-            Some((digits, exponent)) if !digits.is_empty() => {
-                format!("{digits} \\cdot 10^{{{exponent}}}")
+    let plain = constant.to_string();
+    let sign = if plain.starts_with('-') { Strength::Sign } else { Strength::Name };
+    match (constant, form) {
+        (_, Form::Plain) => (plain, sign),
+        (Constant::Pi, Form::Latex) => ("\\pi".to_owned(), Strength::Name),
+        (Constant::Euler, Form::Latex) => ("\\mathrm{e}".to_owned(), Strength::Name),
+        (Constant::Decimal(_) | Constant::Double(_), Form::Latex) => {
+            // A reader of a page sees the digits of a double, without its mark.
+            let digits = plain.trim_start_matches("f64(").trim_end_matches(')');
+            let sign = if digits.starts_with('-') { Strength::Sign } else { Strength::Name };
+            match digits.split_once(['e', 'E']) {
+                Some((digits, "0")) => (digits.to_owned(), sign),
+                Some((digits, exponent)) => {
+                    let power = exponent.trim_start_matches('+');
+                    (format!("{digits} \\cdot 10^{{{power}}}"), Strength::Sum)
+                }
+                None => (digits.to_owned(), sign),
             }
-            _ => text,
-        },
-        (_, Form::Plain) => text,
-    };
-    let strength = if text.contains("cdot") { Strength::Product } else { strength };
-    (text, strength)
+        }
+    }
 }
 
 fn unary(function: Unary, argument: &str, form: Form) -> String {
@@ -177,10 +193,10 @@ fn unary(function: Unary, argument: &str, form: Form) -> String {
 
 /// A name in LaTeX: one letter in italics, more of them upright; what stands behind `_` is an index.
 fn latex_name(name: &str) -> String {
-    let (name, index) =
-        name.split_once('_').map_or((name, None), |(name, index)| (name, Some(index)));
+    let parts = name.split_once('_').filter(|(name, index)| !name.is_empty() && !index.is_empty());
+    let (name, index) = parts.map_or((name, None), |(name, index)| (name, Some(index)));
     let upright = |text: &str| match text.chars().count() {
-        0 | 1 => text.to_owned(),
+        1 if text != "_" => text.to_owned(),
         _ => format!("\\mathrm{{{}}}", text.replace('_', "\\_")),
     };
     match index {

@@ -9,6 +9,9 @@ use crate::graph::Graph;
 use crate::node::{Binary, Node, Unary};
 use std::fmt;
 
+/// The highest order of a series. Its time grows with the square of the order; none of an integration needs more than 25.
+const MOST_TERMS: usize = 10_000;
+
 /// The coefficients of series in time, x(t + s) = Σ x_k s^k, from k = 0 on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coefficients<A> {
@@ -54,21 +57,26 @@ impl Series {
     /// motion, such as guards.
     ///
     /// # Errors
-    /// [`Error::Length`] if the field has another number of formulas than the state has components, or the watched
-    /// formulas have other names; [`Error::Kink`] for a function with a kink or a jump; [`Error::TooLarge`].
+    /// [`Error::Length`] if the field has another number of formulas than the state has components; [`Error::Name`] if the
+    /// watched formulas have other names or values; [`Error::Kink`] for a function with a kink or a jump; [`Error::TooLarge`].
     pub fn new(field: &Formulas, watched: Option<&Formulas>) -> Result<Series, Error> {
         length("formulas of the field", field.names.states.len(), field.count())?;
         let mut graph = Graph::of(field.nodes.clone());
         let watched =
             watched.map_or(Ok(Vec::new()), |watched| field.joined(&mut graph, watched))?;
         let mut rules = Vec::new();
+        let mut moves: Vec<bool> = Vec::new();
         let mut place = 0;
         // Parts that are added for derivatives have series too.
         while place < graph.nodes().len() {
-            let rule = match graph.nodes()[place].clone() {
+            let node = graph.nodes()[place].clone();
+            let is_variable = matches!(node, Node::Time | Node::State(_));
+            moves.push(is_variable || node.operands().any(|operand| moves[operand]));
+            let rule = match node {
+                // Also where the function has no derivative.
+                _ if !moves[place] => Rule::Constant,
                 Node::Time => Rule::Time,
                 Node::State(at) => Rule::State(at),
-                Node::Parameter(_) | Node::Constant(_) => Rule::Constant,
                 Node::Unary(Unary::Negative, a) => Rule::Negative(a),
                 Node::Binary(Binary::Sum, a, b) => Rule::Sum(a, b),
                 Node::Binary(Binary::Difference, a, b) => Rule::Difference(a, b),
@@ -110,7 +118,7 @@ impl Series {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Length`]; [`Error::NoValue`] for a part without a value, or whose derivative has none, as that of √x at 0.
+    /// [`Error::Length`]; [`Error::Order`] above 10 000; [`Error::NoValue`] for a part without a value, or whose derivative has none, as that of √x at 0.
     pub fn coefficients<A: Algebra + fmt::Debug>(
         &self,
         time: A,
@@ -118,6 +126,10 @@ impl Series {
         order: usize,
     ) -> Result<Coefficients<A>, Error> {
         length("components of the state", self.field.names.states.len(), state.len())?;
+        if order > MOST_TERMS {
+            return Err(Error::Order { order, most: MOST_TERMS });
+        }
+        self.field.check_start(&time, state)?;
         let mut start = Evaluator::new(&self.field);
         start.compute(&time, state);
         self.check(&time, state, &start.parts)?;
@@ -144,16 +156,17 @@ impl Series {
         Ok(Coefficients { state: states.collect(), watched })
     }
 
-    /// An error unless the coefficients of one order have values, of what is asked for.
+    /// An error unless the coefficients of one order have values.
     fn check<A: Algebra + fmt::Debug>(
         &self,
         time: &A,
         state: &[A],
         values: &[A],
     ) -> Result<(), Error> {
-        let wanted: Vec<usize> = self.rates.iter().chain(&self.watched).copied().collect();
-        let is_valid = wanted.iter().all(|&at| values[at].is_valid());
-        if is_valid { Ok(()) } else { Err(self.field.no_value(time, state, values, &wanted)) }
+        match values.iter().all(A::is_valid) {
+            true => Ok(()),
+            false => Err(self.field.no_value(time, state, values)),
+        }
     }
 
     fn coefficient<A: Algebra>(&self, all: &[A], terms: usize, at: usize, k: usize) -> A {

@@ -12,6 +12,9 @@ const DEEPEST: usize = 200;
 /// The longest text, in bytes.
 const LONGEST: usize = 1_000_000;
 
+/// How much of a text an error shows, in characters.
+const SHOWN: usize = 80;
+
 /// What marks a number as its `f64`, see [`Constant`].
 const DOUBLE: &str = "f64";
 
@@ -40,7 +43,7 @@ impl Formulas {
     ///
     /// From the weakest to the strongest: `+` and `-`; `*` and `/`; a sign; `^`, also written `**`. A power takes its
     /// exponent from the right: `2^3^2` is 2⁹, and `-x^2` is −(x²). The functions are `sqrt`, `exp`, `ln`, `sin`, `cos`,
-    /// `tan`, `asin`, `acos`, `atan`, `atan2(y, x)`, `sinh`, `cosh`, `tanh`, `asinh`, `acosh`, `atanh`, `abs`, `sign`,
+    /// `tan`, `asin`, `acos`, `atan`, `atan2(y, x)`, `sinh`, `cosh`, `tanh`, `sech`, `asinh`, `acosh`, `atanh`, `abs`, `sign`,
     /// `min(a, b)`, `max(a, b)`. `t` is the time, `pi` or `π`, and `e` are constants. A number is the decimal that is
     /// written; `f64(0.1)` is its nearest `f64`, exactly. A power with an integer exponent is made of products.
     ///
@@ -95,7 +98,7 @@ impl Reader<'_> {
 
     fn wrong_at(&self, at: usize, reason: String) -> Error {
         // An error shows the beginning of a long text.
-        Error::Text { column: at + 1, text: self.text.chars().take(80).collect(), reason }
+        Error::Text { column: at + 1, text: self.text.chars().take(SHOWN).collect(), reason }
     }
 
     fn peek(&self) -> Option<char> {
@@ -227,7 +230,11 @@ impl Reader<'_> {
             digits(self);
         }
         let text: String = self.characters[begin..self.at].iter().collect();
-        let reason = || format!("{text} is no decimal with a finite f64");
+        if text.is_empty() {
+            return Err(self.wrong_at(begin, "a number is expected".to_owned()));
+        }
+        let shown: String = text.chars().take(SHOWN).collect();
+        let reason = || format!("{shown} is no decimal with a finite f64");
         Decimal::new(&text).ok_or_else(|| self.wrong_at(begin, reason()))
     }
 
@@ -249,7 +256,8 @@ impl Reader<'_> {
                 (Some(at), _) => Node::State(at),
                 (None, Some(at)) => Node::Parameter(at),
                 (None, None) => {
-                    let reason = format!("no variable or parameter has the name {name}");
+                    let shown: String = name.chars().take(SHOWN).collect();
+                    let reason = format!("no variable or parameter has the name {shown}");
                     return Err(self.wrong_at(begin, reason));
                 }
             },

@@ -108,6 +108,25 @@ fn second_derivatives_grow_by_a_factor() {
     assert!(second.values(0.0, &[0.3]).unwrap()[0].is_finite());
 }
 
+/// LaTeX says what is meant: factors, exponents of fractions, signs, doubles.
+#[test]
+fn latex_is_not_ambiguous() {
+    let names = Names::new(&["x", "y", "a__", "b_"], &[]).unwrap();
+    for (text, known) in [
+        ("2*3", r"2 \cdot 3"),
+        ("(x/y)^2", r"{\left(\frac{x}{y}\right)}^{2}"),
+        ("2*(1/2)*x", r"2 \cdot \left(\frac{1}{2}\right) \cdot x"),
+        ("--x", r"-\left(-x\right)"),
+        ("f64(0.1)*x", r"\left(1.0000000000000001 \cdot 10^{-1}\right) \cdot x"),
+        ("1e-3 + x", r"1 \cdot 10^{-3} + x"),
+        ("a__ + b_", r"a_{\mathrm{\_}} + \mathrm{b\_}"),
+        ("pi*e", r"\pi \cdot \mathrm{e}"),
+    ] {
+        let formulas = Formulas::from_text(names.clone(), &[text]).unwrap();
+        assert_eq!(formulas.latex(), [known], "{text}");
+    }
+}
+
 #[test]
 fn formulas_are_written_as_they_are_read() {
     let names = Names::new(&["x", "x_max"], &[("mu", "0.1")]).unwrap();
@@ -133,6 +152,6 @@ fn formulas_are_written_as_they_are_read() {
     }
     let written = Formulas::from_text(names, &["-sin(mu*x_max)/(1 + x^2)"]).unwrap();
     assert_eq!(written.texts(), ["-sin(mu*x_max)/(1 + x^2)"]);
-    let known = r"-\operatorname{sin}\left(\mathrm{mu} \, x_{\mathrm{max}}\right)";
+    let known = r"-\operatorname{sin}\left(\mathrm{mu} \cdot x_{\mathrm{max}}\right)";
     assert_eq!(written.latex(), [format!(r"\frac{{{known}}}{{1 + {{x}}^{{2}}}}")]);
 }

@@ -33,6 +33,7 @@ fn operators_have_their_precedence() {
         ("1.5e1 + .5 + 1.", 16.5),
         ("min(x, y)*max(x, y) - abs(-x)*sign(-y)", 18.0),
         ("x^2 * x^0 * x^1", 27.0),
+        ("(-1)^2147483648 + (-1)^2147483649", 0.0),
         ("4^0.5 + 4^1.5", 10.0),
         ("(-2)^3", -8.0),
         ("f64(0.1)*10", 1.0),
@@ -57,6 +58,7 @@ fn wrong_texts_are_errors_with_their_column() {
         ("atan2(x)", 8, "',' is expected, not ')'"),
         ("x ++* 2", 5, "a number, a name or ( is expected, not '*'"),
         ("x & y", 3, "'&' is not expected here"),
+        ("f64(x)", 5, "a number is expected"),
     ] {
         let names = Names::new(&["x", "y"], &[("α", "2")]).unwrap();
         match Formulas::from_text(names, &[text]) {
@@ -85,7 +87,17 @@ fn deep_and_long_texts_are_refused() {
     let sum = "t + ".repeat(20_000) + "t";
     let formulas = Formulas::from_text(Names::default(), &[&sum]).unwrap();
     assert_eq!(formulas.values(1.0, &[]).unwrap(), [20_001.0]);
-    assert!(formulas.texts()[0].len() > 80_000);
+    // Its text is cut, and takes little memory.
+    let text = &formulas.texts()[0];
+    assert!(text.starts_with('…') && text.len() < 20_000, "{text:.100}");
+    // Many names, and a name and a number as long as a text.
+    let names: Vec<String> = (0..50_000).map(|k| format!("x{k}")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    assert!(Names::new(&names, &[]).is_ok());
+    for long in ["y".repeat(100_000), "1".repeat(100_000)] {
+        let error = Formulas::from_text(Names::default(), &[&long]).unwrap_err();
+        assert!(error.to_string().len() < 400);
+    }
 }
 
 #[test]
@@ -128,6 +140,7 @@ fn wrong_files_are_refused_with_the_place() {
         (file(r#"["x"]"#, r#"[["number", 0.2]]"#, "[0]"), "parts[0]"),
         (file(r#"["x"]"#, r#"[["number", "f1e400"]]"#, "[0]"), "parts[0]"),
         (file(r#"["x"]"#, "[[]]", "[0]"), "parts[0]"),
+        (file(r#"["x"]"#, r#"[["state", 0], ["number", "2"], ["^", 0, 1]]"#, "[2]"), "parts[2]"),
         (file(r#"["x"]"#, r#"[["time"]]"#, "[1]"), "outputs[0]"),
         (file("[3]", r#"[["time"]]"#, "[0]"), "states[0]"),
         (file("7", r#"[["time"]]"#, "[0]"), "states"),

@@ -62,6 +62,83 @@ fn an_enclosure_that_leaves_a_domain_is_refused() {
     }
 }
 
+/// What is infinite on the way leaves no trace in the result, and is refused.
+#[test]
+fn a_part_that_is_infinite_is_refused() {
+    for (text, part) in [
+        ("min(1/x, 5)", "1/x"),
+        ("max(ln(x), 5)", "ln(x)"),
+        ("atan(1/x)", "1/x"),
+        ("1/(1/x)", "1/x"),
+        ("exp(ln(x))", "ln(x)"),
+        ("sign(atanh(x - 1))", "atanh(x - 1)"),
+        ("(x + 1e103)^-3", "(x + 1e103)*(x + 1e103)^2"),
+        ("1/(1 + exp(800 - x))", "exp(800 - x)"),
+    ] {
+        match formulas(&[text]).values(0.0, &[0.0, 1.0]) {
+            Err(Error::NoValue { part: found, .. }) => assert_eq!(found, part),
+            other => panic!("{text}: {other:?}"),
+        }
+        let found = formulas(&[text])
+            .enclosures(Enclosure::ZERO, &[Enclosure::new(0.0, 1e-3), Enclosure::ONE]);
+        assert!(matches!(found, Err(Error::NoValue { .. })), "{text}: {found:?}");
+    }
+    // A state that is none is refused also where no formula has it.
+    for state in [[f64::NAN, 0.0], [0.0, f64::INFINITY]] {
+        assert!(matches!(formulas(&["t"]).values(0.0, &state), Err(Error::NoValue { .. })));
+        let series = Series::new(&formulas(&["1", "t"]), None).unwrap();
+        assert!(matches!(series.coefficients(0.0, &state, 2), Err(Error::NoValue { .. })));
+    }
+    assert!(formulas(&["x"]).values(f64::NAN, &[0.0, 0.0]).is_err());
+}
+
+/// A symbol of another closure, and numbers that are none.
+#[test]
+fn closures_with_foreign_symbols_or_numbers_are_refused() {
+    let names = || Names::new(&["x"], &[]).unwrap();
+    let nested = Formulas::new(names(), |_, outer, _| {
+        let inner = Formulas::new(names(), |_, inner, _| {
+            let _ = outer[0] + inner[0].sin();
+            [inner[0]]
+        });
+        assert!(inner.is_ok());
+        [outer[0]]
+    });
+    assert_eq!(nested, Err(Error::Foreign));
+    for value in [f64::NAN, f64::INFINITY] {
+        let found = Formulas::new(names(), |_, x, _| [x[0] * value]);
+        assert!(matches!(found, Err(Error::Number { .. })), "{found:?}");
+        assert!(matches!(
+            formulas(&["x"]).derivative(&[value, 0.0], &[0.0]),
+            Err(Error::Number { .. })
+        ));
+    }
+    let wrong = Names { states: vec!["x".into()], parameters: vec!["a".into()], values: vec![] };
+    assert!(matches!(Formulas::from_text(wrong, &["x"]), Err(Error::Length { .. })));
+    let series = Series::new(&formulas(&["v", "-x"]), None).unwrap();
+    assert!(matches!(series.coefficients(0.0, &[1.0, 0.0], usize::MAX), Err(Error::Order { .. })));
+}
+
+/// What does not move has a series also where its function has none.
+#[test]
+fn parts_that_do_not_move_are_numbers_of_a_series() {
+    let field = formulas(&["abs(a)*x", "min(a, 3)*sqrt(0*a)*acosh(1)"]);
+    let found = Series::new(&field, None).unwrap().coefficients(0.0, &[1.0, 2.0], 3).unwrap();
+    assert_eq!(found.state[0][..3], [1.0, 0.5, 0.125]);
+    assert_eq!(found.state[1], [2.0, 0.0, 0.0, 0.0]);
+}
+
+/// Far from zero a smooth switch is flat.
+#[test]
+fn tanh_has_a_series_far_from_zero() {
+    let field = formulas(&["-tanh(x)", "0"]);
+    let found = Series::new(&field, None).unwrap().coefficients(0.0, &[800.0, 0.0], 4).unwrap();
+    assert_eq!(found.state[0], [800.0, -1.0, 0.0, 0.0, 0.0]);
+    let second = formulas(&["tanh(x)"]).derivative(&[1.0, 0.0], &[0.0]).unwrap();
+    let second = second.derivative(&[1.0, 0.0], &[0.0]).unwrap();
+    assert!(second.values(0.0, &[400.0, 0.0]).unwrap()[0].abs() < 1e-300);
+}
+
 #[test]
 fn kinks_have_no_derivative_and_no_series() {
     for text in ["abs(x)", "sign(x)*v", "min(x, v)", "x + max(v, 0)^2"] {
