@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 /// The version of the format. A reader refuses others.
 const VERSION: u64 = 1;
 
-/// The longest file, in bytes: a million parts of thirty characters. Reading takes some thirty times as much memory at most.
+/// The longest file, in bytes: a million parts of thirty characters. Its values take half a gigabyte at most.
 const LONGEST: usize = 30_000_000;
 
 /// Operators, with their names in files. Functions have the names that they have in text.
@@ -61,6 +61,10 @@ impl Formulas {
     pub fn from_json(text: &str) -> Result<Formulas, Error> {
         if text.len() > LONGEST {
             return Err(wrong("the file", format!("it is longer than {LONGEST} bytes")));
+        }
+        // Parts and parameters are lists. A file of more lists would take memory before they are counted.
+        if text.matches('[').count() > 2 * MOST_PARTS {
+            return Err(Error::TooLarge { limit: MOST_PARTS });
         }
         let file: Value =
             serde_json::from_str(text).map_err(|error| wrong("the file", error.to_string()))?;
