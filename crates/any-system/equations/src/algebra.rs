@@ -16,7 +16,7 @@ pub trait Algebra: Clone {
     fn square(x: &Self) -> Self;
     /// x + y z, the step of every series.
     fn add_product(x: &Self, y: &Self, z: &Self) -> Self;
-    /// x · k, or x / k for `over`, of a whole number k.
+    /// x · k, of a whole number k.
     fn times(x: &Self, k: f64) -> Self;
     /// The number 0.
     fn zero() -> Self;

@@ -3,55 +3,95 @@
 use crate::graph::Graph;
 use crate::node::{Binary, Node, Unary};
 
-/// The partial derivatives of a part by its operands: (derivative, operand). `None` for a function with a kink.
+/// The partial derivatives of a part by those operands that move: (derivative, operand). `None` for a function with a
+/// kink.
 ///
 /// Both derivatives of formulas and Taylor series in time stand on this table: along a motion, y′ = Σ (∂y/∂u) u′.
-pub(crate) fn partials(graph: &mut Graph, place: usize) -> Option<Vec<(usize, usize)>> {
-    let node = graph.nodes()[place].clone();
-    Some(match node {
-        Node::Time | Node::State(_) | Node::Parameter(_) | Node::Constant(_) => vec![],
-        Node::Unary(function, u) => vec![(of_unary(graph, function, u, place)?, u)],
-        Node::Binary(function, a, b) => match function {
-            Binary::Sum => {
-                let one = graph.number(1.0);
-                vec![(one, a), (one, b)]
+pub(crate) fn partials(
+    graph: &mut Graph,
+    place: usize,
+    moves: impl Fn(usize) -> bool,
+) -> Option<Vec<(usize, usize)>> {
+    let mut found = Vec::new();
+    match graph.nodes()[place] {
+        Node::Time | Node::State(_) | Node::Parameter(_) | Node::Constant(_) => {}
+        Node::Unary(function, u) => found.push((of_unary(graph, function, u, place)?, u)),
+        Node::Binary(function, a, b) => {
+            if moves(a) {
+                found.push((by_first(graph, function, (a, b), place)?, a));
             }
-            Binary::Difference => {
-                let (one, minus) = (graph.number(1.0), graph.number(-1.0));
-                vec![(one, a), (minus, b)]
+            if moves(b) {
+                found.push((by_second(graph, function, (a, b), place)?, b));
             }
-            Binary::Product => vec![(b, a), (a, b)],
-            Binary::Quotient => {
-                // (a/b)′ = a′/b − (a/b) b′/b.
-                let one = graph.number(1.0);
-                let by_first = graph.binary(Binary::Quotient, one, b);
-                let ratio = graph.binary(Binary::Quotient, place, b);
-                vec![(by_first, a), (graph.unary(Unary::Negative, ratio), b)]
-            }
-            Binary::Power => {
-                // y = x^v: y′ = y (v ln x)′ = (y v/x) x′ + (y ln x) v′.
-                let product = graph.binary(Binary::Product, place, b);
-                let by_base = graph.binary(Binary::Quotient, product, a);
-                let logarithm = graph.unary(Unary::Logarithm, a);
-                vec![(by_base, a), (graph.binary(Binary::Product, place, logarithm), b)]
-            }
-            Binary::ArcTangent2 => {
-                // The angle of (b, a): (b a′ − a b′)/(a² + b²).
-                let squares = [a, b].map(|part| graph.integer_power(part, 2));
-                let size = graph.binary(Binary::Sum, squares[0], squares[1]);
-                let by_y = graph.binary(Binary::Quotient, b, size);
-                let by_x = graph.binary(Binary::Quotient, a, size);
-                vec![(by_y, a), (graph.unary(Unary::Negative, by_x), b)]
-            }
-            Binary::Minimum | Binary::Maximum => return None,
-        },
+        }
+    }
+    Some(found)
+}
+
+/// The derivative of y = f(a, b) by a, where `y` is the place of f(a, b).
+fn by_first(
+    graph: &mut Graph,
+    function: Binary,
+    (a, b): (usize, usize),
+    y: usize,
+) -> Option<usize> {
+    Some(match function {
+        Binary::Sum | Binary::Difference => graph.number(1.0),
+        Binary::Product => b,
+        Binary::Quotient => {
+            let one = graph.number(1.0);
+            graph.binary(Binary::Quotient, one, b)
+        }
+        // a^b has the derivative (a^b) b/a.
+        Binary::Power => {
+            let product = graph.binary(Binary::Product, y, b);
+            graph.binary(Binary::Quotient, product, a)
+        }
+        // The angle of (b, a) changes by (b a′ − a b′)/(a² + b²).
+        Binary::ArcTangent2 => over_squares(graph, b, (a, b)),
+        Binary::Minimum | Binary::Maximum => return None,
     })
+}
+
+/// The derivative of y = f(a, b) by b.
+fn by_second(
+    graph: &mut Graph,
+    function: Binary,
+    (a, b): (usize, usize),
+    y: usize,
+) -> Option<usize> {
+    Some(match function {
+        Binary::Sum => graph.number(1.0),
+        Binary::Difference => graph.number(-1.0),
+        Binary::Product => a,
+        // −(a/b)/b.
+        Binary::Quotient => {
+            let ratio = graph.binary(Binary::Quotient, y, b);
+            graph.unary(Unary::Negative, ratio)
+        }
+        // a^b has the derivative (a^b) ln a.
+        Binary::Power => {
+            let logarithm = graph.unary(Unary::Logarithm, a);
+            graph.binary(Binary::Product, y, logarithm)
+        }
+        Binary::ArcTangent2 => {
+            let part = over_squares(graph, a, (a, b));
+            graph.unary(Unary::Negative, part)
+        }
+        Binary::Minimum | Binary::Maximum => return None,
+    })
+}
+
+/// part/(a² + b²).
+fn over_squares(graph: &mut Graph, part: usize, (a, b): (usize, usize)) -> usize {
+    let squares = [a, b].map(|part| graph.integer_power(part, 2));
+    let size = graph.binary(Binary::Sum, squares[0], squares[1]);
+    graph.binary(Binary::Quotient, part, size)
 }
 
 /// The derivative of y = f(u), where `y` is the place of f(u).
 fn of_unary(graph: &mut Graph, function: Unary, u: usize, y: usize) -> Option<usize> {
     let one = graph.number(1.0);
-    let square = graph.integer_power(u, 2);
     let over = |graph: &mut Graph, divisor| graph.binary(Binary::Quotient, one, divisor);
     let over_root = |graph: &mut Graph, radicand| {
         let root = graph.unary(Unary::SquareRoot, radicand);
@@ -70,17 +110,14 @@ fn of_unary(graph: &mut Graph, function: Unary, u: usize, y: usize) -> Option<us
             let sine = graph.unary(Unary::Sine, u);
             graph.unary(Unary::Negative, sine)
         }
-        Unary::Tangent => {
-            let square = graph.integer_power(y, 2);
-            graph.binary(Binary::Sum, one, square)
-        }
+        Unary::Tangent => one_and_square(graph, one, y),
         Unary::ArcSine | Unary::ArcCosine => {
             let radicand = factors(graph, one, u);
             let slope = over_root(graph, radicand);
             if function == Unary::ArcSine { slope } else { graph.unary(Unary::Negative, slope) }
         }
         Unary::ArcTangent => {
-            let divisor = graph.binary(Binary::Sum, one, square);
+            let divisor = one_and_square(graph, one, u);
             over(graph, divisor)
         }
         Unary::HyperbolicSine => graph.unary(Unary::HyperbolicCosine, u),
@@ -96,7 +133,7 @@ fn of_unary(graph: &mut Graph, function: Unary, u: usize, y: usize) -> Option<us
             graph.unary(Unary::Negative, product)
         }
         Unary::InverseHyperbolicSine => {
-            let radicand = graph.binary(Binary::Sum, one, square);
+            let radicand = one_and_square(graph, one, u);
             over_root(graph, radicand)
         }
         Unary::InverseHyperbolicCosine => {
@@ -109,6 +146,12 @@ fn of_unary(graph: &mut Graph, function: Unary, u: usize, y: usize) -> Option<us
         }
         Unary::Absolute | Unary::Sign => return None,
     })
+}
+
+/// 1 + a².
+fn one_and_square(graph: &mut Graph, one: usize, a: usize) -> usize {
+    let square = graph.integer_power(a, 2);
+    graph.binary(Binary::Sum, one, square)
 }
 
 /// a² − b² by factors: no digits are lost where both are nearly equal.

@@ -1,5 +1,6 @@
 //! Symbols that a closure computes with.
 
+use crate::constant::Constant;
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::node::{Binary, Node, Unary};
@@ -37,7 +38,7 @@ impl<'g> Expression<'g> {
 
     /// π, which is no `f64`.
     pub fn pi(self) -> Self {
-        Self::of(self.graph, Node::Constant(crate::constant::Constant::Pi))
+        Self::of(self.graph, Node::Constant(Constant::Pi))
     }
 
     /// The power with an integer exponent, by products.

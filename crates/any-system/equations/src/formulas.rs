@@ -5,7 +5,7 @@ use crate::derivative::partials;
 use crate::error::Error;
 use crate::expression::{Expression, Parameters, Term};
 use crate::graph::Graph;
-use crate::node::Node;
+use crate::node::{Node, uses};
 use std::cell::RefCell;
 use std::collections::HashSet;
 
@@ -129,11 +129,11 @@ impl Formulas {
         let outputs = closure(symbol(Node::Time), &state, &parameters);
         let outputs: Vec<usize> =
             outputs.into_iter().map(|output| Term::Symbol(output).place(&graph)).collect();
-        if let Some(error) = graph.borrow_mut().wrong.take() {
-            return Err(error);
+        let mut graph = graph.take();
+        match graph.wrong.take() {
+            Some(error) => Err(error),
+            None => Formulas::of_parts(names, graph.into_nodes(), outputs),
         }
-        let nodes = graph.borrow().nodes().to_vec();
-        Formulas::of_parts(names, nodes, outputs)
     }
 
     /// The formulas of a list of parts, without those that no output needs.
@@ -145,22 +145,12 @@ impl Formulas {
         if nodes.len() > MOST_PARTS {
             return Err(Error::TooLarge { limit: MOST_PARTS });
         }
-        let mut needed = vec![false; nodes.len()];
-        outputs.iter().for_each(|&place| needed[place] = true);
-        for place in (0..nodes.len()).rev() {
-            if needed[place] {
-                nodes[place].operands().for_each(|operand| needed[operand] = true);
-            }
-        }
+        let uses = uses(&nodes, &outputs);
         let mut new_place = vec![0; nodes.len()];
         let mut kept = Vec::new();
-        for (place, node) in nodes.into_iter().enumerate().filter(|(place, _)| needed[*place]) {
+        for (place, node) in nodes.iter().enumerate().filter(|(place, _)| uses[*place] > 0) {
             new_place[place] = kept.len();
-            kept.push(match node {
-                Node::Unary(function, a) => Node::Unary(function, new_place[a]),
-                Node::Binary(function, a, b) => Node::Binary(function, new_place[a], new_place[b]),
-                node => node,
-            });
+            kept.push(node.moved(&new_place));
         }
         let outputs = outputs.into_iter().map(|place| new_place[place]).collect();
         Ok(Formulas { names, nodes: kept, outputs })
@@ -258,7 +248,7 @@ impl Formulas {
             .collect::<Result<_, Error>>()?;
         let outputs =
             (0..self.count()).flat_map(|row| columns.iter().map(move |column| column[row]));
-        Formulas::of_parts(self.names.clone(), graph.clone().into_nodes(), outputs.collect())
+        Formulas::of_parts(self.names.clone(), graph.into_nodes(), outputs.collect())
     }
 
     /// The places of another's outputs in a graph that begins with these parts.
@@ -276,11 +266,7 @@ impl Formulas {
         }
         let mut places: Vec<usize> = Vec::with_capacity(other.nodes.len());
         for node in &other.nodes {
-            let node = match node {
-                Node::Unary(function, a) => Node::Unary(*function, places[*a]),
-                Node::Binary(function, a, b) => Node::Binary(*function, places[*a], places[*b]),
-                node => node.clone(),
-            };
+            let node = node.moved(&places);
             places.push(graph.place(node));
         }
         Ok(other.outputs.iter().map(|&place| places[place]).collect())
@@ -305,8 +291,8 @@ impl Formulas {
             let change = if !moves {
                 graph.number(direction(node))
             } else {
-                let rates =
-                    partials(graph, place).ok_or_else(|| Error::Kink { part: self.part(place) })?;
+                let rates = partials(graph, place, |operand| changes[operand] != zero)
+                    .ok_or_else(|| Error::Kink { part: self.part(place) })?;
                 let terms: Vec<usize> = rates
                     .into_iter()
                     .map(|(rate, operand)| graph.product(rate, changes[operand]))

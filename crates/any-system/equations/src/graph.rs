@@ -121,10 +121,12 @@ impl Graph {
                 square = self.binary(Binary::Product, square, square);
             }
         }
-        let one = self.number(1.0);
         match product {
-            None => one,
-            Some(product) if exponent < 0 => self.binary(Binary::Quotient, one, product),
+            None => self.number(1.0),
+            Some(product) if exponent < 0 => {
+                let one = self.number(1.0);
+                self.binary(Binary::Quotient, one, product)
+            }
             Some(product) => product,
         }
     }

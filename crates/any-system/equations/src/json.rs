@@ -12,7 +12,7 @@ use crate::constant::{Constant, Decimal};
 use crate::error::Error;
 use crate::formulas::{Formulas, MOST_PARTS, Names};
 use crate::graph::Graph;
-use crate::node::{BINARY, Binary, Node, UNARY, Unary};
+use crate::node::{BINARY, Binary, Node, UNARY, Unary, name_in, named};
 use serde_json::{Value, json};
 
 /// The version of the format. A reader refuses others.
@@ -152,19 +152,16 @@ fn constant(text: &str) -> Option<Constant> {
 }
 
 fn part(node: &Node) -> Value {
-    let name_of = |found: Option<&'static str>| found.unwrap_or("negative");
     match node {
         Node::Time => json!(["time"]),
         Node::State(at) => json!(["state", at]),
         Node::Parameter(at) => json!(["parameter", at]),
         Node::Constant(constant) => json!(["number", written(constant)]),
-        Node::Unary(function, a) => {
-            let found = UNARY.iter().find(|(_, known)| known == function);
-            json!([name_of(found.map(|(name, _)| *name)), a])
-        }
+        // A sign has no name in text.
+        Node::Unary(function, a) => json!([name_in(&UNARY, function).unwrap_or("negative"), a]),
         Node::Binary(function, a, b) => {
-            let found = OPERATORS.iter().chain(&BINARY).find(|(_, known)| known == function);
-            json!([name_of(found.map(|(name, _)| *name)), a, b])
+            let name = name_in(&OPERATORS, function).or_else(|| name_in(&BINARY, function));
+            json!([name, a, b])
         }
     }
 }
@@ -200,12 +197,12 @@ fn node(part: &Value, at: usize, names: &Names) -> Result<Node, String> {
         }
         "negative" => takes(1).and_then(|()| Ok(Node::Unary(Unary::Negative, operand(1)?))),
         _ => {
-            if let Some(&(_, function)) = UNARY.iter().find(|(known, _)| *known == name) {
+            if let Some(function) = named(&UNARY, name) {
                 takes(1)?;
                 return Ok(Node::Unary(function, operand(1)?));
             }
-            let found = OPERATORS.iter().chain(&BINARY).find(|(known, _)| *known == name);
-            let &(_, function) = found.ok_or_else(|| format!("there is no part {name:?}"))?;
+            let found = named(&OPERATORS, name).or_else(|| named(&BINARY, name));
+            let function = found.ok_or_else(|| format!("there is no part {name:?}"))?;
             takes(2)?;
             Ok(Node::Binary(function, operand(1)?, operand(2)?))
         }

@@ -85,6 +85,31 @@ pub(crate) const UNARY: [(&str, Unary); 18] = [
 pub(crate) const BINARY: [(&str, Binary); 3] =
     [("atan2", Binary::ArcTangent2), ("min", Binary::Minimum), ("max", Binary::Maximum)];
 
+/// The name of a function in a table.
+pub(crate) fn name_in<F: PartialEq>(
+    table: &[(&'static str, F)],
+    function: &F,
+) -> Option<&'static str> {
+    table.iter().find(|(_, known)| known == function).map(|(name, _)| *name)
+}
+
+/// The function with a name in a table.
+pub(crate) fn named<F: Copy>(table: &[(&'static str, F)], name: &str) -> Option<F> {
+    table.iter().find(|(known, _)| *known == name).map(|(_, function)| *function)
+}
+
+/// How often each part is used: by the wanted ones, once each, and by the parts that these need.
+pub(crate) fn uses(nodes: &[Node], wanted: &[usize]) -> Vec<usize> {
+    let mut uses = vec![0; nodes.len()];
+    wanted.iter().for_each(|&place| uses[place] += 1);
+    for (at, node) in nodes.iter().enumerate().rev() {
+        if uses[at] > 0 {
+            node.operands().for_each(|operand| uses[operand] += 1);
+        }
+    }
+    uses
+}
+
 impl Node {
     /// The parts of which this one is a function.
     pub fn operands(&self) -> impl Iterator<Item = usize> {
@@ -96,12 +121,12 @@ impl Node {
         first.into_iter().chain(second)
     }
 
-    /// True for a function that has no Taylor series at some arguments, because it has a kink or a jump there.
-    pub fn has_kink(&self) -> bool {
-        matches!(
-            self,
-            Node::Unary(Unary::Absolute | Unary::Sign, _)
-                | Node::Binary(Binary::Minimum | Binary::Maximum, ..)
-        )
+    /// The part in another list, where the parts of this one have these places.
+    pub(crate) fn moved(&self, places: &[usize]) -> Node {
+        match self {
+            Node::Unary(function, a) => Node::Unary(*function, places[*a]),
+            Node::Binary(function, a, b) => Node::Binary(*function, places[*a], places[*b]),
+            node => node.clone(),
+        }
     }
 }

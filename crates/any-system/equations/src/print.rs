@@ -2,7 +2,7 @@
 
 use crate::constant::Constant;
 use crate::formulas::Formulas;
-use crate::node::{BINARY, Binary, Node, UNARY, Unary};
+use crate::node::{BINARY, Binary, Node, UNARY, Unary, name_in, uses};
 use std::fmt;
 
 /// The longest text of a part, in bytes. Parts that occur often make texts that grow without bound.
@@ -46,13 +46,7 @@ impl Formulas {
     /// behind their last use.
     fn written(&self, wanted: &[usize], form: Form) -> Vec<String> {
         let count = wanted.iter().max().map_or(0, |last| last + 1);
-        let mut uses = vec![0usize; count];
-        wanted.iter().for_each(|&place| uses[place] += 1);
-        for at in (0..count).rev() {
-            if uses[at] > 0 {
-                self.nodes[at].operands().for_each(|operand| uses[operand] += 1);
-            }
-        }
+        let mut uses = uses(&self.nodes[..count], wanted);
         let mut texts: Vec<(String, Strength)> = Vec::with_capacity(count);
         for at in 0..count {
             if uses[at] == 0 {
@@ -141,8 +135,7 @@ impl Formulas {
                     }
                 },
                 Binary::ArcTangent2 | Binary::Minimum | Binary::Maximum => {
-                    let found = BINARY.iter().find(|(_, known)| known == function);
-                    let name = found.map_or("", |(name, _)| name);
+                    let name = name_in(&BINARY, function).unwrap_or_default();
                     let arguments = format!("({}, {})", texts[*a].0, texts[*b].0);
                     let text = match form {
                         Form::Plain => format!("{name}{arguments}"),
@@ -179,8 +172,7 @@ fn number(constant: &Constant, form: Form) -> (String, Strength) {
 }
 
 fn unary(function: Unary, argument: &str, form: Form) -> String {
-    let found = UNARY.iter().find(|(_, known)| *known == function);
-    let name = found.map_or("", |(name, _)| name);
+    let name = name_in(&UNARY, &function).unwrap_or_default();
     match form {
         Form::Plain => format!("{name}({argument})"),
         Form::Latex => match function {

@@ -4,7 +4,7 @@ use crate::algebra::Algebra;
 use crate::derivative::partials;
 use crate::error::Error;
 use crate::evaluate::Evaluator;
-use crate::formulas::{Formulas, length};
+use crate::formulas::{Formulas, MOST_PARTS, length};
 use crate::graph::Graph;
 use crate::node::{Binary, Node, Unary};
 use std::fmt;
@@ -48,6 +48,8 @@ enum Rule {
 pub struct Series {
     field: Formulas,
     rules: Vec<Rule>,
+    /// The places of the state's components, of their rates, and of what is watched.
+    states: Vec<usize>,
     rates: Vec<usize>,
     watched: Vec<usize>,
 }
@@ -58,12 +60,16 @@ impl Series {
     ///
     /// # Errors
     /// [`Error::Length`] if the field has another number of formulas than the state has components; [`Error::Name`] if the
-    /// watched formulas have other names or values; [`Error::Kink`] for a function with a kink or a jump; [`Error::TooLarge`].
+    /// watched formulas have other names or values; [`Error::Kink`] for a function with a kink or a jump;
+    /// [`Error::TooLarge`].
     pub fn new(field: &Formulas, watched: Option<&Formulas>) -> Result<Series, Error> {
         length("formulas of the field", field.names.states.len(), field.count())?;
         let mut graph = Graph::of(field.nodes.clone());
         let watched =
             watched.map_or(Ok(Vec::new()), |watched| field.joined(&mut graph, watched))?;
+        // Also of components that no formula has.
+        let count = field.names.states.len();
+        let states = (0..count).map(|component| graph.place(Node::State(component))).collect();
         let mut rules = Vec::new();
         let mut moves: Vec<bool> = Vec::new();
         let mut place = 0;
@@ -83,7 +89,7 @@ impl Series {
                 Node::Binary(Binary::Product, a, b) => Rule::Product(a, b),
                 Node::Binary(Binary::Quotient, a, b) => Rule::Quotient(a, b),
                 _ => {
-                    let found = partials(&mut graph, place);
+                    let found = partials(&mut graph, place, |operand| moves[operand]);
                     Rule::Chain(
                         found.ok_or_else(|| Error::Kink { part: field.text_of(&graph, place) })?,
                     )
@@ -91,18 +97,13 @@ impl Series {
             };
             rules.push(rule);
             place += 1;
-            if graph.nodes().len() > crate::formulas::MOST_PARTS {
-                return Err(Error::TooLarge { limit: crate::formulas::MOST_PARTS });
+            if graph.nodes().len() > MOST_PARTS {
+                return Err(Error::TooLarge { limit: MOST_PARTS });
             }
         }
         let (rates, names) = (field.outputs.clone(), field.names.clone());
         let field = Formulas { names, nodes: graph.into_nodes(), outputs: rates.clone() };
-        Ok(Series { field, rules, rates, watched })
-    }
-
-    /// The number of components of the state.
-    pub fn dimension(&self) -> usize {
-        self.rates.len()
+        Ok(Series { field, rules, states, rates, watched })
     }
 
     /// The coefficients up to `order` at a time and a state.
@@ -118,7 +119,8 @@ impl Series {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Length`]; [`Error::Order`] above 10 000; [`Error::NoValue`] for a part without a value, or whose derivative has none, as that of √x at 0.
+    /// [`Error::Length`]; [`Error::Order`] above 10 000; [`Error::NoValue`] for a part without a value, or whose derivative
+    /// has none, as that of √x at 0.
     pub fn coefficients<A: Algebra + fmt::Debug>(
         &self,
         time: A,
@@ -146,14 +148,8 @@ impl Series {
             self.check(&time, state, &last)?;
         }
         let series = |place: usize| all[place * terms..][..terms].to_vec();
-        let states = (0..state.len()).map(|component| {
-            let place = self.field.nodes.iter().position(|node| *node == Node::State(component));
-            // A component that no formula has is the integral of its rate.
-            place
-                .map_or_else(|| integral(&state[component], &series(self.rates[component])), series)
-        });
-        let watched = self.watched.iter().map(|&place| series(place)).collect();
-        Ok(Coefficients { state: states.collect(), watched })
+        let all_of = |places: &[usize]| places.iter().map(|&place| series(place)).collect();
+        Ok(Coefficients { state: all_of(&self.states), watched: all_of(&self.watched) })
     }
 
     /// An error unless the coefficients of one order have values.
@@ -204,12 +200,6 @@ impl Series {
 /// Σ a_j b_{n−j} of two series with the terms 0 to n.
 fn convolution<A: Algebra>(a: &[A], b: &[A]) -> A {
     a.iter().zip(b.iter().rev()).fold(A::zero(), |sum, (a, b)| A::add_product(&sum, a, b))
-}
-
-/// The series with this start and this rate.
-fn integral<A: Algebra>(start: &A, rate: &[A]) -> Vec<A> {
-    let rest = (1..rate.len()).map(|k| divided(&rate[k - 1], k));
-    std::iter::once(start.clone()).chain(rest).collect()
 }
 
 /// The coefficient k of a square: each product of two different ones occurs twice.

@@ -4,7 +4,6 @@
 //! Experimental Mathematics 14 (2005).
 
 use crate::error::Error;
-use crate::formulas::length;
 use crate::series::{Coefficients, Series};
 
 /// The most steps of one call. A motion of a million steps takes seconds to minutes; one that needs more comes next to a
@@ -210,7 +209,6 @@ impl<'s> TaylorFlow<'s> {
     /// # Errors
     /// As [`follow`](Self::follow).
     pub fn state_at(&self, time: f64, state: &[f64], end: f64) -> Result<Vec<f64>, Error> {
-        length("components of the state", self.series.dimension(), state.len())?;
         self.follow(time, state, end, |_| true)
     }
 }

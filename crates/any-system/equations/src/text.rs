@@ -4,7 +4,7 @@ use crate::constant::{Constant, Decimal};
 use crate::error::Error;
 use crate::formulas::{Formulas, Names};
 use crate::graph::Graph;
-use crate::node::{BINARY, Binary, Node, UNARY, Unary};
+use crate::node::{BINARY, Binary, Node, UNARY, Unary, named};
 
 /// The deepest nesting of a text. Each level takes some hundred bytes of the stack.
 const DEEPEST: usize = 200;
@@ -20,9 +20,7 @@ const DOUBLE: &str = "f64";
 
 /// True for a name of a function.
 pub(crate) fn is_function(name: &str) -> bool {
-    name == DOUBLE
-        || UNARY.iter().any(|(known, _)| *known == name)
-        || BINARY.iter().any(|(known, _)| *known == name)
+    name == DOUBLE || named(&UNARY, name).is_some() || named(&BINARY, name).is_some()
 }
 
 /// True for a letter of any script, or _, and letters, digits and _ behind it.
@@ -274,16 +272,15 @@ impl Reader<'_> {
             return Ok(self.graph.number(number));
         }
         let first = self.sum()?;
-        let place = match BINARY.iter().find(|(known, _)| *known == name) {
-            Some(&(_, function)) => {
+        let place = match named(&BINARY, name) {
+            Some(function) => {
                 self.demand(',')?;
                 let second = self.sum()?;
                 self.graph.binary(function, first, second)
             }
             None => {
                 // One of the two tables has the name.
-                let found = UNARY.iter().find(|(known, _)| *known == name);
-                let function = found.map_or(Unary::Negative, |(_, function)| *function);
+                let function = named(&UNARY, name).unwrap_or(Unary::Negative);
                 self.graph.unary(function, first)
             }
         };

@@ -7,20 +7,8 @@
 
 use crate::enclosure::Enclosure;
 use crate::functions::{PI, multiples_of_pi};
-use crate::rounding::{down, up};
+use crate::rounding::{above, below};
 use crate::small_results::SMALLEST_CLAIMED;
-
-/// One `f64` more than the claimed error, downwards.
-#[inline]
-fn below(claimed: f64) -> f64 {
-    down(down(claimed))
-}
-
-/// One `f64` more than the claimed error, upwards.
-#[inline]
-fn above(claimed: f64) -> f64 {
-    up(up(claimed))
-}
 
 /// The values of a function that rises on the whole interval.
 #[inline]
@@ -95,12 +83,7 @@ impl Enclosure {
     pub fn tan(self) -> Self {
         let Some(mut poles) = multiples_of_pi(self, 0.5) else { return Enclosure::WHOLE };
         // No `f64` is a pole.
-        if self.low < self.high
-            && poles.any(|k| {
-                let place = PI * (k as f64 + 0.5);
-                place.low <= self.high && self.low <= place.high
-            })
-        {
+        if self.low < self.high && poles.next().is_some() {
             return Enclosure::WHOLE;
         }
         rising(self, pxfm::f_tan)

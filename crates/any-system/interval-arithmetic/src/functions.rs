@@ -19,10 +19,10 @@ fn has_places(x: Enclosure) -> bool {
     x.magnitude() <= LARGEST_ARGUMENT && x.low <= x.high
 }
 
-/// The k of all (k + `shift`)π that may be in the interval; `None` if these are more than four, and if they cannot be
-/// told.
+/// The k of all (k + `shift`)π that may be in the interval; `None` if there may be more than four, and if they cannot
+/// be told.
 #[inline]
-pub(crate) fn multiples_of_pi(x: Enclosure, shift: f64) -> Option<std::ops::RangeInclusive<i64>> {
+pub(crate) fn multiples_of_pi(x: Enclosure, shift: f64) -> Option<impl Iterator<Item = i64>> {
     if !has_places(x) {
         return None;
     }
@@ -30,7 +30,11 @@ pub(crate) fn multiples_of_pi(x: Enclosure, shift: f64) -> Option<std::ops::Rang
     let pi = std::f64::consts::PI;
     let first = (x.low / pi - shift).floor() as i64;
     let last = (x.high / pi - shift).ceil() as i64;
-    (last - first <= 3).then_some(first..=last)
+    let may_be_inside = move |k: &i64| {
+        let place = PI * (*k as f64 + shift);
+        place.low <= x.high && x.low <= place.high
+    };
+    (last - first <= 3).then(|| (first..=last).filter(may_be_inside))
 }
 
 /// The least and the greatest value of a function that has the value 1 at (2k + `shift`)π, −1 half a turn later, and is
@@ -44,13 +48,10 @@ fn wave(x: Enclosure, at_low: f64, at_high: f64, shift: f64) -> Enclosure {
     }
     let Some(places) = multiples_of_pi(x, shift) else { return ALL };
     for k in places {
-        let place = PI * (k as f64 + shift);
-        if place.low <= x.high && x.low <= place.high {
-            if k % 2 == 0 {
-                high = 1.0;
-            } else {
-                low = -1.0;
-            }
+        if k % 2 == 0 {
+            high = 1.0;
+        } else {
+            low = -1.0;
         }
     }
     Enclosure { low, high }

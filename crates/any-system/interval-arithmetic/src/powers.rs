@@ -1,7 +1,7 @@
 //! Powers of intervals with integer and real exponents.
 
 use crate::enclosure::Enclosure;
-use crate::rounding::{down, up};
+use crate::rounding::{above, below};
 use crate::small_results::{SMALLEST_CLAIMED, is_odd_power_below_zero};
 
 /// A power, to one `f64` more than pxfm claims where its claim holds, see `elementary.rs`.
@@ -9,7 +9,7 @@ use crate::small_results::{SMALLEST_CLAIMED, is_odd_power_below_zero};
 fn power_of(base: f64, exponent: f64) -> Enclosure {
     let near = |base: f64, exponent: f64| {
         let claimed = pxfm::f_pow(base, exponent);
-        Enclosure { low: down(down(claimed)), high: up(up(claimed)) }
+        Enclosure { low: below(claimed), high: above(claimed) }
     };
     let claimed = near(base, exponent);
     if claimed.magnitude() < SMALLEST_CLAIMED && base != 0.0 {

@@ -15,6 +15,18 @@ pub(crate) fn up(rounded: f64) -> f64 {
     if rounded.is_nan() { f64::INFINITY } else { rounded.next_up() }
 }
 
+/// One `f64` more than the half ulp that pxfm claims, downwards.
+#[inline]
+pub(crate) fn below(claimed: f64) -> f64 {
+    down(down(claimed))
+}
+
+/// One `f64` more than the half ulp that pxfm claims, upwards.
+#[inline]
+pub(crate) fn above(claimed: f64) -> f64 {
+    up(up(claimed))
+}
+
 /// The largest `f64` that is not above a + b, or one below it if a, b or the sum is not finite.
 #[inline]
 pub(crate) fn sum_down(a: f64, b: f64) -> f64 {
