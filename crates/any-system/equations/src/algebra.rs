@@ -18,6 +18,8 @@ pub trait Algebra: Clone {
     fn add_product(x: &Self, y: &Self, z: &Self) -> Self;
     /// x · k, of a whole number k.
     fn times(x: &Self, k: f64) -> Self;
+    /// x / k, of a whole number k above zero.
+    fn over(x: &Self, k: f64) -> Self;
     /// The number 0.
     fn zero() -> Self;
     /// True if there is a value, and it is finite.
@@ -99,6 +101,11 @@ impl Algebra for f64 {
         x * k
     }
 
+    #[inline]
+    fn over(x: &Self, k: f64) -> Self {
+        x / k
+    }
+
     fn zero() -> Self {
         0.0
     }
@@ -178,6 +185,10 @@ impl Algebra for Enclosure {
 
     fn times(x: &Self, k: f64) -> Self {
         if x.is_valid() { *x * k } else { NO_VALUE }
+    }
+
+    fn over(x: &Self, k: f64) -> Self {
+        if x.is_valid() { *x / Enclosure::from(k) } else { NO_VALUE }
     }
 
     fn zero() -> Self {

@@ -31,13 +31,8 @@ pub struct Evaluator<'f, A> {
 impl<'f, A: Algebra + Debug> Evaluator<'f, A> {
     /// Memory for the values of these formulas, with their numbers and parameters.
     pub fn new(formulas: &'f Formulas) -> Self {
-        let part = |node: &Node| match node {
-            Node::Constant(constant) => A::constant(constant),
-            Node::Parameter(at) => A::constant(&formulas.names.values[*at]),
-            _ => A::zero(),
-        };
-        let parts = formulas.nodes.iter().map(part).collect();
-        Evaluator { formulas, parts, outputs: Vec::with_capacity(formulas.count()) }
+        let outputs = Vec::with_capacity(formulas.count());
+        Evaluator { formulas, parts: formulas.numbers(), outputs }
     }
 
     /// The values at a time and a state.
@@ -49,8 +44,8 @@ impl<'f, A: Algebra + Debug> Evaluator<'f, A> {
         self.formulas.check_start(&time, state)?;
         self.compute(&time, state);
         // A part that is infinite may leave no trace, as in 1/(1/x) or min(ln(x), 1).
-        if !self.parts.iter().all(A::is_valid) {
-            return Err(self.formulas.no_value(&time, state, &self.parts));
+        if let Some(part) = self.parts.iter().position(|value| !value.is_valid()) {
+            return Err(self.formulas.no_value(part, &time, state));
         }
         self.outputs.clear();
         self.outputs.extend(self.formulas.outputs.iter().map(|&at| self.parts[at].clone()));
@@ -59,17 +54,29 @@ impl<'f, A: Algebra + Debug> Evaluator<'f, A> {
 
     /// The values of all parts.
     pub(crate) fn compute(&mut self, time: &A, state: &[A]) {
-        for (at, node) in self.formulas.nodes.iter().enumerate() {
-            let values = &self.parts;
-            self.parts[at] = match node {
-                Node::Parameter(_) | Node::Constant(_) => continue,
-                Node::Time => time.clone(),
-                Node::State(component) => state[*component].clone(),
-                Node::Unary(function, a) => A::unary(*function, &values[*a]),
-                Node::Binary(Binary::Product, a, b) if a == b => A::square(&values[*a]),
-                Node::Binary(function, a, b) => A::binary(*function, &values[*a], &values[*b]),
-            };
-        }
+        compute(&self.formulas.nodes, time, state, &mut self.parts, 1);
+    }
+}
+
+/// The values of some parts: that of part k at the place k · `stride` of `values`. Those of numbers are there.
+#[inline(always)]
+pub(crate) fn compute<A: Algebra>(
+    nodes: &[Node],
+    time: &A,
+    state: &[A],
+    values: &mut [A],
+    stride: usize,
+) {
+    for (part, node) in nodes.iter().enumerate() {
+        let of = |part: usize| &values[part * stride];
+        values[part * stride] = match *node {
+            Node::Parameter(_) | Node::Constant(_) => continue,
+            Node::Time => time.clone(),
+            Node::State(component) => state[component].clone(),
+            Node::Unary(function, a) => A::unary(function, of(a)),
+            Node::Binary(Binary::Product, a, b) if a == b => A::square(of(a)),
+            Node::Binary(function, a, b) => A::binary(function, of(a), of(b)),
+        };
     }
 }
 
@@ -107,6 +114,16 @@ impl Formulas {
         Evaluator::new(self).values(time, state).map(<[Enclosure]>::to_vec)
     }
 
+    /// The values of numbers and parameters, and 0 for all other parts.
+    pub(crate) fn numbers<A: Algebra>(&self) -> Vec<A> {
+        let number = |node: &Node| match node {
+            Node::Constant(constant) => A::constant(constant),
+            Node::Parameter(at) => A::constant(&self.names.values[*at]),
+            _ => A::zero(),
+        };
+        self.nodes.iter().map(number).collect()
+    }
+
     /// An error unless time and state have values.
     pub(crate) fn check_start<A: Algebra + Debug>(
         &self,
@@ -122,15 +139,9 @@ impl Formulas {
         Err(self.no_value_of(part, time, state))
     }
 
-    /// The error that names the first part without a value: those of which it is a function have values.
-    pub(crate) fn no_value<A: Algebra + Debug>(
-        &self,
-        time: &A,
-        state: &[A],
-        values: &[A],
-    ) -> Error {
-        let first = values.iter().position(|value| !value.is_valid()).unwrap_or(0);
-        self.no_value_of(self.part(first), time, state)
+    /// The error that names a part without a value.
+    pub(crate) fn no_value<A: Debug>(&self, part: usize, time: &A, state: &[A]) -> Error {
+        self.no_value_of(self.part(part), time, state)
     }
 
     fn no_value_of<A: Debug>(&self, part: String, time: &A, state: &[A]) -> Error {

@@ -64,6 +64,10 @@ impl Algebra for Lanes {
         x.each(|x| x * k)
     }
 
+    fn over(x: &Self, k: f64) -> Self {
+        x.each(|x| x / k)
+    }
+
     fn zero() -> Self {
         Lanes([0.0; WIDTH])
     }

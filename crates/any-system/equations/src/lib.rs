@@ -23,7 +23,7 @@
 //! assert_eq!(pendulum.texts()[1], "-sin(angle) - damping*speed");
 //! assert_eq!(pendulum.jacobian()?.texts()[2], "-cos(angle)");
 //! let motion = Series::new(&pendulum, None)?.coefficients(0.0, &[0.0, 1.0], 3)?;
-//! assert_eq!(motion.state[0][..3], [0.0, 1.0, -0.05]); // angle = s − 0.05 s² + …
+//! assert_eq!(motion.state(0)[..3], [0.0, 1.0, -0.05]); // angle = s − 0.05 s² + …
 //! # Ok::<(), equations::Error>(())
 //! ```
 //!
@@ -43,6 +43,7 @@ mod json;
 mod lanes;
 mod node;
 mod print;
+mod rules;
 mod series;
 mod taylor_flow;
 mod text;
@@ -56,4 +57,4 @@ pub use formulas::{Formulas, Names};
 pub use lanes::Columns;
 pub use node::{Binary, Node, Unary};
 pub use series::{Coefficients, Series};
-pub use taylor_flow::{Step, TaylorFlow};
+pub use taylor_flow::{Step, TaylorFlow, horner};

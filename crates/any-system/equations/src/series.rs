@@ -1,12 +1,12 @@
 //! Taylor series in time, along the motion ẋ = f(t, x; p).
 
 use crate::algebra::Algebra;
-use crate::derivative::partials;
 use crate::error::Error;
-use crate::evaluate::Evaluator;
-use crate::formulas::{Formulas, MOST_PARTS, length};
+use crate::evaluate::compute;
+use crate::formulas::{Formulas, length};
 use crate::graph::Graph;
 use crate::node::{Binary, Node, Unary};
+use crate::rules::{Rule, Rules};
 use std::fmt;
 
 /// The highest order of a series. Its time grows with the square of the order; none of an integration needs more than 25.
@@ -15,29 +15,38 @@ const MOST_TERMS: usize = 10_000;
 /// The coefficients of series in time, x(t + s) = Σ x_k s^k, from k = 0 on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coefficients<A> {
-    /// Of each component of the state.
-    pub state: Vec<Vec<A>>,
-    /// Of each watched formula.
-    pub watched: Vec<Vec<A>>,
+    /// Row after row: those of a part stand side by side.
+    all: Vec<A>,
+    terms: usize,
+    /// The rows of the state's components, and of the watched formulas.
+    states: Vec<usize>,
+    watched: Vec<usize>,
 }
 
-/// What makes the coefficient k of a part from those of others.
-#[derive(Debug)]
-enum Rule {
-    /// The time: coefficients t, 1, 0, …
-    Time,
-    /// A component of the state: coefficient k + 1 is that of its rate, divided by k + 1.
-    State(usize),
-    /// A number or a parameter.
-    Constant,
-    Negative(usize),
-    Sum(usize, usize),
-    Difference(usize, usize),
-    Product(usize, usize),
-    /// a / b.
-    Quotient(usize, usize),
-    /// y′ = Σ g u′, with the parts g and u.
-    Chain(Vec<(usize, usize)>),
+impl<A> Coefficients<A> {
+    fn row(&self, row: usize) -> &[A] {
+        &self.all[row * self.terms..][..self.terms]
+    }
+
+    /// Of a component of the state; none beyond the last one.
+    pub fn state(&self, component: usize) -> &[A] {
+        self.states.get(component).map_or(&[], |&row| self.row(row))
+    }
+
+    /// Of a watched formula; none beyond the last one.
+    pub fn watched(&self, formula: usize) -> &[A] {
+        self.watched.get(formula).map_or(&[], |&row| self.row(row))
+    }
+
+    /// Of all components, one after the other.
+    pub fn states(&self) -> impl ExactSizeIterator<Item = &[A]> {
+        self.states.iter().map(|&row| self.row(row))
+    }
+
+    /// Of all watched formulas, one after the other.
+    pub fn all_watched(&self) -> impl ExactSizeIterator<Item = &[A]> {
+        self.watched.iter().map(|&row| self.row(row))
+    }
 }
 
 /// Taylor series in time of the motion ẋ = f(t, x; p), and of any formulas along it.
@@ -46,12 +55,14 @@ enum Rule {
 /// parts of the same graph, so that one recurrence serves all functions. The order 0 is the value, with the same bits.
 #[derive(Debug)]
 pub struct Series {
-    field: Formulas,
-    rules: Vec<Rule>,
-    /// The places of the state's components, of their rates, and of what is watched.
+    /// The field and the watched formulas, with the parts that their series need.
+    pub(crate) field: Formulas,
+    rules: Rules,
+    /// The rows of the state's components and of the watched formulas.
     states: Vec<usize>,
-    rates: Vec<usize>,
     watched: Vec<usize>,
+    /// The first parts, of which the field consists.
+    pub(crate) field_parts: usize,
 }
 
 impl Series {
@@ -65,45 +76,27 @@ impl Series {
     pub fn new(field: &Formulas, watched: Option<&Formulas>) -> Result<Series, Error> {
         length("formulas of the field", field.names.states.len(), field.count())?;
         let mut graph = Graph::of(field.nodes.clone());
+        let field_parts = field.nodes.len();
         let watched =
             watched.map_or(Ok(Vec::new()), |watched| field.joined(&mut graph, watched))?;
         // Also of components that no formula has.
         let count = field.names.states.len();
         let states = (0..count).map(|component| graph.place(Node::State(component))).collect();
-        let mut rules = Vec::new();
-        let mut moves: Vec<bool> = Vec::new();
-        let mut place = 0;
-        // Parts that are added for derivatives have series too.
-        while place < graph.nodes().len() {
-            let node = graph.nodes()[place].clone();
-            let is_variable = matches!(node, Node::Time | Node::State(_));
-            moves.push(is_variable || node.operands().any(|operand| moves[operand]));
-            let rule = match node {
-                // Also where the function has no derivative.
-                _ if !moves[place] => Rule::Constant,
-                Node::Time => Rule::Time,
-                Node::State(at) => Rule::State(at),
-                Node::Unary(Unary::Negative, a) => Rule::Negative(a),
-                Node::Binary(Binary::Sum, a, b) => Rule::Sum(a, b),
-                Node::Binary(Binary::Difference, a, b) => Rule::Difference(a, b),
-                Node::Binary(Binary::Product, a, b) => Rule::Product(a, b),
-                Node::Binary(Binary::Quotient, a, b) => Rule::Quotient(a, b),
-                _ => {
-                    let found = partials(&mut graph, place, |operand| moves[operand]);
-                    Rule::Chain(
-                        found.ok_or_else(|| Error::Kink { part: field.text_of(&graph, place) })?,
-                    )
-                }
-            };
-            rules.push(rule);
-            place += 1;
-            if graph.nodes().len() > MOST_PARTS {
-                return Err(Error::TooLarge { limit: MOST_PARTS });
-            }
-        }
-        let (rates, names) = (field.outputs.clone(), field.names.clone());
-        let field = Formulas { names, nodes: graph.into_nodes(), outputs: rates.clone() };
-        Ok(Series { field, rules, states, rates, watched })
+        let rules = Rules::new(field, graph)?;
+        let (names, outputs) = (field.names.clone(), field.outputs.clone());
+        let field = Formulas { names, nodes: rules.nodes.clone(), outputs };
+        Ok(Series { field, rules, states, watched, field_parts })
+    }
+
+    /// The number of components of the state.
+    pub fn dimension(&self) -> usize {
+        self.states.len()
+    }
+
+    /// The degree in time of a motion all of whose components are polynomials, from any start: such as a free fall.
+    pub fn degree(&self) -> Option<usize> {
+        let degrees = self.states.iter().map(|&row| self.rules.terms[row].map(|terms| terms - 1));
+        degrees.fold(Some(0), |most, degree| most.zip(degree).map(|(most, one)| most.max(one)))
     }
 
     /// The coefficients up to `order` at a time and a state.
@@ -114,7 +107,7 @@ impl Series {
     /// let oscillator = Formulas::from_text(names, &["v", "-x"])?;
     /// let series = Series::new(&oscillator, None)?;
     /// let found = series.coefficients(0.0, &[0.0, 1.0], 5)?;
-    /// assert_eq!(found.state[0], [0.0, 1.0, 0.0, -1.0 / 6.0, 0.0, 1.0 / 120.0]); // the sine
+    /// assert_eq!(found.state(0), [0.0, 1.0, 0.0, -1.0 / 6.0, 0.0, 1.0 / 120.0]); // the sine
     /// # Ok::<(), equations::Error>(())
     /// ```
     ///
@@ -127,88 +120,122 @@ impl Series {
         state: &[A],
         order: usize,
     ) -> Result<Coefficients<A>, Error> {
-        length("components of the state", self.field.names.states.len(), state.len())?;
+        let mut found = self.memory(order)?;
+        self.expand(&time, state, &mut found)?;
+        Ok(found)
+    }
+
+    /// Memory for coefficients up to an order, to be used again and again.
+    pub(crate) fn memory<A: Algebra>(&self, order: usize) -> Result<Coefficients<A>, Error> {
         if order > MOST_TERMS {
             return Err(Error::Order { order, most: MOST_TERMS });
         }
-        self.field.check_start(&time, state)?;
-        let mut start = Evaluator::new(&self.field);
-        start.compute(&time, state);
-        self.check(&time, state, &start.parts)?;
-        // The coefficients of a part stand side by side.
         let terms = order + 1;
-        let mut all = vec![A::zero(); start.parts.len() * terms];
-        let mut last = start.parts;
-        last.iter().enumerate().for_each(|(at, value)| all[at * terms] = value.clone());
-        for k in 1..terms {
-            for (at, last) in last.iter_mut().enumerate() {
-                *last = self.coefficient(&all, terms, at, k);
-                all[at * terms + k] = last.clone();
-            }
-            self.check(&time, state, &last)?;
+        let mut all = vec![A::zero(); self.rules.rows() * terms];
+        for (row, value) in self.field.numbers().into_iter().enumerate() {
+            all[row * terms] = value;
         }
-        let series = |place: usize| all[place * terms..][..terms].to_vec();
-        let all_of = |places: &[usize]| places.iter().map(|&place| series(place)).collect();
-        Ok(Coefficients { state: all_of(&self.states), watched: all_of(&self.watched) })
+        Ok(Coefficients { all, terms, states: self.states.clone(), watched: self.watched.clone() })
     }
 
-    /// An error unless the coefficients of one order have values.
-    fn check<A: Algebra + fmt::Debug>(
+    /// Computes all coefficients at a time and a state.
+    pub(crate) fn expand<A: Algebra + fmt::Debug>(
         &self,
         time: &A,
         state: &[A],
-        values: &[A],
+        into: &mut Coefficients<A>,
     ) -> Result<(), Error> {
-        match values.iter().all(A::is_valid) {
-            true => Ok(()),
-            false => Err(self.field.no_value(time, state, values)),
+        length("components of the state", self.states.len(), state.len())?;
+        self.field.check_start(time, state)?;
+        let terms = into.terms;
+        compute(&self.field.nodes, time, state, &mut into.all, terms);
+        for k in 1..terms {
+            for &(row, rule) in &self.rules.moving {
+                let coefficient = self.coefficient(&into.all, terms, (row, rule), k);
+                into.all[row * terms + k] = coefficient;
+            }
         }
+        if into.all.iter().all(A::is_valid) {
+            return Ok(());
+        }
+        // Of the lowest order without a value, the first part.
+        let parts = self.field.nodes.len();
+        let order = |k: usize| (0..parts).map(move |row| row * terms + k);
+        let wrong = (0..terms).flat_map(order).find(|&at| !into.all[at].is_valid());
+        let part = wrong.map_or(0, |at| at / terms);
+        Err(self.field.no_value(part, time, state))
     }
 
-    fn coefficient<A: Algebra>(&self, all: &[A], terms: usize, at: usize, k: usize) -> A {
-        let series = |place: usize| &all[place * terms..][..terms];
-        match &self.rules[at] {
+    #[inline(always)]
+    fn coefficient<A: Algebra>(
+        &self,
+        all: &[A],
+        terms: usize,
+        (row, rule): (usize, Rule),
+        k: usize,
+    ) -> A {
+        let of = |row: usize| &all[row * terms..][..terms];
+        // The last term of a row that may differ from zero, up to k.
+        let last = |row: usize| self.rules.terms[row].map_or(k, |terms| k.min(terms - 1));
+        match rule {
             Rule::Time if k == 1 => A::constant(&1.0.into()),
-            Rule::Time | Rule::Constant => A::zero(),
-            Rule::State(component) => divided(&series(self.rates[*component])[k - 1], k),
-            Rule::Negative(a) => A::unary(Unary::Negative, &series(*a)[k]),
-            Rule::Sum(a, b) => A::binary(Binary::Sum, &series(*a)[k], &series(*b)[k]),
-            Rule::Difference(a, b) => A::binary(Binary::Difference, &series(*a)[k], &series(*b)[k]),
-            Rule::Product(a, b) if a == b => square(series(*a), k),
-            Rule::Product(a, b) => convolution(&series(*a)[..=k], &series(*b)[..=k]),
-            Rule::Quotient(a, b) => {
-                // a = y b: y_k = (a_k − Σ_{j < k} y_j b_{k−j})/b_0.
-                let known = convolution(&series(at)[..k], &series(*b)[1..=k]);
-                let rest = A::binary(Binary::Difference, &series(*a)[k], &known);
-                A::binary(Binary::Quotient, &rest, &series(*b)[0])
+            Rule::Time => A::zero(),
+            Rule::State(rate) => A::over(&of(rate)[k - 1], k as f64),
+            Rule::Negative(a) => A::unary(Unary::Negative, &of(a)[k]),
+            Rule::Sum(a, b) => A::binary(Binary::Sum, &of(a)[k], &of(b)[k]),
+            Rule::Difference(a, b) => A::binary(Binary::Difference, &of(a)[k], &of(b)[k]),
+            Rule::Scaled(number, a) => A::binary(Binary::Product, &of(number)[0], &of(a)[k]),
+            Rule::Over(a, number) => A::binary(Binary::Quotient, &of(a)[k], &of(number)[0]),
+            Rule::Slope(a) => A::times(&of(a)[k], k as f64),
+            Rule::Square(a) => square(of(a), k),
+            Rule::Product(a, b) => {
+                let last = last(a);
+                convolution(&of(a)[..=last], &of(b)[k - last..=k])
             }
-            Rule::Chain(factors) => {
+            Rule::Quotient(a, b) => {
+                // a = y b: y_k = (a_k − Σ_{j ≥ 1} b_j y_{k−j})/b_0.
+                let last = last(b);
+                let known = convolution(&of(b)[1..=last], &of(row)[k - last..k]);
+                let rest = A::binary(Binary::Difference, &of(a)[k], &known);
+                A::binary(Binary::Quotient, &rest, &of(b)[0])
+            }
+            Rule::Chain(first, second) => {
                 // k y_k = Σ_{j = 1}^{k} j u_j g_{k−j}.
-                let mut sum = A::zero();
-                for &(g, u) in factors {
-                    let (g, u) = (&series(g)[..k], &series(u)[1..=k]);
-                    for (j, (u, g)) in u.iter().zip(g.iter().rev()).enumerate() {
-                        sum = A::add_product(&sum, &A::times(u, (j + 1) as f64), g);
-                    }
-                }
-                divided(&sum, k)
+                let sum = |(g, slope): (usize, usize)| {
+                    let last = last(slope);
+                    convolution(&of(slope)[1..=last], &of(g)[k - last..k])
+                };
+                let first = sum(first);
+                let all = match second {
+                    Some(second) => A::binary(Binary::Sum, &first, &sum(second)),
+                    None => first,
+                };
+                A::over(&all, k as f64)
             }
         }
     }
 }
 
-/// Σ a_j b_{n−j} of two series with the terms 0 to n.
+/// Σ a_j b_{n−j} of two series with the terms 0 to n. Two sums, of even and of odd j, are computed side by side.
+#[inline(always)]
 fn convolution<A: Algebra>(a: &[A], b: &[A]) -> A {
-    a.iter().zip(b.iter().rev()).fold(A::zero(), |sum, (a, b)| A::add_product(&sum, a, b))
+    let (mut even, mut odd) = (A::zero(), A::zero());
+    let (pairs, left) = a.as_chunks::<2>();
+    let (first, others) = b.as_rchunks::<2>();
+    for (a, b) in pairs.iter().zip(others.iter().rev()) {
+        even = A::add_product(&even, &a[0], &b[1]);
+        odd = A::add_product(&odd, &a[1], &b[0]);
+    }
+    if let ([a], [b]) = (left, first) {
+        even = A::add_product(&even, a, b);
+    }
+    A::binary(Binary::Sum, &even, &odd)
 }
 
 /// The coefficient k of a square: each product of two different ones occurs twice.
+#[inline(always)]
 fn square<A: Algebra>(a: &[A], k: usize) -> A {
-    let pairs = (0..k.div_ceil(2)).fold(A::zero(), |sum, j| A::add_product(&sum, &a[j], &a[k - j]));
-    let twice = A::times(&pairs, 2.0);
+    let half = k.div_ceil(2);
+    let twice = A::times(&convolution(&a[..half], &a[k + 1 - half..=k]), 2.0);
     if k.is_multiple_of(2) { A::binary(Binary::Sum, &twice, &A::square(&a[k / 2])) } else { twice }
-}
-
-fn divided<A: Algebra>(x: &A, k: usize) -> A {
-    A::binary(Binary::Quotient, x, &A::constant(&(k as f64).into()))
 }

@@ -4,6 +4,8 @@
 //! Experimental Mathematics 14 (2005).
 
 use crate::error::Error;
+use crate::evaluate::compute;
+use crate::formulas::length;
 use crate::series::{Coefficients, Series};
 
 /// The most steps of one call. A motion of a million steps takes seconds to minutes; one that needs more comes next to a
@@ -17,21 +19,24 @@ const MOST_HALVINGS: usize = 60;
 /// shortens steps of fields that spread errors fast; a larger one sees less.
 const RATE_ERROR: f64 = 1000.0;
 
+/// How often a step is shortened for a watched formula: each time to a third at least, unless it is short enough.
+const MOST_SHORTENINGS: usize = 40;
+
 /// The motion ẋ = f(t, x; p), by its Taylor series, step by step.
 ///
 /// The order follows from the relative tolerance, and each step from the last two coefficients, so that the terms that
 /// are left out are below the tolerance. A tolerance holds for one step; errors add up along the motion as it spreads
 /// them. Stiff fields need as many steps as explicit methods do.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct TaylorFlow<'s> {
     series: &'s Series,
     order: usize,
-    /// The relative tolerance.
+    /// The smallest relative tolerance, to which the order belongs.
     tolerance: f64,
-    /// The size below which the tolerance of a state is absolute.
-    least_size: f64,
+    /// For each component of the state: the absolute and the relative tolerance.
+    tolerances: Vec<(f64, f64)>,
     /// The longest step, of time.
-    pub longest_step: f64,
+    longest_step: f64,
 }
 
 /// A step of a motion: the polynomials that are the motion on it.
@@ -43,32 +48,42 @@ pub struct Step {
     pub end: f64,
     /// The coefficients of state and watched formulas, in powers of the time since the beginning.
     pub coefficients: Coefficients<f64>,
+    /// The state at its end.
+    pub state_at_end: Vec<f64>,
+    /// The field at its end.
+    pub rate_at_end: Vec<f64>,
+    /// Values of the field's parts.
+    parts: Vec<f64>,
 }
 
 impl Step {
     /// The state at a time of the step.
     pub fn state(&self, time: f64) -> Vec<f64> {
-        self.coefficients.state.iter().map(|series| horner(series, time - self.time)).collect()
+        self.coefficients.states().map(|series| horner(series, time - self.time)).collect()
     }
 
     /// The watched formulas at a time of the step.
     pub fn watched(&self, time: f64) -> Vec<f64> {
-        self.coefficients.watched.iter().map(|series| horner(series, time - self.time)).collect()
+        self.coefficients.all_watched().map(|series| horner(series, time - self.time)).collect()
     }
 }
 
-fn horner(series: &[f64], x: f64) -> f64 {
+/// The polynomial with these coefficients at x.
+#[inline]
+pub fn horner(series: &[f64], x: f64) -> f64 {
     series.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
 }
 
-/// The largest size among the coefficients of one order.
-fn largest(coefficients: &Coefficients<f64>, order: usize) -> f64 {
-    coefficients.state.iter().fold(0.0, |largest, series| series[order].abs().max(largest))
+/// The error of a component of this size, where the largest one is `largest`, that a step may make. Without an absolute
+/// tolerance a component may pass through zero: the largest one gives the scale.
+#[inline]
+fn allowed((absolute, relative): (f64, f64), size: f64, largest: f64) -> f64 {
+    if absolute > 0.0 { absolute + relative * size } else { relative * largest }
 }
 
 impl<'s> TaylorFlow<'s> {
-    /// The motion of a series' field with these tolerances of the state: an error of `relative` times its largest
-    /// component, or of `absolute` if this is more.
+    /// The motion of a series' field: the error of a component in a step is its size times `relative` and `absolute`,
+    /// added. With an `absolute` of 0 the size is that of the largest component.
     ///
     /// ```
     /// use equations::{Formulas, Names, Series, TaylorFlow};
@@ -91,9 +106,36 @@ impl<'s> TaylorFlow<'s> {
         }
         // A step reaches to e⁻² of the radius of convergence: the term of order p is e^(−2p) of the state there.
         let order = (1.0 - 0.5 * pxfm::f_log(relative)).ceil() as usize;
-        let least_size = absolute / relative;
-        let (order, tolerance, longest_step) = (order.max(2), relative, f64::INFINITY);
-        Ok(TaylorFlow { series, order, tolerance, least_size, longest_step })
+        Ok(TaylorFlow {
+            series,
+            order: order.max(2),
+            tolerance: relative,
+            tolerances: vec![(absolute, relative); series.dimension()],
+            longest_step: f64::INFINITY,
+        })
+    }
+
+    /// The same with tolerances of each component: absolute and relative. The order stays.
+    ///
+    /// # Errors
+    /// [`Error::Length`]; [`Error::Tolerance`] for one that is negative or not finite, or two of zero.
+    pub fn tolerances(mut self, each: Vec<(f64, f64)>) -> Result<Self, Error> {
+        length("tolerances", self.series.dimension(), each.len())?;
+        let sensible = |tolerance: f64| (0.0..f64::MAX).contains(&tolerance);
+        for &(absolute, relative) in &each {
+            if !(sensible(absolute) && sensible(relative) && absolute + relative > 0.0) {
+                return Err(Error::Tolerance { relative, absolute });
+            }
+        }
+        self.tolerances = each;
+        Ok(self)
+    }
+
+    /// The same with no step longer than this time.
+    #[must_use]
+    pub fn longest_step(mut self, time: f64) -> Self {
+        self.longest_step = time;
+        self
     }
 
     /// The order of the polynomials.
@@ -101,83 +143,102 @@ impl<'s> TaylorFlow<'s> {
         self.order
     }
 
-    /// The step from a state towards `end`, which may be earlier: it ends there at the latest.
+    /// Memory for a step, of length zero at the time zero.
+    ///
+    /// # Errors
+    /// None for the orders of tolerances.
+    pub fn memory(&self) -> Result<Step, Error> {
+        let dimension = self.series.dimension();
+        Ok(Step {
+            time: 0.0,
+            end: 0.0,
+            coefficients: self.series.memory(self.order)?,
+            state_at_end: vec![0.0; dimension],
+            rate_at_end: vec![0.0; dimension],
+            parts: self.series.field.numbers(),
+        })
+    }
+
+    /// The step from a state towards `end`, which may be earlier: it ends there at the latest. A step after which the
+    /// field has no value, as beyond the end of its domain, or is another one than that of the series, has half its
+    /// length.
     ///
     /// # Errors
     /// [`Error::Length`]; [`Error::NoValue`] if the field or its series has no value at the state; [`Error::Time`] for
-    /// a time that is not finite.
-    pub fn step(&self, time: f64, state: &[f64], end: f64) -> Result<Step, Error> {
-        let coefficients = self.series.coefficients(time, state, self.order)?;
-        self.step_with(time, coefficients, end)
-    }
-
-    fn step_with(
-        &self,
-        time: f64,
-        coefficients: Coefficients<f64>,
-        end: f64,
-    ) -> Result<Step, Error> {
-        if !(time.is_finite() && end.is_finite()) {
+    /// a time that is not finite; [`Error::Stuck`] if no step moves the time.
+    pub fn step(&self, time: f64, state: &[f64], end: f64, step: &mut Step) -> Result<(), Error> {
+        if !(time.is_finite() && !end.is_nan()) {
             return Err(Error::Time { time, end });
         }
-        let size = largest(&coefficients, 0).max(self.least_size);
-        let radius = [self.order - 1, self.order].map(|order| {
-            interval_arithmetic::pow(size / largest(&coefficients, order), 1.0 / order as f64)
-        });
-        // e⁻² of the smaller estimate, and a factor that covers the terms that follow (Jorba and Zou, Section 3.2).
-        let safe = pxfm::f_exp(-2.0 - 0.7 / (self.order - 1) as f64);
-        // 0/0: the state and all its rates are zero. It stays.
-        let length =
-            radius.into_iter().filter(|radius| !radius.is_nan()).fold(f64::INFINITY, f64::min);
-        let length = (safe * length).min(self.longest_step);
-        let end = match end >= time {
+        self.series.expand(&time, state, &mut step.coefficients)?;
+        step.time = time;
+        let length = self.length_for_watched(step, self.length_for_state(step));
+        step.end = match end >= time {
             true => (time + length).min(end),
             false => (time - length).max(end),
         };
-        Ok(Step { time, end, coefficients })
+        if !step.end.is_finite() {
+            return Err(Error::Time { time, end });
+        }
+        self.shorten(step)
     }
 
-    /// The steps up to `end`, which `see` receives one after the other; the state there. It goes on while `see` returns
-    /// true.
-    ///
-    /// A step after which the field has no value, as beyond the end of its domain, is repeated with half its length.
-    ///
-    /// # Errors
-    /// As [`step`](Self::step); [`Error::Stuck`] if a step does not move the time, as next to a pole, or after a million
-    /// steps.
-    pub fn follow(
-        &self,
-        time: f64,
-        state: &[f64],
-        end: f64,
-        mut see: impl FnMut(&Step) -> bool,
-    ) -> Result<Vec<f64>, Error> {
-        let (mut state, mut time) = (state.to_vec(), time);
-        let mut coefficients = self.series.coefficients(time, &state, self.order)?;
-        for _ in 0..MOST_STEPS {
-            let mut step = self.step_with(time, coefficients, end)?;
-            if step.end == time {
-                return if time == end { Ok(state) } else { Err(Error::Stuck { time, end }) };
-            }
-            (state, coefficients) = self.accepted(&mut step)?;
-            time = step.end;
-            if !see(&step) || time == end {
-                return Ok(state);
+    /// The length of a step of whose state the terms that are left out are below the tolerances.
+    fn length_for_state(&self, step: &Step) -> f64 {
+        let mut sizes = [0.0_f64; 2];
+        let largest = step.coefficients.states().map(|series| series[0].abs()).fold(0.0, f64::max);
+        for (series, tolerances) in step.coefficients.states().zip(&self.tolerances) {
+            let allowed = allowed(*tolerances, series[0].abs(), largest);
+            for (size, order) in sizes.iter_mut().zip([self.order - 1, self.order]) {
+                let part = series[order].abs() / allowed;
+                // 0/0: a component that is zero and stays.
+                *size = if part > *size { part } else { *size };
             }
         }
-        Err(Error::Stuck { time, end })
+        let [before, last] = sizes.map(|size| self.tolerance * size);
+        let radius = |size: f64, order: usize| interval_arithmetic::pow(size, -1.0 / order as f64);
+        let radius = radius(before, self.order - 1).min(radius(last, self.order));
+        // e⁻² of the smaller estimate, and a factor that covers the terms that follow (Jorba and Zou, Section 3.2).
+        let safe = pxfm::f_exp(-2.0 - 0.7 / (self.order - 1) as f64);
+        (safe * radius).min(self.longest_step)
     }
 
-    /// Shortens a step until the field has a series at its end that goes on as the step ends; the state there, and its
-    /// series.
-    fn accepted(&self, step: &mut Step) -> Result<(Vec<f64>, Coefficients<f64>), Error> {
+    /// The length at which also the last terms of the watched formulas are small beside their largest ones: a formula
+    /// may bend more than the state, as sin(x) does along x = t.
+    fn length_for_watched(&self, step: &Step, mut length: f64) -> f64 {
+        let order = self.order;
+        let shortest = f64::MIN_POSITIVE;
+        for series in step.coefficients.all_watched() {
+            for _ in 0..MOST_SHORTENINGS {
+                let last = series[order - 1].abs().max(series[order].abs() * length);
+                if last == 0.0 {
+                    break;
+                }
+                let mut power = 1.0;
+                let largest = series[..order - 1].iter().fold(shortest, |largest, coefficient| {
+                    let size = coefficient.abs() * power;
+                    power *= length;
+                    if size > largest { size } else { largest }
+                });
+                let too_large = last * power / (self.tolerance * largest);
+                if !(too_large > 1.0) {
+                    break;
+                }
+                let shorter = interval_arithmetic::pow(too_large, -1.0 / (order - 1) as f64);
+                length *= shorter.clamp(1e-3, 0.9);
+            }
+        }
+        length
+    }
+
+    /// Shortens a step until the field at its end is that of its polynomial; both stand in the step then.
+    fn shorten(&self, step: &mut Step) -> Result<(), Error> {
         let stuck = Error::Stuck { time: step.time, end: step.end };
         let mut refused = stuck.clone();
         for _ in 0..MOST_HALVINGS {
-            let state = step.state(step.end);
-            match self.series.coefficients(step.end, &state, self.order) {
-                Ok(next) if self.goes_on(step, &next) => return Ok((state, next)),
-                Ok(_) => refused = stuck.clone(),
+            match self.go_to_end(step) {
+                Ok(()) if self.goes_on(step) => return Ok(()),
+                Ok(()) => refused = stuck.clone(),
                 Err(error) => refused = error,
             }
             step.end = step.time + 0.5 * (step.end - step.time);
@@ -188,20 +249,77 @@ impl<'s> TaylorFlow<'s> {
         Err(refused)
     }
 
+    /// Computes the state and the field at the end of a step.
+    fn go_to_end(&self, step: &mut Step) -> Result<(), Error> {
+        let length = step.end - step.time;
+        for (state, series) in step.state_at_end.iter_mut().zip(step.coefficients.states()) {
+            *state = horner(series, length);
+        }
+        let field = &self.series.field;
+        let nodes = &field.nodes[..self.series.field_parts];
+        field.check_start(&step.end, &step.state_at_end)?;
+        compute(nodes, &step.end, &step.state_at_end, &mut step.parts, 1);
+        let parts = &step.parts[..nodes.len()];
+        if let Some(part) = parts.iter().position(|value| !value.is_finite()) {
+            return Err(field.no_value(part, &step.end, &step.state_at_end));
+        }
+        for (rate, &at) in step.rate_at_end.iter_mut().zip(&field.outputs) {
+            *rate = parts[at];
+        }
+        Ok(())
+    }
+
     /// The rate at the end of a step is that of its polynomial. Where it is not, the field is not the one of the series:
     /// (1 + t/2)² is the motion of ẋ = √x for t > −2 alone.
-    fn goes_on(&self, step: &Step, next: &Coefficients<f64>) -> bool {
+    fn goes_on(&self, step: &Step) -> bool {
         let length = step.end - step.time;
-        let size = largest(&step.coefficients, 0).max(largest(next, 0)).max(self.least_size);
+        let ends = step.state_at_end.iter().zip(&step.rate_at_end);
         // The rate of the terms that are left out is some `order` times as large as they are, and the field spreads an
-        // error of the state by some factor in a step. A field of another branch is off by all of its rate.
-        let most = RATE_ERROR * self.order as f64 * (self.tolerance * size).max(f64::MIN_POSITIVE);
-        step.coefficients.state.iter().zip(&next.state).all(|(series, next)| {
+        // error of the state, of any component, by some factor in a step. A field of another branch is off by all of its
+        // rate.
+        let mut most = f64::MIN_POSITIVE;
+        let mut off = 0.0_f64;
+        let components = step.coefficients.states().zip(&self.tolerances).zip(ends);
+        for ((series, tolerances), (state, rate_at_end)) in components {
             let rate =
                 (1..series.len()).rev().fold(0.0, |sum, k| sum * length + k as f64 * series[k]);
-            !((rate - next[1]).abs() * length.abs()
-                > most + RATE_ERROR * f64::EPSILON * (rate * length).abs())
-        })
+            let size = series[0].abs().max(state.abs());
+            most = most.max(self.order as f64 * allowed(*tolerances, size, size));
+            let rounding = f64::EPSILON * (rate * length).abs();
+            off = off.max((rate - rate_at_end).abs() * length.abs() - RATE_ERROR * rounding);
+        }
+        !(off > RATE_ERROR * most)
+    }
+
+    /// The steps up to `end`, which `see` receives one after the other; the state there. It goes on while `see` returns
+    /// true.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step); [`Error::Stuck`] also after a million steps.
+    pub fn follow(
+        &self,
+        time: f64,
+        state: &[f64],
+        end: f64,
+        mut see: impl FnMut(&Step) -> bool,
+    ) -> Result<Vec<f64>, Error> {
+        if !(time.is_finite() && end.is_finite()) {
+            return Err(Error::Time { time, end });
+        }
+        let (mut state, mut time) = (state.to_vec(), time);
+        let mut step = self.memory()?;
+        for _ in 0..MOST_STEPS {
+            self.step(time, &state, end, &mut step)?;
+            if step.end == time {
+                return if time == end { Ok(state) } else { Err(Error::Stuck { time, end }) };
+            }
+            time = step.end;
+            state.copy_from_slice(&step.state_at_end);
+            if !see(&step) || time == end {
+                return Ok(state);
+            }
+        }
+        Err(Error::Stuck { time, end })
     }
 
     /// The state at a later or an earlier time.

@@ -118,8 +118,8 @@ fn closures_with_foreign_symbols_or_numbers_are_refused() {
 fn parts_that_do_not_move_are_numbers_of_a_series() {
     let field = formulas(&["abs(a)*x", "min(a, 3)*sqrt(0*a)*acosh(1)"]);
     let found = Series::new(&field, None).unwrap().coefficients(0.0, &[1.0, 2.0], 3).unwrap();
-    assert_eq!(found.state[0][..3], [1.0, 0.5, 0.125]);
-    assert_eq!(found.state[1], [2.0, 0.0, 0.0, 0.0]);
+    assert_eq!(found.state(0)[..3], [1.0, 0.5, 0.125]);
+    assert_eq!(found.state(1), [2.0, 0.0, 0.0, 0.0]);
 }
 
 /// Far from zero a smooth switch is flat.
@@ -127,7 +127,7 @@ fn parts_that_do_not_move_are_numbers_of_a_series() {
 fn tanh_has_a_series_far_from_zero() {
     let field = formulas(&["-tanh(x)", "0"]);
     let found = Series::new(&field, None).unwrap().coefficients(0.0, &[800.0, 0.0], 4).unwrap();
-    assert_eq!(found.state[0], [800.0, -1.0, 0.0, 0.0, 0.0]);
+    assert_eq!(found.state(0), [800.0, -1.0, 0.0, 0.0, 0.0]);
     let second = formulas(&["tanh(x)"]).derivative(&[1.0, 0.0], &[0.0]).unwrap();
     let second = second.derivative(&[1.0, 0.0], &[0.0]).unwrap();
     assert!(second.values(0.0, &[400.0, 0.0]).unwrap()[0].abs() < 1e-300);
