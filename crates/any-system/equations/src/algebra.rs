@@ -14,8 +14,9 @@ pub trait Algebra: Clone {
     fn binary(function: Binary, x: &Self, y: &Self) -> Self;
     /// The square of a number: an enclosure of it is never below zero.
     fn square(x: &Self) -> Self;
-    /// x + y z, the step of every series.
-    fn add_product(x: &Self, y: &Self, z: &Self) -> Self;
+    /// Σ x_k y_k of two lists of the same length, in an order that vectors of any width have: four sums, of k = 0, 4, 8, …,
+    /// of k = 1, 5, … and so on, and then what is left at the end.
+    fn sum_of_products(x: &[Self], y: &[Self]) -> Self;
     /// x · k, of a whole number k.
     fn times(x: &Self, k: f64) -> Self;
     /// x / k, of a whole number k above zero.
@@ -91,9 +92,17 @@ impl Algebra for f64 {
         x * x
     }
 
-    #[inline]
-    fn add_product(x: &Self, y: &Self, z: &Self) -> Self {
-        x + y * z
+    #[inline(always)]
+    fn sum_of_products(x: &[Self], y: &[Self]) -> Self {
+        let ((x, x_left), (y, y_left)) = (x.as_chunks::<4>(), y.as_chunks::<4>());
+        let mut sums = [0.0; 4];
+        for (x, y) in x.iter().zip(y) {
+            for ((sum, x), y) in sums.iter_mut().zip(x).zip(y) {
+                *sum += x * y;
+            }
+        }
+        let sum = (sums[0] + sums[2]) + (sums[1] + sums[3]);
+        x_left.iter().zip(y_left).fold(sum, |sum, (x, y)| sum + x * y)
     }
 
     #[inline]
@@ -179,8 +188,13 @@ impl Algebra for Enclosure {
         if x.is_valid() { x.squared() } else { NO_VALUE }
     }
 
-    fn add_product(x: &Self, y: &Self, z: &Self) -> Self {
-        if x.is_valid() && y.is_valid() && z.is_valid() { *x + *y * *z } else { NO_VALUE }
+    fn sum_of_products(x: &[Self], y: &[Self]) -> Self {
+        x.iter().zip(y).fold(Enclosure::ZERO, |sum, (x, y)| {
+            match sum.is_valid() && x.is_valid() && y.is_valid() {
+                true => sum + *x * *y,
+                false => NO_VALUE,
+            }
+        })
     }
 
     fn times(x: &Self, k: f64) -> Self {

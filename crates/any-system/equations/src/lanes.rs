@@ -56,8 +56,18 @@ impl Algebra for Lanes {
         x.each(|x| x * x)
     }
 
-    fn add_product(x: &Self, y: &Self, z: &Self) -> Self {
-        Lanes(from_fn(|lane| x.0[lane] + y.0[lane] * z.0[lane]))
+    fn sum_of_products(x: &[Self], y: &[Self]) -> Self {
+        let ((x, x_left), (y, y_left)) = (x.as_chunks::<4>(), y.as_chunks::<4>());
+        let add = |sum: Lanes, (x, y): (&Lanes, &Lanes)| {
+            Lanes(from_fn(|lane| sum.0[lane] + x.0[lane] * y.0[lane]))
+        };
+        let mut sums = [Lanes::zero(); 4];
+        for (x, y) in x.iter().zip(y) {
+            sums = from_fn(|k| add(sums[k], (&x[k], &y[k])));
+        }
+        let [a, b, c, d] = sums;
+        let sum = Lanes(from_fn(|lane| (a.0[lane] + c.0[lane]) + (b.0[lane] + d.0[lane])));
+        x_left.iter().zip(y_left).fold(sum, add)
     }
 
     fn times(x: &Self, k: f64) -> Self {

@@ -8,26 +8,55 @@ use crate::node::{Binary, Node, Unary};
 
 /// What makes the coefficient k ≥ 1 of a row from those of other rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Rule {
+pub(crate) enum Kind {
     /// The time: coefficients t, 1, 0, …
     Time,
-    /// A component of the state, with the row of its rate: coefficient k is that of the rate before it, over k.
-    State(usize),
-    Negative(usize),
-    Sum(usize, usize),
-    Difference(usize, usize),
+    /// A component of the state, of its rate: coefficient k is that of the rate before it, over k.
+    State,
+    Negative,
+    Sum,
+    Difference,
     /// A number times a row.
-    Scaled(usize, usize),
-    /// The first one has no more terms than the second.
-    Product(usize, usize),
-    Square(usize),
+    Scaled,
+    Square,
+    /// Of two rows. The first one has `most` terms.
+    Product,
     /// A row over a number.
-    Over(usize, usize),
-    Quotient(usize, usize),
+    Over,
+    /// Of two rows. The second one has `most` terms.
+    Quotient,
+    Root,
+    /// A power: of the base, the exponent, which is a number, the base's slopes and its own slopes.
+    Power,
     /// k times the coefficient k of a row.
-    Slope(usize),
-    /// y′ = Σ g u′, with the rows of g and of the slopes of u. A function of one number has one term.
-    Chain((usize, usize), Option<(usize, usize)>),
+    Slope,
+    /// y′ = g u′, of g and the slopes of u, which has `most` terms.
+    Chain,
+    /// y′ = g u′ + h v′, of g and the slopes of u, of h and the slopes of v.
+    Chains,
+}
+
+/// A row that moves: how its coefficients come from those of at most four rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Rule {
+    pub(crate) kind: Kind,
+    /// The place of the row.
+    pub(crate) row: u32,
+    /// The places of the rows from which it comes.
+    pub(crate) of: [u32; 4],
+    /// The number of terms of a row that is a polynomial in time.
+    pub(crate) most: u32,
+}
+
+impl Rule {
+    fn new(kind: Kind, of: &[usize], most: Option<usize>) -> Rule {
+        let mut rule =
+            Rule { kind, row: 0, of: [0; 4], most: most.map_or(u32::MAX, |most| most as u32) };
+        for (place, row) in rule.of.iter_mut().zip(of) {
+            *place = *row as u32;
+        }
+        rule
+    }
 }
 
 /// The rules of all rows that move, in an order in which each one needs earlier ones or earlier coefficients.
@@ -36,7 +65,7 @@ pub(crate) struct Rules {
     /// The parts, in whose order the first rows stand.
     pub(crate) nodes: Vec<Node>,
     /// The rows that move.
-    pub(crate) moving: Vec<(usize, Rule)>,
+    pub(crate) moving: Vec<Rule>,
     /// The number of terms of a row that is a polynomial in time.
     pub(crate) terms: Vec<Option<usize>>,
 }
@@ -58,11 +87,14 @@ impl Rules {
         let terms = terms(&nodes, &moves, &field.outputs);
         let mut rules = Rules { nodes, moving: Vec::new(), terms };
         let mut slopes = vec![None; rules.nodes.len()];
-        for chain in &chains {
-            for &(_, operand) in chain {
-                if slopes[operand].is_none() {
-                    slopes[operand] = Some(rules.terms.len());
-                    rules.terms.push(rules.terms[operand]);
+        for place in 0..rules.nodes.len() {
+            let operands = chains[place].iter().map(|&(_, operand)| operand);
+            let of_power =
+                rules.power(place, &moves).map_or([None, None], |(a, _)| [Some(a), Some(place)]);
+            for needed in operands.chain(of_power.into_iter().flatten()) {
+                if slopes[needed].is_none() {
+                    slopes[needed] = Some(rules.terms.len());
+                    rules.terms.push(rules.terms[needed]);
                 }
             }
         }
@@ -71,17 +103,33 @@ impl Rules {
                 continue;
             }
             let rule = rules.rule(place, &moves, &field.outputs, &chains[place], &slopes);
-            rules.moving.push((place, rule));
+            rules.moving.push(Rule { row: place as u32, ..rule });
             if let Some(slope) = slopes[place] {
-                rules.moving.push((slope, Rule::Slope(place)));
+                let rule = Rule::new(Kind::Slope, &[place], None);
+                rules.moving.push(Rule { row: slope as u32, ..rule });
             }
         }
         Ok(rules)
     }
 
+    /// The rules for rows that are `length` long: with the beginnings of rows as their places.
+    pub(crate) fn of_length(&self, length: usize) -> Vec<Rule> {
+        let begin = |row: u32| row * length as u32;
+        let moved = |rule: &Rule| Rule { row: begin(rule.row), of: rule.of.map(begin), ..*rule };
+        self.moving.iter().map(moved).collect()
+    }
+
     /// The number of rows.
     pub(crate) fn rows(&self) -> usize {
         self.terms.len()
+    }
+
+    /// Base and exponent of a power whose exponent is a number.
+    fn power(&self, place: usize, moves: &[bool]) -> Option<(usize, usize)> {
+        match self.nodes[place] {
+            Node::Binary(Binary::Power, a, b) if moves[a] && !moves[b] => Some((a, b)),
+            _ => None,
+        }
     }
 
     fn rule(
@@ -92,27 +140,36 @@ impl Rules {
         chain: &[(usize, usize)],
         slopes: &[Option<usize>],
     ) -> Rule {
-        let is_longer = |a: usize, b: usize| {
-            let length = |row: usize| self.terms[row].unwrap_or(usize::MAX);
-            length(a) > length(b)
+        let terms = |row: usize| self.terms[row];
+        let is_shorter = |a: usize, b: usize| {
+            terms(a).is_some_and(|own| terms(b).is_none_or(|other| own < other))
         };
+        let slope = |part: usize| slopes[part].unwrap_or(part);
+        let rule = |kind: Kind, of: &[usize]| Rule::new(kind, of, None);
+        if let Some((a, exponent)) = self.power(place, moves) {
+            return rule(Kind::Power, &[a, exponent, slope(a), slope(place)]);
+        }
         match self.nodes[place] {
-            Node::State(component) => Rule::State(rates[component]),
-            Node::Unary(Unary::Negative, a) => Rule::Negative(a),
-            Node::Binary(Binary::Sum, a, b) => Rule::Sum(a, b),
-            Node::Binary(Binary::Difference, a, b) => Rule::Difference(a, b),
-            Node::Binary(Binary::Product, a, b) if a == b => Rule::Square(a),
-            Node::Binary(Binary::Product, a, b) if !moves[a] => Rule::Scaled(a, b),
-            Node::Binary(Binary::Product, a, b) if !moves[b] => Rule::Scaled(b, a),
-            Node::Binary(Binary::Product, a, b) if is_longer(a, b) => Rule::Product(b, a),
-            Node::Binary(Binary::Product, a, b) => Rule::Product(a, b),
-            Node::Binary(Binary::Quotient, a, b) if !moves[b] => Rule::Over(a, b),
-            Node::Binary(Binary::Quotient, a, b) => Rule::Quotient(a, b),
-            _ => {
-                let mut terms = chain.iter().map(|&(g, u)| (g, slopes[u].unwrap_or(u)));
-                // Numbers do not move, so that only the time is left without a chain.
-                terms.next().map_or(Rule::Time, |first| Rule::Chain(first, terms.next()))
+            Node::State(component) => rule(Kind::State, &[rates[component]]),
+            Node::Unary(Unary::Negative, a) => rule(Kind::Negative, &[a]),
+            Node::Unary(Unary::SquareRoot, a) => rule(Kind::Root, &[a]),
+            Node::Binary(Binary::Sum, a, b) => rule(Kind::Sum, &[a, b]),
+            Node::Binary(Binary::Difference, a, b) => rule(Kind::Difference, &[a, b]),
+            Node::Binary(Binary::Product, a, b) if !moves[a] => rule(Kind::Scaled, &[a, b]),
+            Node::Binary(Binary::Product, a, b) if !moves[b] => rule(Kind::Scaled, &[b, a]),
+            Node::Binary(Binary::Product, a, b) if a == b => rule(Kind::Square, &[a]),
+            Node::Binary(Binary::Product, a, b) if is_shorter(b, a) => {
+                Rule::new(Kind::Product, &[b, a], terms(b))
             }
+            Node::Binary(Binary::Product, a, b) => Rule::new(Kind::Product, &[a, b], terms(a)),
+            Node::Binary(Binary::Quotient, a, b) if !moves[b] => rule(Kind::Over, &[a, b]),
+            Node::Binary(Binary::Quotient, a, b) => Rule::new(Kind::Quotient, &[a, b], terms(b)),
+            _ => match *chain {
+                [(g, u)] => Rule::new(Kind::Chain, &[g, slope(u)], terms(u)),
+                [(g, u), (h, v), ..] => rule(Kind::Chains, &[g, slope(u), h, slope(v)]),
+                // Numbers do not move, so that only the time is left without a chain.
+                [] => rule(Kind::Time, &[]),
+            },
         }
     }
 }
@@ -126,14 +183,13 @@ impl Moving {
             let node = &moving.graph.nodes()[place];
             let is_variable = matches!(node, Node::Time | Node::State(_));
             let moves = is_variable || node.operands().any(|operand| moving.moves[operand]);
-            let has_own_rule = matches!(
-                node,
-                Node::Unary(Unary::Negative, _)
-                    | Node::Binary(
-                        Binary::Sum | Binary::Difference | Binary::Product | Binary::Quotient,
-                        ..
-                    )
-            );
+            let has_own_rule = match *node {
+                Node::Unary(Unary::Negative | Unary::SquareRoot, _) => true,
+                Node::Binary(Binary::Sum | Binary::Difference, ..) => true,
+                Node::Binary(Binary::Product | Binary::Quotient, ..) => true,
+                Node::Binary(Binary::Power, _, exponent) => !moving.moves[exponent],
+                _ => false,
+            };
             let chain = match moves && !is_variable && !has_own_rule {
                 true => partials(&mut moving.graph, place, |operand| moving.moves[operand])
                     .ok_or_else(|| Error::Kink { part: field.text_of(&moving.graph, place) })?,

@@ -3,10 +3,10 @@
 use crate::algebra::Algebra;
 use crate::error::Error;
 use crate::evaluate::compute;
-use crate::formulas::{Formulas, length};
+use crate::formulas::{Formulas, length as check_length};
 use crate::graph::Graph;
 use crate::node::{Binary, Node, Unary};
-use crate::rules::{Rule, Rules};
+use crate::rules::{Kind, Rule, Rules};
 use std::fmt;
 
 /// The highest order of a series. Its time grows with the square of the order; none of an integration needs more than 25.
@@ -15,17 +15,26 @@ const MOST_TERMS: usize = 10_000;
 /// The coefficients of series in time, x(t + s) = Σ x_k s^k, from k = 0 on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coefficients<A> {
-    /// Row after row: those of a part stand side by side.
+    /// Row after row. A row has the coefficients of a part side by side, and then the same ones from the last to the first: a
+    /// sum Σ a_j b_{k−j} is one over two lists then.
     all: Vec<A>,
     terms: usize,
     /// The rows of the state's components, and of the watched formulas.
     states: Vec<usize>,
     watched: Vec<usize>,
+    /// The rules, with the beginnings of rows as their places.
+    rules: Vec<Rule>,
+}
+
+/// The length of a row.
+#[inline(always)]
+const fn length(terms: usize) -> usize {
+    2 * terms
 }
 
 impl<A> Coefficients<A> {
     fn row(&self, row: usize) -> &[A] {
-        &self.all[row * self.terms..][..self.terms]
+        &self.all[row * length(self.terms)..][..self.terms]
     }
 
     /// Of a component of the state; none beyond the last one.
@@ -74,7 +83,7 @@ impl Series {
     /// watched formulas have other names or values; [`Error::Kink`] for a function with a kink or a jump;
     /// [`Error::TooLarge`].
     pub fn new(field: &Formulas, watched: Option<&Formulas>) -> Result<Series, Error> {
-        length("formulas of the field", field.names.states.len(), field.count())?;
+        check_length("formulas of the field", field.names.states.len(), field.count())?;
         let mut graph = Graph::of(field.nodes.clone());
         let field_parts = field.nodes.len();
         let watched =
@@ -131,11 +140,16 @@ impl Series {
             return Err(Error::Order { order, most: MOST_TERMS });
         }
         let terms = order + 1;
-        let mut all = vec![A::zero(); self.rules.rows() * terms];
-        for (row, value) in self.field.numbers().into_iter().enumerate() {
-            all[row * terms] = value;
+        if self.rules.rows() * length(terms) > u32::MAX as usize {
+            return Err(Error::TooLarge { limit: u32::MAX as usize / length(terms) });
         }
-        Ok(Coefficients { all, terms, states: self.states.clone(), watched: self.watched.clone() })
+        let mut all = vec![A::zero(); self.rules.rows() * length(terms)];
+        for (row, value) in self.field.numbers().into_iter().enumerate() {
+            all[row * length(terms)] = value;
+        }
+        let (states, watched) = (self.states.clone(), self.watched.clone());
+        let rules = self.rules.of_length(length(terms));
+        Ok(Coefficients { all, terms, states, watched, rules })
     }
 
     /// Computes all coefficients at a time and a state.
@@ -145,97 +159,114 @@ impl Series {
         state: &[A],
         into: &mut Coefficients<A>,
     ) -> Result<(), Error> {
-        length("components of the state", self.states.len(), state.len())?;
+        check_length("components of the state", self.states.len(), state.len())?;
         self.field.check_start(time, state)?;
-        let terms = into.terms;
-        compute(&self.field.nodes, time, state, &mut into.all, terms);
+        let (terms, length) = (into.terms, length(into.terms));
+        let Coefficients { all, rules, .. } = into;
+        compute(&self.field.nodes, time, state, all, length);
+        let mut are_valid = all.iter().step_by(length).all(A::is_valid);
         for k in 1..terms {
-            for &(row, rule) in &self.rules.moving {
-                let coefficient = self.coefficient(&into.all, terms, (row, rule), k);
-                into.all[row * terms + k] = coefficient;
+            for rule in rules.iter() {
+                let found = coefficient(all, length, rule, k);
+                are_valid &= found.is_valid();
+                all[rule.row as usize + k] = found.clone();
+                all[rule.row as usize + length - 1 - k] = found;
             }
         }
-        if into.all.iter().all(A::is_valid) {
+        if are_valid {
             return Ok(());
         }
         // Of the lowest order without a value, the first part.
         let parts = self.field.nodes.len();
-        let order = |k: usize| (0..parts).map(move |row| row * terms + k);
+        let order = |k: usize| (0..parts).map(move |row| row * length + k);
         let wrong = (0..terms).flat_map(order).find(|&at| !into.all[at].is_valid());
-        let part = wrong.map_or(0, |at| at / terms);
+        let part = wrong.map_or(0, |at| at / length);
         Err(self.field.no_value(part, time, state))
     }
+}
 
-    #[inline(always)]
-    fn coefficient<A: Algebra>(
-        &self,
-        all: &[A],
-        terms: usize,
-        (row, rule): (usize, Rule),
-        k: usize,
-    ) -> A {
-        let of = |row: usize| &all[row * terms..][..terms];
-        // The last term of a row that may differ from zero, up to k.
-        let last = |row: usize| self.rules.terms[row].map_or(k, |terms| k.min(terms - 1));
-        match rule {
-            Rule::Time if k == 1 => A::constant(&1.0.into()),
-            Rule::Time => A::zero(),
-            Rule::State(rate) => A::over(&of(rate)[k - 1], k as f64),
-            Rule::Negative(a) => A::unary(Unary::Negative, &of(a)[k]),
-            Rule::Sum(a, b) => A::binary(Binary::Sum, &of(a)[k], &of(b)[k]),
-            Rule::Difference(a, b) => A::binary(Binary::Difference, &of(a)[k], &of(b)[k]),
-            Rule::Scaled(number, a) => A::binary(Binary::Product, &of(number)[0], &of(a)[k]),
-            Rule::Over(a, number) => A::binary(Binary::Quotient, &of(a)[k], &of(number)[0]),
-            Rule::Slope(a) => A::times(&of(a)[k], k as f64),
-            Rule::Square(a) => square(of(a), k),
-            Rule::Product(a, b) => {
-                let last = last(a);
-                convolution(&of(a)[..=last], &of(b)[k - last..=k])
-            }
-            Rule::Quotient(a, b) => {
-                // a = y b: y_k = (a_k − Σ_{j ≥ 1} b_j y_{k−j})/b_0.
-                let last = last(b);
-                let known = convolution(&of(b)[1..=last], &of(row)[k - last..k]);
-                let rest = A::binary(Binary::Difference, &of(a)[k], &known);
-                A::binary(Binary::Quotient, &rest, &of(b)[0])
-            }
-            Rule::Chain(first, second) => {
-                // k y_k = Σ_{j = 1}^{k} j u_j g_{k−j}.
-                let sum = |(g, slope): (usize, usize)| {
-                    let last = last(slope);
-                    convolution(&of(slope)[1..=last], &of(g)[k - last..k])
-                };
-                let first = sum(first);
-                let all = match second {
-                    Some(second) => A::binary(Binary::Sum, &first, &sum(second)),
-                    None => first,
-                };
-                A::over(&all, k as f64)
-            }
+/// The coefficient k of a row, from those of all rows.
+#[inline(always)]
+fn coefficient<A: Algebra>(all: &[A], length: usize, rule: &Rule, k: usize) -> A {
+    let [a, b, c, d] = rule.of.map(|row| row as usize);
+    let row = rule.row as usize;
+    let of = |row: usize, k: usize| &all[row + k];
+    let product = |a: &A, b: &A| A::binary(Binary::Product, a, b);
+    let sum = |a: &A, b: &A| A::binary(Binary::Sum, a, b);
+    let difference = |a: &A, b: &A| A::binary(Binary::Difference, a, b);
+    let quotient = |a: &A, b: &A| A::binary(Binary::Quotient, a, b);
+    match rule.kind {
+        Kind::Time if k == 1 => A::constant(&1.0.into()),
+        Kind::Time => A::zero(),
+        Kind::State => A::over(of(a, k - 1), k as f64),
+        Kind::Negative => A::unary(Unary::Negative, of(a, k)),
+        Kind::Sum => sum(of(a, k), of(b, k)),
+        Kind::Difference => difference(of(a, k), of(b, k)),
+        Kind::Scaled => product(of(a, 0), of(b, k)),
+        Kind::Over => quotient(of(a, k), of(b, 0)),
+        Kind::Slope => A::times(of(a, k), k as f64),
+        Kind::Square => {
+            let ends = product(of(a, 0), of(a, k));
+            sum(&inner_square(all, length, a, k), &A::times(&ends, 2.0))
+        }
+        Kind::Product => {
+            let ends = sum(&product(of(a, 0), of(b, k)), &product(of(a, k), of(b, 0)));
+            sum(&inner(all, length, (a, b), k, rule.most), &ends)
+        }
+        Kind::Quotient => {
+            // a = y b: y_k = (a_k − Σ_{j ≥ 1} b_j y_{k−j})/b_0.
+            let known = inner(all, length, (b, row), k, rule.most);
+            let known = sum(&known, &product(of(b, k), of(row, 0)));
+            quotient(&difference(of(a, k), &known), of(b, 0))
+        }
+        Kind::Root => {
+            // y y = a: 2 y_0 y_k = a_k − Σ y_j y_{k−j}.
+            let rest = difference(of(a, k), &inner_square(all, length, row, k));
+            quotient(&rest, &A::times(of(row, 0), 2.0))
+        }
+        Kind::Power => {
+            // y′ a = exponent a′ y: k y_k a_0 = exponent Σ_{j ≥ 1} j a_j y_{k−j} − Σ_{0 < j < k} j y_j a_{k−j}.
+            let grows = product_of_slopes(all, length, (row, c), k, u32::MAX);
+            let known = inner(all, length, (d, a), k, u32::MAX);
+            let rest = difference(&product(of(b, 0), &grows), &known);
+            A::over(&quotient(&rest, of(a, 0)), k as f64)
+        }
+        Kind::Chain => A::over(&product_of_slopes(all, length, (a, b), k, rule.most), k as f64),
+        Kind::Chains => {
+            let first = product_of_slopes(all, length, (a, b), k, u32::MAX);
+            let second = product_of_slopes(all, length, (c, d), k, u32::MAX);
+            A::over(&sum(&first, &second), k as f64)
         }
     }
 }
 
-/// Σ a_j b_{n−j} of two series with the terms 0 to n. Two sums, of even and of odd j, are computed side by side.
+/// Σ a_j b_{k−j} for 0 < j < k, and j < `most`. The two terms at the ends, which have just been computed, are added by
+/// themselves: nothing waits for them.
 #[inline(always)]
-fn convolution<A: Algebra>(a: &[A], b: &[A]) -> A {
-    let (mut even, mut odd) = (A::zero(), A::zero());
-    let (pairs, left) = a.as_chunks::<2>();
-    let (first, others) = b.as_rchunks::<2>();
-    for (a, b) in pairs.iter().zip(others.iter().rev()) {
-        even = A::add_product(&even, &a[0], &b[1]);
-        odd = A::add_product(&odd, &a[1], &b[0]);
-    }
-    if let ([a], [b]) = (left, first) {
-        even = A::add_product(&even, a, b);
-    }
-    A::binary(Binary::Sum, &even, &odd)
+fn inner<A: Algebra>(all: &[A], length: usize, (a, b): (usize, usize), k: usize, most: u32) -> A {
+    let count = (most as usize).min(k) - 1;
+    A::sum_of_products(&all[a + 1..][..count], &all[b + length - k..][..count])
 }
 
-/// The coefficient k of a square: each product of two different ones occurs twice.
+/// The same of a row with itself: each product of two different coefficients occurs twice.
 #[inline(always)]
-fn square<A: Algebra>(a: &[A], k: usize) -> A {
-    let half = k.div_ceil(2);
-    let twice = A::times(&convolution(&a[..half], &a[k + 1 - half..=k]), 2.0);
-    if k.is_multiple_of(2) { A::binary(Binary::Sum, &twice, &A::square(&a[k / 2])) } else { twice }
+fn inner_square<A: Algebra>(all: &[A], length: usize, a: usize, k: usize) -> A {
+    let twice = A::times(&inner(all, length, (a, a), k, k.div_ceil(2) as u32), 2.0);
+    match k.is_multiple_of(2) {
+        true => A::binary(Binary::Sum, &twice, &A::square(&all[a + k / 2])),
+        false => twice,
+    }
+}
+
+/// k times the coefficient k of y, with y′ = g u′: Σ_{j ≥ 1} j u_j g_{k−j}.
+#[inline(always)]
+fn product_of_slopes<A: Algebra>(
+    all: &[A],
+    length: usize,
+    (g, slope): (usize, usize),
+    k: usize,
+    most: u32,
+) -> A {
+    let end = A::binary(Binary::Product, &all[slope + k], &all[g]);
+    A::binary(Binary::Sum, &inner(all, length, (slope, g), k, most), &end)
 }
