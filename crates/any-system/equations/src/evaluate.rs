@@ -5,7 +5,11 @@ use crate::error::Error;
 use crate::formulas::{Formulas, length};
 use crate::node::{Binary, Node};
 use interval_arithmetic::Enclosure;
+use smallvec::SmallVec;
 use std::fmt::Debug;
+
+/// Parts whose values are kept on the stack: guards and jumps have fewer. More would make small formulas slower.
+const PARTS_IN_PLACE: usize = 64;
 
 /// Formulas with memory for the values of their parts, for many values one after the other.
 ///
@@ -91,6 +95,25 @@ impl Formulas {
         Evaluator::new(self).values(time, state).map(<[f64]>::to_vec)
     }
 
+    /// As [`values`](Self::values), written into a slice of their number. Up to 64 parts need no memory of their own.
+    ///
+    /// # Errors
+    /// As [`values`](Self::values).
+    pub fn write_values(&self, time: f64, state: &[f64], into: &mut [f64]) -> Result<(), Error> {
+        length("components of the state", self.names.states.len(), state.len())?;
+        length("values", self.count(), into.len())?;
+        let mut parts: SmallVec<[f64; PARTS_IN_PLACE]> = SmallVec::new();
+        parts.extend(self.nodes.iter().map(|node| self.number(node)));
+        compute(&self.nodes, &time, state, &mut parts, 1);
+        if !parts.iter().chain(state).all(|value| value.is_finite()) {
+            self.check_start(&time, state)?;
+            let part = parts.iter().position(|value| !value.is_finite()).unwrap_or(0);
+            return Err(self.no_value(part, &time, state));
+        }
+        into.iter_mut().zip(&self.outputs).for_each(|(into, &at)| *into = parts[at]);
+        Ok(())
+    }
+
     /// Enclosures of the values at all times and states of the given intervals, and at the exact decimals of numbers and
     /// parameters.
     ///
@@ -116,12 +139,15 @@ impl Formulas {
 
     /// The values of numbers and parameters, and 0 for all other parts.
     pub(crate) fn numbers<A: Algebra>(&self) -> Vec<A> {
-        let number = |node: &Node| match node {
+        self.nodes.iter().map(|node| self.number(node)).collect()
+    }
+
+    fn number<A: Algebra>(&self, node: &Node) -> A {
+        match node {
             Node::Constant(constant) => A::constant(constant),
             Node::Parameter(at) => A::constant(&self.names.values[*at]),
             _ => A::zero(),
-        };
-        self.nodes.iter().map(number).collect()
+        }
     }
 
     /// An error unless time and state have values.

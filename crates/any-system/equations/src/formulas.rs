@@ -186,6 +186,37 @@ impl Formulas {
         Ok(self)
     }
 
+    /// The outputs of several formulas with the same names, one after the other.
+    ///
+    /// # Errors
+    /// [`Error::Name`] for other names or values; [`Error::TooLarge`].
+    pub fn and(&self, other: &Formulas) -> Result<Formulas, Error> {
+        let mut graph = Graph::of(self.nodes.clone());
+        let more = self.joined(&mut graph, other)?;
+        let outputs = self.outputs.iter().copied().chain(more).collect();
+        Formulas::of_parts(self.names.clone(), graph.into_nodes(), outputs)
+    }
+
+    /// True if the time stands in a formula.
+    pub fn uses_time(&self) -> bool {
+        self.nodes.contains(&Node::Time)
+    }
+
+    /// The same formulas with the time as a further component of the state, the last one, and with a `further` formula:
+    /// of a field the rate of the time, the number 1; of a jump the time, which stays.
+    #[must_use]
+    pub fn with_time_as_state(&self, further: Option<Node>) -> Formulas {
+        let mut names = self.names.clone();
+        let component = names.states.len();
+        names.states.push("t".to_owned());
+        let is_time = |node: &Node| *node == Node::Time;
+        let moved = |node: &Node| if is_time(node) { Node::State(component) } else { node.clone() };
+        let mut graph = Graph::of(self.nodes.iter().map(moved).collect());
+        let further = further.map(|node| graph.place(moved(&node)));
+        let outputs = self.outputs.iter().copied().chain(further).collect();
+        Formulas { names, nodes: graph.into_nodes(), outputs }
+    }
+
     /// The derivatives in one direction of state and parameters, with the same names. The direction's components are
     /// numbers; a direction along the state's component k is 1 there and 0 elsewhere.
     ///

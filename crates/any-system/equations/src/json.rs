@@ -42,16 +42,18 @@ impl Formulas {
     /// # Ok::<(), equations::Error>(())
     /// ```
     pub fn to_json(&self) -> String {
-        let parameters = self.names.parameters.iter().zip(&self.names.values);
-        let file = json!({
-            "format": "equations",
-            "version": VERSION,
-            "states": self.names.states,
-            "parameters": parameters.map(|(name, value)| json!([name, written(value)])).collect::<Vec<_>>(),
-            "parts": self.nodes.iter().map(part).collect::<Vec<_>>(),
-            "outputs": self.outputs,
-        });
+        let mut file = json!({ "format": "equations", "version": VERSION });
+        for part in [self.names.to_value(), self.to_value()] {
+            if let (Some(file), Value::Object(part)) = (file.as_object_mut(), part) {
+                file.extend(part);
+            }
+        }
         file.to_string()
+    }
+
+    /// Their parts and outputs as a value of JSON, without the names: for files of several formulas.
+    pub fn to_value(&self) -> Value {
+        json!({ "parts": self.nodes.iter().map(part).collect::<Vec<_>>(), "outputs": self.outputs })
     }
 
     /// The formulas of a file. Any bytes are safe: what is no such file is an error with its place.
@@ -59,22 +61,21 @@ impl Formulas {
     /// # Errors
     /// [`Error::File`]; [`Error::Name`]; [`Error::TooLarge`].
     pub fn from_json(text: &str) -> Result<Formulas, Error> {
-        if text.len() > LONGEST {
-            return Err(wrong("the file", format!("it is longer than {LONGEST} bytes")));
-        }
-        // Parts and parameters are lists. A file of more lists would take memory before they are counted.
-        if text.matches('[').count() > 2 * MOST_PARTS {
-            return Err(Error::TooLarge { limit: MOST_PARTS });
-        }
-        let file: Value =
-            serde_json::from_str(text).map_err(|error| wrong("the file", error.to_string()))?;
+        let file = bounded_value(text)?;
         if file["format"] != "equations" || file["version"] != VERSION {
             let reason = format!("\"format\" must be \"equations\", and \"version\" {VERSION}");
             return Err(wrong("the file", reason));
         }
-        let names = names(&file)?;
+        Formulas::from_value(Names::from_value(&file)?, &file)
+    }
+
+    /// The formulas of a value that [`to_value`](Self::to_value) made.
+    ///
+    /// # Errors
+    /// As [`from_json`](Self::from_json).
+    pub fn from_value(names: Names, file: &Value) -> Result<Formulas, Error> {
         let mut graph = Graph::default();
-        let parts = list(&file, "parts")?;
+        let parts = list(file, "parts")?;
         if parts.len() > MOST_PARTS {
             return Err(Error::TooLarge { limit: MOST_PARTS });
         }
@@ -94,11 +95,43 @@ impl Formulas {
                 return Err(wrong(&format!("parts[{at}]"), reason));
             }
         }
-        let outputs = list(&file, "outputs")?.iter().enumerate().map(|(at, output)| {
+        let outputs = list(file, "outputs")?.iter().enumerate().map(|(at, output)| {
             place(output, parts.len()).map_err(|reason| wrong(&format!("outputs[{at}]"), reason))
         });
         let outputs = outputs.collect::<Result<Vec<_>, Error>>()?;
         Formulas::of_parts(names, graph.into_nodes(), outputs)
+    }
+}
+
+/// A value of JSON, if its memory is bounded: of at most 30 million bytes, with at most two million lists.
+///
+/// # Errors
+/// [`Error::File`]; [`Error::TooLarge`].
+pub fn bounded_value(text: &str) -> Result<Value, Error> {
+    if text.len() > LONGEST {
+        return Err(wrong("the file", format!("it is longer than {LONGEST} bytes")));
+    }
+    // Parts and parameters are lists. A file of more lists would take memory before they are counted.
+    if text.matches('[').count() > 2 * MOST_PARTS {
+        return Err(Error::TooLarge { limit: MOST_PARTS });
+    }
+    serde_json::from_str(text).map_err(|error| wrong("the file", error.to_string()))
+}
+
+impl Names {
+    /// Names and values as a value of JSON.
+    pub fn to_value(&self) -> Value {
+        let parameters = self.parameters.iter().zip(&self.values);
+        let parameters = parameters.map(|(name, value)| json!([name, written(value)]));
+        json!({ "states": self.states, "parameters": parameters.collect::<Vec<_>>() })
+    }
+
+    /// The names of a value that [`to_value`](Self::to_value) made.
+    ///
+    /// # Errors
+    /// [`Error::File`]; [`Error::Name`].
+    pub fn from_value(file: &Value) -> Result<Names, Error> {
+        names(file)
     }
 }
 

@@ -54,6 +54,7 @@ pub use error::Error;
 pub use evaluate::Evaluator;
 pub use expression::{Expression, Parameters, Term};
 pub use formulas::{Formulas, Names};
+pub use json::bounded_value;
 pub use lanes::Columns;
 pub use node::{Binary, Node, Unary};
 pub use series::{Coefficients, Series};

@@ -9,6 +9,24 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
+    /// A formula has no value, or is none.
+    #[cfg(feature = "ode")]
+    #[error(transparent)]
+    Formula(#[from] equations::Error),
+    /// A name of a mode or a surface is too long to be copied like a number.
+    #[error("the name {label:?} has more than 31 bytes: shorten it")]
+    BadLabel {
+        /// The name.
+        label: String,
+    },
+    /// The equations of a model do not fit together.
+    #[error("{what}: {reason}")]
+    BadEquations {
+        /// The mode or the surface, or the place in a file.
+        what: String,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
     /// A root was not found between two values.
     #[error(transparent)]
     Root(interval_arithmetic::Error),

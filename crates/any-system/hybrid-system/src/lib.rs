@@ -101,6 +101,8 @@ mod delay;
 mod durations;
 mod error;
 mod execution;
+#[cfg(feature = "ode")]
+mod formulas;
 mod guard;
 mod lands_beyond;
 mod limits;
@@ -134,6 +136,8 @@ pub use crossing::{
 };
 pub use error::Error;
 pub use execution::Execution;
+#[cfg(feature = "ode")]
+pub use formulas::{Equations, Label};
 pub use guard::{Direction, Guard, Role, Touch};
 pub use interval_arithmetic::Enclosure;
 pub use lands_beyond::LandsBeyond;
@@ -161,6 +165,8 @@ pub use zeno::ZenoLimit;
 /// The parts of a [`Model`]: each method of it adds one. A type of a model is seldom written, and `impl
 /// HybridSystem` or a generic parameter does.
 pub mod model_parts {
+    #[cfg(feature = "ode")]
+    pub use crate::formulas::{FormulaPart, TaylorMotion};
     #[cfg(feature = "ode")]
     pub use crate::model::Integrated;
     pub use crate::model::{

@@ -88,7 +88,7 @@ use std::marker::PhantomData;
 #[derive(Debug, Clone)]
 #[must_use]
 pub struct Model<M, S, X, F, P = ()> {
-    pub(super) motion: F,
+    pub(crate) motion: F,
     pub(super) parts: P,
     pub(super) guards: GuardLists<M, S>,
     sampling_interval: Option<f64>,
@@ -103,6 +103,16 @@ impl<M: Copy + Eq, S: Copy + Eq + Debug, X, F> Model<M, S, X, F> {
     fn new(motion: F) -> Self {
         let guards = GuardLists::new();
         Model { motion, parts: (), guards, sampling_interval: None, state: PhantomData }
+    }
+}
+
+#[cfg(feature = "ode")]
+impl<M: Copy + Eq, S: Copy + Eq + Debug, X, F, P> Model<M, S, X, F, P> {
+    /// A model with this motion, whose one part has these guards: of a mode, or of all modes.
+    pub(crate) fn of_equations(motion: F, parts: P, watched: Vec<(Option<M>, Guard<S>)>) -> Self {
+        let mut guards = GuardLists::new();
+        watched.into_iter().for_each(|(mode, guard)| guards.add_watched(mode, guard));
+        Model { motion, parts, guards, sampling_interval: None, state: PhantomData }
     }
 }
 

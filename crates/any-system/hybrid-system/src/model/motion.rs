@@ -35,6 +35,15 @@ pub trait Motion<M, X> {
     ) -> Result<NextEvent<T::Surface, X>, Error>
     where
         T: HybridSystem<Mode = M, State = X>;
+
+    /// Finds misuse before the first arc. Default: no check.
+    ///
+    /// # Errors
+    /// The misuse, with its remedy.
+    fn validate(&self, mode: M, start: &X) -> Result<(), Error> {
+        let _ = (mode, start);
+        Ok(())
+    }
 }
 
 /// A motion in closed form: a closure gives φ(t; x₀) from the mode, the start and the time.

@@ -91,7 +91,8 @@ where
     ///
     /// # Errors
     /// [`Error::SurfaceTwice`], [`Error::ClockWithoutTimes`], [`Error::NoSuchGuard`] and [`Error::TwoGuardFunctions`].
-    fn validate(&self, _: M, start: &X) -> Result<(), Error> {
+    fn validate(&self, mode: M, start: &X) -> Result<(), Error> {
+        self.motion.validate(mode, start)?;
         self.guards.check()?;
         let known = |surface| self.guards.contains(surface);
         if let Some(surface) = self.parts.unknown_surface(&known) {

@@ -57,15 +57,7 @@ fn visit_states<T: HybridSystem + ?Sized>(
     tolerances: Tolerances,
     mut visit: impl FnMut(T::State),
 ) -> Result<(), Error> {
-    let Some(&end) = times.last() else { return Ok(()) };
-    let mut before = 0.0;
-    for &time in times {
-        // Each time lies between the one before and the end.
-        if !(time.is_finite() && between(before, time, end)) {
-            return Err(Error::BadLimit { what: "a time that is not in order", value: time });
-        }
-        before = time;
-    }
+    let Some(end) = last_time(times)? else { return Ok(()) };
     let mut times = times.iter().copied().peekable();
     while times.next_if_eq(&0.0).is_some() {
         visit(start.clone());
@@ -88,8 +80,22 @@ fn visit_states<T: HybridSystem + ?Sized>(
     Ok(())
 }
 
+/// The last of some times, none of none; an error unless they are in one order from zero on.
+pub(super) fn last_time(times: &[f64]) -> Result<Option<f64>, Error> {
+    let Some(&end) = times.last() else { return Ok(None) };
+    let mut before = 0.0;
+    for &time in times {
+        // Each time lies between the one before and the end.
+        if !(time.is_finite() && between(before, time, end)) {
+            return Err(Error::BadLimit { what: "a time that is not in order", value: time });
+        }
+        before = time;
+    }
+    Ok(Some(end))
+}
+
 /// True if `x` lies between `a` and `b`, in either order.
-fn between(a: f64, x: f64, b: f64) -> bool {
+pub(super) fn between(a: f64, x: f64, b: f64) -> bool {
     (a <= x && x <= b) || (b <= x && x <= a)
 }
 
@@ -170,7 +176,11 @@ where
     T: HybridSystem + ?Sized,
 {
     let field = field_of(system, mode);
-    search(system, mode, start, request, field, tolerances)
+    let integration = |longest_first: f64| {
+        let integration = Integration::new(&field, start, tolerances)?.autonomous();
+        Ok(integration.until(request.horizon)?.starting_with(longest_first))
+    };
+    search(system, mode, (start, &field(0.0, start)), request, integration, tolerances)
 }
 
 /// f of a mode. Its components are NaN where the model gives no field.

@@ -2,6 +2,7 @@
 
 use super::chebyshev::{CHEBYSHEV, NODES};
 use super::polynomial_test::{is_broken, largest, scatter, side_after_zero, zero_test};
+use super::power_test;
 use crate::crossing::{Bounded, Leave, ZeroTest};
 use crate::error::Error;
 use interval_arithmetic::Enclosure;
@@ -41,27 +42,35 @@ const NOISE_MATTERS: f64 = 1e5;
 /// guard that shows no side then is hidden.
 const MOST_INTERVALS: usize = 128;
 
-/// A guard as a function of time on one step: values on the interpolant of the step, with their rounding.
-pub(super) struct GuardOnStep<A, R> {
+/// A guard as a function of time on one step: values on the polynomial of the step, with their rounding.
+pub(super) struct GuardOnStep<'p, A, R> {
     along: A,
     rounding: R,
     from: f64,
     to: f64,
     /// The longest interval that is tested.
     longest: f64,
+    /// The guard itself as a polynomial in the time since the step began. Its zeros need no values.
+    powers: Option<&'p [f64]>,
     /// The result of `rounding` for the whole step, computed at its first use.
     known_rounding: OnceCell<f64>,
     /// The rounding of the guard's own arithmetic, as far as it has been seen on this step.
     own: Cell<f64>,
 }
 
-impl<A: Fn(f64) -> f64, R: Fn(f64, f64) -> f64> GuardOnStep<A, R> {
+impl<'p, A: Fn(f64) -> f64, R: Fn(f64, f64) -> f64> GuardOnStep<'p, A, R> {
     /// The guard `along` the step [`from`, `to`]. `rounding(left, right)` estimates the error of its values there
     /// by the rounding of the state. The guard is evaluated at least every `check_interval`.
-    pub(super) fn new(along: A, rounding: R, (from, to): (f64, f64), check_interval: f64) -> Self {
+    pub(super) fn new(
+        along: A,
+        rounding: R,
+        (from, to): (f64, f64),
+        check_interval: f64,
+        powers: Option<&'p [f64]>,
+    ) -> Self {
         let longest = check_interval / NODE_DISTANCE;
         let (known_rounding, own) = (OnceCell::new(), Cell::new(0.0));
-        GuardOnStep { along, rounding, from, to, longest, known_rounding, own }
+        GuardOnStep { along, rounding, from, to, longest, powers, known_rounding, own }
     }
 
     /// An estimate of the error of the values on the step.
@@ -101,7 +110,7 @@ impl<A: Fn(f64) -> f64, R: Fn(f64, f64) -> f64> GuardOnStep<A, R> {
     }
 }
 
-impl<A: Fn(f64) -> f64, R: Fn(f64, f64) -> f64> Bounded for GuardOnStep<A, R> {
+impl<A: Fn(f64) -> f64, R: Fn(f64, f64) -> f64> Bounded for GuardOnStep<'_, A, R> {
     fn value(&self, time: f64) -> f64 {
         (self.along)(time)
     }
@@ -117,6 +126,14 @@ impl<A: Fn(f64) -> f64, R: Fn(f64, f64) -> f64> Bounded for GuardOnStep<A, R> {
     }
 
     fn test(&self, left: f64, right: f64, level: f64) -> Result<ZeroTest, Error> {
+        if let Some(powers) = self.powers {
+            let since = (left - self.from, right - self.from);
+            // Without the rounding of the state first: its estimate takes longer than the test.
+            return Ok(match power_test::zero_test(powers, since, level, 0.0) {
+                ZeroTest::Undecided => ZeroTest::Undecided,
+                _ => power_test::zero_test(powers, since, level, self.error()),
+            });
+        }
         if right - left > self.longest {
             return Ok(ZeroTest::Undecided);
         }

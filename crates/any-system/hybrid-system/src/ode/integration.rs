@@ -1,6 +1,7 @@
 //! Solutions of ẋ = f(t, x), step by step, with a polynomial for the state inside each step.
 
 use super::step::Step;
+use super::stepping::Stepping;
 use super::steps::Steps;
 use super::tolerances::Tolerances;
 use crate::error::Error;
@@ -93,16 +94,6 @@ impl<F: Fn(f64, &V) -> V, V: StateVector> Integration<F, V> {
         self.inner.state()
     }
 
-    /// Makes each component of `sizes` at least as large as that of the state at the end of the last step.
-    pub(super) fn enlarge(&self, sizes: &mut V) {
-        self.inner.enlarge(sizes);
-    }
-
-    /// The field at the end of the last step.
-    pub(super) fn slope(&self) -> V {
-        self.inner.slope()
-    }
-
     /// True if the end has been reached.
     pub fn ended(&self) -> bool {
         self.inner.ended()
@@ -155,20 +146,57 @@ impl<F: Fn(f64, &V) -> V, V: StateVector> Integration<F, V> {
         let (degree, before, changes) = self.inner.inside()?;
         Ok(Step::new(self.interval(), degree, before, changes))
     }
+}
 
-    /// States along the last step that need no evaluation of the field: the states of the stages, and nine states of
-    /// the cubic through both ends with their slopes, an eighth of the step apart.
+impl<F: Fn(f64, &V) -> V, V: StateVector> Stepping<V> for Integration<F, V> {
+    fn step(&mut self) -> Result<(), Error> {
+        self.step()
+    }
+
+    fn interval(&self) -> (f64, f64) {
+        self.interval()
+    }
+
+    fn state(&self) -> V {
+        self.state()
+    }
+
+    fn slope(&self) -> V {
+        self.inner.slope()
+    }
+
+    fn enlarge(&self, sizes: &mut V) {
+        self.inner.enlarge(sizes);
+    }
+
+    fn ended(&self) -> bool {
+        self.ended()
+    }
+
+    fn at_rest(&self) -> bool {
+        self.at_rest()
+    }
+
+    fn steps_left(&self) -> usize {
+        self.steps_left()
+    }
+
+    /// States that need no evaluation of the field: the states of the stages, and nine states of the cubic through both
+    /// ends with their slopes, an eighth of the step apart.
     ///
-    /// These states show the shape of the orbit, not its digits: the stages are of low order, and the error of the
-    /// cubic is of order h⁴. They are used to test that a guard stays far from zero.
-    pub(super) fn samples(&self) -> impl Iterator<Item = V> {
+    /// They show the shape of the orbit, not its digits: the stages are of low order, and the error of the cubic is of
+    /// order h⁴.
+    fn samples(&self) -> impl Iterator<Item = V> {
         self.inner.samples()
     }
 
-    /// The state at a time in the last step, by a separate step that ends there. The interpolant, whose coefficients
-    /// are large and cancel, loses more digits.
-    pub(super) fn directly_at(&mut self, time: f64) -> Result<V, Error> {
-        self.inner.directly_at(time)
+    fn last_step(&mut self) -> Result<Step<V>, Error> {
+        self.last_step()
+    }
+
+    /// By a separate step that ends there. The interpolant, whose coefficients are large and cancel, loses more digits.
+    fn directly_at(&mut self, time: f64) -> Option<Result<V, Error>> {
+        Some(self.inner.directly_at(time))
     }
 }
 

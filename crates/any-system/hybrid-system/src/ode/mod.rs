@@ -4,6 +4,9 @@
 //! polynomial (`step`, through values at the nodes of `chebyshev`). `search` follows all guards of a mode from step to
 //! step, with one `followed_guard` for each. A `followed_guard` decides by `polynomial_test` whether a step contains a
 //! crossing. A model calls `flow` and `variation`.
+//!
+//! A field that is a formula is followed by `taylor`. Both kinds of integration are a [`Stepping`](stepping::Stepping), and
+//! the search knows no other difference than that guards along Taylor's polynomials are polynomials (`power_test`).
 
 mod chebyshev;
 mod first_step;
@@ -15,17 +18,21 @@ mod inverse_root;
 mod pass;
 mod polish;
 mod polynomial_test;
+mod power_test;
 mod rows;
 mod schemes;
 mod search;
 mod special_steps;
 mod step;
+mod stepping;
 mod steps;
+mod taylor;
 mod tolerances;
 mod variation;
 mod vector;
 
 pub use flow::{integrated_crossing, integrated_flow, integrated_states};
 pub use integration::Integration;
+pub(crate) use taylor::{taylor_crossing, taylor_states};
 pub use tolerances::Tolerances;
 pub use variation::{Linearized, integrated_jacobian, integrated_parameter_jacobian};

@@ -1,9 +1,10 @@
 //! One search along an integrated flow: how guards are followed, and which event is the first on the corrected step.
 
 use super::followed_guard::GuardOnStep;
-use super::integration::Integration;
 use super::polish::{Accuracy, CorrectedStep};
+use super::power_test::stays;
 use super::step::Step;
+use super::stepping::Stepping;
 use super::tolerances::Tolerances;
 use crate::crossing::{
     Certainty, Crossing, EventKind, NextEvent, Search, ZeroSearch, guard_rate, rounding_around,
@@ -28,6 +29,8 @@ pub(super) const GUARDS_ON_STACK: usize = 8;
 #[derive(Clone, Copy)]
 pub(super) struct Followed<S> {
     pub(super) guard: Guard<S>,
+    /// Its place among the searched guards.
+    pub(super) place: usize,
     /// The stated error of the guard's own arithmetic, or zero.
     pub(super) stated: f64,
     pub(super) search: ZeroSearch,
@@ -57,7 +60,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
     /// How a guard starts: on a side, or on its surface.
     pub(super) fn follow(
         &self,
-        guard: Guard<T::Surface>,
+        (place, guard): (usize, Guard<T::Surface>),
         start: &T::State,
         rate: &T::State,
     ) -> Result<Followed<T::Surface>, Error> {
@@ -71,7 +74,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         if let Some(side) = self.request.side_before(surface) {
             let error = stated_or_measured(stated, start, &along);
             let search = ZeroSearch::before_zero(direction, 0.0, side, error);
-            return Ok(Followed { guard, stated: stated.unwrap_or(0.0), search });
+            return Ok(Followed { guard, place, stated: stated.unwrap_or(0.0), search });
         }
         let known = self.request.side(surface);
         let search = match side_of_surface(start, stated, along) {
@@ -99,7 +102,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 ZeroSearch::leaving(direction, (hidden, value), error, side)
             }
         };
-        Ok(Followed { guard, stated: stated.unwrap_or(0.0), search })
+        Ok(Followed { guard, place, stated: stated.unwrap_or(0.0), search })
     }
 
     /// Whether the guard comes to `side` as soon as the state moves along its field: it jumps there.
@@ -125,27 +128,42 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         })
     }
 
-    /// True if the guard stays on its side along the last step, as far as a few values show: the smallest distance from
-    /// zero is more than half of the difference between the largest and the smallest. The search then moves to `until`.
-    ///
-    /// This test is no bound. A dip to zero and back is visible in the values if it takes an eighth of the step.
-    pub(super) fn stays_away<F>(
+    /// True if the guard stays on its side along the last step: by the bounds of a polynomial, or as far as a few values
+    /// show. The search then moves to `until`.
+    pub(super) fn stays_away(
         &self,
         followed: &mut Followed<T::Surface>,
-        integration: &Integration<F, T::State>,
+        integration: &impl Stepping<T::State>,
         until: f64,
-    ) -> bool
-    where
-        F: Fn(f64, &T::State) -> T::State,
-    {
+    ) -> bool {
         let Some(side) = followed.search.clear_side() else { return false };
         let (from, to) = integration.interval();
-        if to - from > PARTS * self.tolerances.check_interval {
-            return false;
+        let away = match integration.guard(followed.place) {
+            Some(coefficients) => stays(coefficients, side, to - from),
+            None => {
+                to - from <= PARTS * self.tolerances.check_interval
+                    && self.samples_stay(followed.guard.surface, side, integration)
+            }
+        };
+        if away {
+            followed.search = ZeroSearch::on_side(followed.guard.direction, until, side);
         }
+        away
+    }
+
+    /// The smallest distance of some values from zero is more than half of the difference between the largest and the
+    /// smallest.
+    ///
+    /// This test is no bound. A dip to zero and back is visible in the values if it takes an eighth of the step.
+    fn samples_stay(
+        &self,
+        surface: T::Surface,
+        side: f64,
+        integration: &impl Stepping<T::State>,
+    ) -> bool {
         let (mut nearest, mut farthest) = (f64::INFINITY, 0.0);
         for state in integration.samples() {
-            let distance = side * self.system.guard_value(followed.guard.surface, &state);
+            let distance = side * self.system.guard_value(surface, &state);
             // The condition is also true for NaN, which the polynomial's test then returns as an error.
             if !(distance > 0.0) {
                 return false;
@@ -153,11 +171,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             nearest = if distance < nearest { distance } else { nearest };
             farthest = if distance > farthest { distance } else { farthest };
         }
-        let away = AWAY * nearest > farthest - nearest;
-        if away {
-            followed.search = ZeroSearch::on_side(followed.guard.direction, until, side);
-        }
-        away
+        AWAY * nearest > farthest - nearest
     }
 
     /// Another guard that has its zero before the event of `surface`, if any, at `time`, on the step as it is
@@ -191,13 +205,14 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         Ok(first)
     }
 
-    /// A guard as a function of time on a step.
-    pub(super) fn on_step(
-        &self,
-        step: &Step<T::State>,
+    /// A guard as a function of time on a step, with its polynomial if it has one.
+    pub(super) fn on_step<'a>(
+        &'a self,
+        step: &'a Step<T::State>,
         surface: T::Surface,
         stated: f64,
-    ) -> GuardOnStep<impl Fn(f64) -> f64, impl Fn(f64, f64) -> f64> {
+        powers: Option<&'a [f64]>,
+    ) -> GuardOnStep<'a, impl Fn(f64) -> f64 + 'a, impl Fn(f64, f64) -> f64 + 'a> {
         let value = move |state: &T::State| self.system.guard_value(surface, state);
         // The middle one of three places stands for the interval: at one of them a guard may have a rate of zero,
         // and at another one it may jump.
@@ -211,7 +226,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         };
         let along = move |time: f64| value(&step.state(time));
         let checked = self.tolerances.check_interval;
-        GuardOnStep::new(along, rounding, (step.from, step.to), checked)
+        GuardOnStep::new(along, rounding, (step.from, step.to), checked, powers)
     }
 
     /// The event of a surface at a time of a step, with both errors of its time.
@@ -242,15 +257,12 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
     }
 
     /// Whether a guard comes to its surface from `side` at the end of the last step, as far as rounding shows.
-    pub(super) fn approaches<F>(
+    pub(super) fn approaches(
         &self,
         surface: T::Surface,
         side: f64,
-        integration: &Integration<F, T::State>,
-    ) -> bool
-    where
-        F: Fn(f64, &T::State) -> T::State,
-    {
+        integration: &impl Stepping<T::State>,
+    ) -> bool {
         let state = integration.state();
         let value = |state: &T::State| self.system.guard_value(surface, state);
         let stated = self.system.guard_error(surface, &state);
@@ -261,15 +273,12 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
 
     /// No event before the horizon. A guard on its way to its surface that comes there within some ulps of time has its
     /// event on the horizon: the field is not evaluated beyond.
-    pub(super) fn at_horizon<F>(
+    pub(super) fn at_horizon(
         &self,
         followed: &[Followed<T::Surface>],
-        mut integration: Integration<F, T::State>,
+        mut integration: impl Stepping<T::State>,
         (steps, sizes): (usize, &T::State),
-    ) -> Result<NextEvent<T::Surface, T::State>, Error>
-    where
-        F: Fn(f64, &T::State) -> T::State,
-    {
+    ) -> Result<NextEvent<T::Surface, T::State>, Error> {
         let state = integration.state();
         let certainty = Certainty::Interpolated;
         let accuracy = Accuracy { tolerances: self.tolerances, steps, sizes };

@@ -1,8 +1,8 @@
 //! The time and the state of a crossing without the rounding of the interpolant, and two errors of the time: by
 //! rounding, and by the error of the flow.
 
-use super::integration::Integration;
 use super::step::Step;
+use super::stepping::Stepping;
 use super::tolerances::Tolerances;
 use crate::crossing::{change_by_components, clear_distance, rounding_of_state};
 use crate::error::Error;
@@ -270,16 +270,13 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
 /// corrected there once more: an execution that ends at the time of its event ends on the surface. The rounding of the
 /// interpolant may hide the guard for a time `hidden` around the crossing: the values with the correction show a
 /// change of sign there.
-pub(super) fn polished<'a, F, V: StateVector>(
-    integration: &mut Integration<F, V>,
+pub(super) fn polished<'a, V: StateVector>(
+    integration: &mut impl Stepping<V>,
     step: &'a Step<V>,
     (time, hidden): (f64, f64),
     until: f64,
     guard: impl Fn(&V) -> f64,
-) -> Result<(f64, CorrectedStep<'a, V>), Error>
-where
-    F: Fn(f64, &V) -> V,
-{
+) -> Result<(f64, CorrectedStep<'a, V>), Error> {
     let uncorrected = CorrectedStep::uncorrected(step);
     let (mut best, mut near) = ((time, uncorrected), time);
     for _ in 0..CORRECTIONS {
@@ -287,7 +284,12 @@ where
         if near <= step.from {
             break;
         }
-        let mut correction = integration.directly_at(near)?;
+        let Some(directly) = integration.directly_at(near) else {
+            let moved = best.1.zero_near((near, hidden), &guard)?;
+            best.0 = moved.map_or(best.0, |moved| moved.min(until));
+            break;
+        };
+        let mut correction = directly?;
         correction.add_scaled(-1.0, &step.state(near));
         let size = correction.largest();
         let corrected = CorrectedStep { step, correction: Some(correction) };

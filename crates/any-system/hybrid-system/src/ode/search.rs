@@ -1,9 +1,9 @@
 //! The first event of all guards of a mode along an integrated flow.
 
-use super::integration::Integration;
 use super::pass::{Followed, GUARDS_ON_STACK, Pass, sides_before};
 use super::polish::{Accuracy, CorrectedStep, polished};
 use super::step::Step;
+use super::stepping::Stepping;
 use super::tolerances::Tolerances;
 use crate::crossing::{Certainty, EventKind, Found, NextEvent, Search};
 use crate::error::Error;
@@ -63,17 +63,19 @@ enum Outcome<S, X> {
 
 type OutcomeOf<T> = Outcome<<T as HybridSystem>::Surface, <T as HybridSystem>::State>;
 
-/// Follows `field` from `start` until a guard of `mode` has an event, or to the horizon of `request`.
-pub(super) fn search<T>(
+/// Follows an integration from `start`, where the field is `rate`, until a guard of `mode` has an event, or to the horizon
+/// of `request`. `integration` begins one up to the horizon, with a first step no longer than its argument.
+pub(super) fn search<T, I>(
     system: &T,
     mode: T::Mode,
-    start: &T::State,
+    (start, rate): (&T::State, &T::State),
     request: &Search<T::Surface>,
-    field: impl Fn(f64, &T::State) -> T::State,
+    integration: impl Fn(f64) -> Result<I, Error>,
     tolerances: Tolerances,
 ) -> Result<NextEvent<T::Surface, T::State>, Error>
 where
     T: HybridSystem + ?Sized,
+    I: Stepping<T::State>,
 {
     let horizon = request.horizon;
     if !(horizon >= 0.0) {
@@ -85,13 +87,8 @@ where
     }
     let mut first_step = f64::INFINITY;
     loop {
-        let integration = Integration::new(&field, start, tolerances)?
-            .autonomous()
-            .until(horizon)?
-            .starting_with(first_step);
-        let rate = field(0.0, start);
         let pass = Pass { system, mode, request, tolerances };
-        match pass.run(start, &rate, integration)? {
+        match pass.run(start, rate, integration(first_step)?)? {
             Outcome::Finished(next) => return Ok(next),
             Outcome::Hidden { first_step: shorter } => first_step = shorter,
         }
@@ -99,21 +96,18 @@ where
 }
 
 impl<T: HybridSystem + ?Sized> Pass<'_, T> {
-    fn run<F>(
+    fn run(
         &self,
         start: &T::State,
         rate: &T::State,
-        mut integration: Integration<F, T::State>,
-    ) -> Result<Outcome<T::Surface, T::State>, Error>
-    where
-        F: Fn(f64, &T::State) -> T::State,
-    {
+        mut integration: impl Stepping<T::State>,
+    ) -> Result<Outcome<T::Surface, T::State>, Error> {
         let horizon = self.request.horizon;
         let mut budget = self.request.intervals;
         let mut followed: SmallVec<[Followed<T::Surface>; GUARDS_ON_STACK]> = SmallVec::new();
-        for guard in self.system.guards(self.mode).iter().filter(|guard| guard.role != Role::Clock)
-        {
-            followed.push(self.follow(*guard, start, rate)?);
+        let guards = self.system.guards(self.mode).iter();
+        for placed in guards.filter(|guard| guard.role != Role::Clock).copied().enumerate() {
+            followed.push(self.follow(placed, start, rate)?);
         }
         let mut steps = 0;
         let mut sizes = start.filled(|axis| start.components()[axis].abs());
@@ -135,7 +129,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             let before = followed.clone();
             let mut restart = before.clone();
             while let Some(finding) =
-                self.first_on_step(&mut followed, &step, until, &mut budget)?
+                self.first_on_step(&mut followed, &step, &integration, (until, &mut budget))?
             {
                 let on_step = OnStep { step: &step, until, steps, sizes: &sizes, before: &before };
                 if let Some(outcome) = self.event(&finding, &mut integration, &on_step)? {
@@ -157,15 +151,12 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
 
     /// What is found first on a step, on the step as it is corrected there; `None` if it is no event: the guard
     /// crosses its surface in the direction that does not count, or it is still on its way to it where the search ends.
-    fn event<F>(
+    fn event(
         &self,
         finding: &Finding<T::Surface>,
-        integration: &mut Integration<F, T::State>,
+        integration: &mut impl Stepping<T::State>,
         on_step: &OnStep<T::Surface, T::State>,
-    ) -> Result<Option<OutcomeOf<T>>, Error>
-    where
-        F: Fn(f64, &T::State) -> T::State,
-    {
+    ) -> Result<Option<OutcomeOf<T>>, Error> {
         let Finding { ref found, time, ref followed, leaving } = *finding;
         let OnStep { step, until, steps, sizes, before } = *on_step;
         let shorter = |time: f64| {
@@ -236,14 +227,15 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         &self,
         followed: &mut [Followed<T::Surface>],
         step: &Step<T::State>,
-        until: f64,
-        budget: &mut usize,
+        integration: &impl Stepping<T::State>,
+        (until, budget): (f64, &mut usize),
     ) -> Result<Option<Finding<T::Surface>>, Error> {
         let mut first: Option<Finding<T::Surface>> = None;
         let mut failure: Option<(f64, Error)> = None;
         for followed in followed.iter_mut() {
             let guard = followed.guard;
-            let on_step = self.on_step(step, guard.surface, followed.stated);
+            let powers = integration.guard(followed.place);
+            let on_step = self.on_step(step, guard.surface, followed.stated, powers);
             let is_last = until >= self.request.horizon;
             let found = loop {
                 match followed.search.advance(&on_step, until, is_last, budget) {

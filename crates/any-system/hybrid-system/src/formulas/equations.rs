@@ -1,0 +1,433 @@
+//! A hybrid system by its equations: what a user writes, and what is stored.
+
+use super::label::Label;
+use super::motion::TaylorMotion;
+use super::part::FormulaPart;
+use super::programs::Programs;
+use crate::error::Error;
+use crate::guard::{Direction, Guard, Role, Touch};
+use crate::model::Model;
+use crate::state::StateVector;
+use equations::{Expression, Formulas, Names, Parameters};
+use std::sync::Arc;
+
+/// A hybrid system by its equations, written once, with the names of its variables, parameters, modes and surfaces.
+///
+/// Each closure is called once, with symbols for the time, the state and the parameters. So the equations are data: they
+/// print, compare, and are written to JSON. [`model`](Self::model) makes the [`Model`] that is run. Its field is
+/// integrated by Taylor's method, no zero of a guard along a Taylor polynomial is missed, and its derivatives are exact.
+///
+/// A thermostat. A room warms towards 30° and cools towards 10°:
+///
+/// ```
+/// use hybrid_system::{Equations, State};
+///
+/// let room = Equations::new(&["room"], &[("outside", "10"), ("heater", "20")])
+///     .mode("on", |_, x, p| [p["outside"] + p["heater"] - x[0]])
+///     .rising("warm", |_, x, _| x[0] - 21.0)
+///     .to("off")
+///     .mode("off", |_, x, p| [p["outside"] - x[0]])
+///     .falling("cold", |_, x, _| x[0] - 19.0)
+///     .to("on")
+///     .model::<State<1>>()?;
+/// let mut events = Vec::new();
+/// for arc in room.start("on", [15.0], 2.0)? {
+///     events.extend(arc?.event().map(|event| (event.surface.to_string(), event.time)));
+/// }
+/// assert_eq!(events[0].0, "warm");
+/// assert!((events[0].1 - (15f64 / 9.0).ln()).abs() < 1e-10);
+/// assert_eq!(events[1].0, "cold");
+/// # Ok::<(), hybrid_system::Error>(())
+/// ```
+///
+/// A guard belongs to the mode that was declared last, and to all modes if none was. Behind it stands what its event does:
+/// [`to`](Self::to) leads to another mode, [`resets`](Self::resets) gives the state after it, [`stops`](Self::stops) ends
+/// the execution. A guard without any of these is an observer. Names of modes and surfaces have at most 31 bytes.
+///
+/// If a formula needs the time, the time is the last component of the state, behind those that have names: the start gives
+/// its value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Equations {
+    pub(super) names: Names,
+    /// The guards of all modes.
+    pub(super) everywhere: Vec<GuardEquations>,
+    pub(super) modes: Vec<ModeEquations>,
+    /// What was wrong first.
+    wrong: Option<Error>,
+}
+
+/// A mode by its equations.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ModeEquations {
+    pub(super) name: Label,
+    pub(super) field: Formulas,
+    pub(super) guards: Vec<GuardEquations>,
+    /// Where the execution goes on after a Zeno limit.
+    pub(super) after_limit: Option<Jump>,
+}
+
+/// A guard by its equations.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct GuardEquations {
+    pub(super) guard: Guard<Label>,
+    pub(super) function: Formulas,
+    /// What its event does; `None` ends the execution.
+    pub(super) jump: Option<Jump>,
+}
+
+/// What an event does.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Jump {
+    /// The next mode, if it is another one.
+    pub(super) mode: Option<Label>,
+    /// The next state, if it is another one.
+    pub(super) state: Option<Formulas>,
+}
+
+const NO_GUARD: &str = "what an event does stands behind its guard, and no guard has been declared";
+const NO_MODE: &str = "the equations have no such mode";
+
+/// Gives the three directions of guards, from a closure and from text.
+macro_rules! guards {
+    ($($(#[$about:meta])* $name:ident $from_text:ident $direction:ident;)*) => {$(
+        $(#[$about])*
+        #[must_use]
+        pub fn $name(
+            self,
+            surface: &str,
+            function: impl for<'g> Fn(Expression<'g>, &[Expression<'g>], &Parameters<'g>) -> Expression<'g>,
+        ) -> Self {
+            let function = Formulas::new(self.names.clone(), |t, x, p| [function(t, x, p)]);
+            self.guard(surface, Direction::$direction, function)
+        }
+
+        /// The same, from text.
+        #[must_use]
+        pub fn $from_text(self, surface: &str, function: &str) -> Self {
+            let function = Formulas::from_text(self.names.clone(), &[function]);
+            self.guard(surface, Direction::$direction, function)
+        }
+    )*};
+}
+
+impl Equations {
+    /// Equations without modes, with the names of the state's components, and of parameters with their values: decimals
+    /// as text.
+    #[must_use]
+    pub fn new(states: &[&str], parameters: &[(&str, &str)]) -> Equations {
+        match Names::new(states, parameters) {
+            Ok(names) => Equations::of_names(names),
+            Err(error) => Equations::of_names(Names::default()).refused(error),
+        }
+    }
+
+    pub(super) fn of_names(names: Names) -> Equations {
+        Equations { names, everywhere: vec![], modes: vec![], wrong: None }
+    }
+
+    fn refused(mut self, error: impl Into<Error>) -> Self {
+        self.wrong.get_or_insert(error.into());
+        self
+    }
+
+    /// Adds a mode with its field: the rate of each component.
+    #[must_use]
+    pub fn mode<const N: usize>(
+        self,
+        name: &str,
+        field: impl for<'g> Fn(
+            Expression<'g>,
+            &[Expression<'g>],
+            &Parameters<'g>,
+        ) -> [Expression<'g>; N],
+    ) -> Self {
+        let field = Formulas::new(self.names.clone(), field);
+        self.add_mode(name, field)
+    }
+
+    /// The same, from texts.
+    #[must_use]
+    pub fn mode_text(self, name: &str, field: &[&str]) -> Self {
+        let field = Formulas::from_text(self.names.clone(), field);
+        self.add_mode(name, field)
+    }
+
+    /// The same, from a closure that returns a vector: for a number of components that is known when it runs.
+    #[must_use]
+    pub fn mode_vector(
+        self,
+        name: &str,
+        field: impl for<'g> Fn(
+            Expression<'g>,
+            &[Expression<'g>],
+            &Parameters<'g>,
+        ) -> Vec<Expression<'g>>,
+    ) -> Self {
+        let field = Formulas::of_vector(self.names.clone(), field);
+        self.add_mode(name, field)
+    }
+
+    fn add_mode(mut self, name: &str, field: Result<Formulas, equations::Error>) -> Self {
+        // What follows belongs to names that were refused.
+        if self.wrong.is_some() {
+            return self;
+        }
+        match (Label::new(name), field) {
+            (Err(error), _) => self.refused(error),
+            (_, Err(error)) => self.refused(error),
+            (Ok(name), _) if self.modes.iter().any(|mode| mode.name == name) => {
+                self.refused(Error::BadEquations {
+                    what: name.to_string(),
+                    reason: "a mode has it already",
+                })
+            }
+            (Ok(name), Ok(field)) => {
+                self.modes.push(ModeEquations { name, field, guards: vec![], after_limit: None });
+                self
+            }
+        }
+    }
+
+    guards! {
+        /// Adds a guard: an event when g(t, x) goes from negative to positive.
+        rising rising_text Rising;
+        /// Adds a guard: an event when g(t, x) goes from positive to negative.
+        falling falling_text Falling;
+        /// Adds a guard: an event at every change of sign of g(t, x).
+        either either_text Either;
+    }
+
+    fn guard(
+        mut self,
+        surface: &str,
+        direction: Direction,
+        function: Result<Formulas, equations::Error>,
+    ) -> Self {
+        if self.wrong.is_some() {
+            return self;
+        }
+        match (Label::new(surface), function) {
+            (Err(error), _) => self.refused(error),
+            (_, Err(error)) => self.refused(error),
+            (Ok(surface), Ok(function)) => {
+                // An observer, until something else is said.
+                let guard = Guard { surface, direction, role: Role::Crossing, touch: Touch::Error };
+                let added = GuardEquations { guard, function, jump: Some(Jump::default()) };
+                match self.modes.last_mut() {
+                    Some(mode) => mode.guards.push(added),
+                    None => self.everywhere.push(added),
+                }
+                self
+            }
+        }
+    }
+
+    fn last_guard(&mut self) -> Option<&mut GuardEquations> {
+        match self.modes.last_mut() {
+            Some(mode) => mode.guards.last_mut(),
+            None => self.everywhere.last_mut(),
+        }
+    }
+
+    /// Changes the guard that was added last.
+    fn with_last(mut self, change: impl FnOnce(&mut GuardEquations)) -> Self {
+        if self.wrong.is_some() {
+            return self;
+        }
+        match self.last_guard() {
+            Some(guard) => {
+                change(guard);
+                self
+            }
+            None => {
+                self.refused(Error::BadEquations { what: "equations".to_owned(), reason: NO_GUARD })
+            }
+        }
+    }
+
+    /// Changes what the event of the guard that was added last does. A state beyond the surface cannot go on then, unless
+    /// the guard is a [crossing](Self::crossing).
+    fn with_jump(self, change: impl FnOnce(&mut Jump)) -> Self {
+        self.with_last(|guard| {
+            let observes = guard.jump.as_ref().is_some_and(|jump| *jump == Jump::default());
+            if observes && guard.guard.role == Role::Crossing {
+                guard.guard.role = Role::Switch;
+            }
+            change(guard.jump.get_or_insert_default());
+        })
+    }
+
+    /// The event of the last guard leads to this mode.
+    #[must_use]
+    pub fn to(self, mode: &str) -> Self {
+        match Label::new(mode) {
+            Ok(mode) => self.with_jump(|jump| jump.mode = Some(mode)),
+            Err(error) => self.refused(error),
+        }
+    }
+
+    /// The event of the last guard leads to this state.
+    #[must_use]
+    pub fn resets<const N: usize>(
+        self,
+        state: impl for<'g> Fn(
+            Expression<'g>,
+            &[Expression<'g>],
+            &Parameters<'g>,
+        ) -> [Expression<'g>; N],
+    ) -> Self {
+        let state = Formulas::new(self.names.clone(), state);
+        self.with_state(state)
+    }
+
+    /// The same, from texts.
+    #[must_use]
+    pub fn resets_text(self, state: &[&str]) -> Self {
+        let state = Formulas::from_text(self.names.clone(), state);
+        self.with_state(state)
+    }
+
+    fn with_state(self, state: Result<Formulas, equations::Error>) -> Self {
+        match state {
+            _ if self.wrong.is_some() => self,
+            Ok(state) => self.with_jump(|jump| jump.state = Some(state)),
+            Err(error) => self.refused(error),
+        }
+    }
+
+    /// The event of the last guard ends the execution.
+    #[must_use]
+    pub fn stops(self) -> Self {
+        self.with_jump(|_| ()).with_last(|guard| guard.jump = None)
+    }
+
+    /// The last guard is a contact that holds, such as a floor: see [`Role::Contact`].
+    #[must_use]
+    pub fn contact(self) -> Self {
+        self.with_last(|guard| guard.guard.role = Role::Contact)
+    }
+
+    /// The last guard is crossed in flight alone: see [`Role::Crossing`].
+    #[must_use]
+    pub fn crossing(self) -> Self {
+        // An observer is one already; the event of another one may still be declared.
+        self.with_jump(|_| ()).with_last(|guard| guard.guard.role = Role::Crossing)
+    }
+
+    /// What a touch of the last guard is.
+    #[must_use]
+    pub fn touch(self, touch: Touch) -> Self {
+        self.with_last(|guard| guard.guard.touch = touch)
+    }
+
+    /// After infinitely many events of the last mode in finite time the execution goes on in this mode, at the limit.
+    #[must_use]
+    pub fn rests(mut self, mode: &str) -> Self {
+        match (Label::new(mode), self.modes.last_mut()) {
+            (Err(error), _) => self.refused(error),
+            (Ok(mode), Some(last)) => {
+                last.after_limit = Some(Jump { mode: Some(mode), state: None });
+                self
+            }
+            (Ok(mode), None) => {
+                self.refused(Error::BadEquations { what: mode.to_string(), reason: NO_MODE })
+            }
+        }
+    }
+
+    /// The same equations with other values of parameters, as decimals by name.
+    #[must_use]
+    pub fn with_parameters(mut self, values: &[(&str, &str)]) -> Self {
+        let changed = self.all_formulas().try_for_each(|formulas| {
+            *formulas = formulas.clone().with_parameters(values)?;
+            Ok::<(), equations::Error>(())
+        });
+        let names = Formulas::of_vector(self.names.clone(), |_, _, _| vec![]);
+        match (changed, names.and_then(|names| names.with_parameters(values))) {
+            (Ok(()), Ok(names)) => {
+                self.names = names.names().clone();
+                self
+            }
+            (Err(error), _) | (_, Err(error)) => self.refused(error),
+        }
+    }
+
+    fn all_formulas(&mut self) -> impl Iterator<Item = &mut Formulas> {
+        let modes = self.modes.iter_mut().flat_map(|mode| {
+            [&mut mode.field].into_iter().chain(mode.guards.iter_mut().flat_map(of_guard))
+        });
+        modes.chain(self.everywhere.iter_mut().flat_map(of_guard))
+    }
+
+    /// The names of the state's components, and the parameters with their values.
+    pub fn names(&self) -> &Names {
+        &self.names
+    }
+
+    /// An error unless all modes to which events lead are there, and all formulas have their numbers of components.
+    ///
+    /// # Errors
+    /// What was wrong first in the equations: [`Error::Formula`], [`Error::BadLabel`], [`Error::BadEquations`].
+    pub fn check(&self) -> Result<(), Error> {
+        if let Some(error) = &self.wrong {
+            return Err(error.clone());
+        }
+        let bad = |what: String, reason| Err(Error::BadEquations { what, reason });
+        if self.modes.is_empty() {
+            return bad("equations".to_owned(), "they have no mode: add one with its field");
+        }
+        let expected = self.names.states.len();
+        let check_length = |what, formulas: &Formulas| match formulas.count() {
+            found if found == expected => Ok(()),
+            found => Err(Error::Dimension { what, expected, found }),
+        };
+        let check_jump = |jump: &Jump| {
+            let unknown = |mode: &&Label| !self.modes.iter().any(|known| known.name == **mode);
+            if let Some(mode) = jump.mode.as_ref().filter(unknown) {
+                return bad(mode.to_string(), NO_MODE);
+            }
+            jump.state
+                .as_ref()
+                .map_or(Ok(()), |state| check_length("the state after an event", state))
+        };
+        for mode in &self.modes {
+            check_length("the field of a mode", &mode.field)?;
+            mode.after_limit.as_ref().map_or(Ok(()), check_jump)?;
+        }
+        let of_modes = self.modes.iter().flat_map(|mode| &mode.guards);
+        of_modes
+            .chain(&self.everywhere)
+            .filter_map(|guard| guard.jump.as_ref())
+            .try_for_each(check_jump)
+    }
+
+    /// The model of these equations, whose state has this type: [`State<N>`](crate::State), or `DVector<f64>`.
+    ///
+    /// # Errors
+    /// As [`check`](Self::check); [`Error::Formula`] for a function with a kink or a jump in a field or a guard.
+    #[allow(clippy::type_complexity)] // the type of a model names its parts
+    pub fn model<X: StateVector>(
+        &self,
+    ) -> Result<Model<Label, Label, X, TaylorMotion, FormulaPart>, Error> {
+        self.check()?;
+        let programs = Arc::new(Programs::new(self)?);
+        let guards = self.everywhere.iter().map(|guard| (None, guard.guard));
+        let of_modes = self
+            .modes
+            .iter()
+            .flat_map(|mode| mode.guards.iter().map(|guard| (Some(mode.name), guard.guard)));
+        // Modes without guards of their own have those of all modes.
+        let guards: Vec<_> = guards.chain(of_modes).collect();
+        Ok(Model::of_equations(
+            TaylorMotion::new(Arc::clone(&programs)),
+            FormulaPart(programs),
+            guards,
+        ))
+    }
+}
+
+/// The formulas of a guard.
+fn of_guard(guard: &mut GuardEquations) -> impl Iterator<Item = &mut Formulas> {
+    let state = guard.jump.as_mut().and_then(|jump| jump.state.as_mut());
+    [Some(&mut guard.function), state].into_iter().flatten()
+}

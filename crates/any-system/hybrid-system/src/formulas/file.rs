@@ -1,0 +1,173 @@
+//! Equations as JSON.
+//!
+//! ```text
+//! {"format": "hybrid equations", "version": 1, "states": ["room"], "parameters": [["outside", "10"], …],
+//!  "everywhere": [], "modes": [{"name": "on", "field": {"parts": …, "outputs": …},
+//!   "guards": [{"surface": "warm", "direction": "rising", "role": "switch", "touch": "error",
+//!               "function": {…}, "jump": {"mode": "off"}}], …}]}
+//! ```
+
+use super::equations::{Equations, GuardEquations, Jump, ModeEquations};
+use super::label::Label;
+use crate::error::Error;
+use crate::guard::{Direction, Guard, Role, Touch};
+use equations::{Formulas, Names};
+use serde_json::{Map, Value, json};
+
+const FORMAT: &str = "hybrid equations";
+
+/// The version of the format. A reader refuses others.
+const VERSION: u64 = 1;
+
+const DIRECTIONS: [(&str, Direction); 3] =
+    [("rising", Direction::Rising), ("falling", Direction::Falling), ("either", Direction::Either)];
+const ROLES: [(&str, Role); 3] =
+    [("switch", Role::Switch), ("contact", Role::Contact), ("crossing", Role::Crossing)];
+const TOUCHES: [(&str, Touch); 3] =
+    [("error", Touch::Error), ("event", Touch::Event), ("ignore", Touch::Ignore)];
+
+impl Equations {
+    /// The equations as JSON, with exact numbers. The same equations have the same bytes.
+    ///
+    /// ```
+    /// use hybrid_system::{Equations, State};
+    /// let ball = Equations::new(&["height", "speed"], &[("restitution", "0.8")])
+    ///     .mode("flight", |_, x, _| [x[1], x[0].number(-1.0)])
+    ///     .falling("floor", |_, x, _| x[0])
+    ///     .resets(|_, x, p| [x[0], -p["restitution"] * x[1]]);
+    /// let again = Equations::from_json(&ball.to_json()?)?;
+    /// assert_eq!(again, ball);
+    /// let landing = |ball: &Equations| {
+    ///     let ball = ball.model::<State<2>>()?;
+    ///     let arc = ball.start("flight", [1.0, 0.0], 9.0)?.next().expect("an arc")?;
+    ///     Ok::<_, hybrid_system::Error>(arc.event().expect("a landing").time)
+    /// };
+    /// assert_eq!(landing(&again)?, landing(&ball)?);
+    /// # Ok::<(), hybrid_system::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`check`](Self::check): wrong equations are not written.
+    pub fn to_json(&self) -> Result<String, Error> {
+        self.check()?;
+        let mut file = json!({
+            "format": FORMAT,
+            "version": VERSION,
+            "everywhere": self.everywhere.iter().map(GuardEquations::to_value).collect::<Vec<_>>(),
+            "modes": self.modes.iter().map(ModeEquations::to_value).collect::<Vec<_>>(),
+        });
+        if let (Some(file), Value::Object(names)) = (file.as_object_mut(), self.names.to_value()) {
+            file.extend(names);
+        }
+        Ok(file.to_string())
+    }
+
+    /// The equations of a file. Any bytes are safe: what is no such file is an error with its place.
+    ///
+    /// # Errors
+    /// [`Error::Formula`], [`Error::BadLabel`], [`Error::BadEquations`].
+    pub fn from_json(text: &str) -> Result<Equations, Error> {
+        let file = equations::bounded_value(text)?;
+        if file["format"] != FORMAT || file["version"] != VERSION {
+            return bad("format", "it is no file of hybrid equations, or one of another version");
+        }
+        let names = Names::from_value(&file)?;
+        let mut equations = Equations::of_names(names.clone());
+        equations.everywhere = guards(&file["everywhere"], &names)?;
+        for mode in list(&file["modes"], "modes")? {
+            let name = label(mode, "name")?;
+            let field = Formulas::from_value(names.clone(), &mode["field"])?;
+            let guards = guards(&mode["guards"], &names)?;
+            let after_limit = jump(&mode["after_limit"], &names)?;
+            equations.modes.push(ModeEquations { name, field, guards, after_limit });
+        }
+        equations.check()?;
+        Ok(equations)
+    }
+}
+
+fn bad<T>(what: &str, reason: &'static str) -> Result<T, Error> {
+    // A value of a file may be long.
+    Err(Error::BadEquations { what: what.chars().take(60).collect(), reason })
+}
+
+fn list<'v>(value: &'v Value, what: &str) -> Result<&'v Vec<Value>, Error> {
+    value.as_array().map_or_else(|| bad(what, "a list is expected"), Ok)
+}
+
+fn label(value: &Value, key: &str) -> Result<Label, Error> {
+    value[key].as_str().map_or_else(|| bad(key, "a name is expected"), Label::new)
+}
+
+fn guards(value: &Value, names: &Names) -> Result<Vec<GuardEquations>, Error> {
+    let guard = |value| {
+        let guard = Guard {
+            surface: label(value, "surface")?,
+            direction: word(value, "direction", &DIRECTIONS)?,
+            role: word(value, "role", &ROLES)?,
+            touch: word(value, "touch", &TOUCHES)?,
+        };
+        let function = Formulas::from_value(names.clone(), &value["function"])?;
+        match function.count() {
+            1 => Ok(GuardEquations { guard, function, jump: jump(&value["jump"], names)? }),
+            _ => bad(guard.surface.as_str(), "a guard has one formula"),
+        }
+    };
+    list(value, "guards")?.iter().map(guard).collect()
+}
+
+fn jump(value: &Value, names: &Names) -> Result<Option<Jump>, Error> {
+    let Value::Object(entries) = value else {
+        return if value.is_null() {
+            Ok(None)
+        } else {
+            bad("jump", "an object or null is expected")
+        };
+    };
+    let mode = entries.contains_key("mode").then(|| label(value, "mode")).transpose()?;
+    let state = entries.get("state").map(|state| Formulas::from_value(names.clone(), state));
+    Ok(Some(Jump { mode, state: state.transpose()? }))
+}
+
+/// The entry of a table whose name stands under a key.
+fn word<T: Copy>(value: &Value, key: &str, table: &[(&str, T)]) -> Result<T, Error> {
+    let found = value[key].as_str().and_then(|word| table.iter().find(|(name, _)| *name == word));
+    found.map_or_else(|| bad(key, "none of the words that can stand here"), |(_, entry)| Ok(*entry))
+}
+
+/// The name of an entry of a table; null for one that is not in it.
+fn name<T: PartialEq>(entry: &T, table: &[(&str, T)]) -> Value {
+    table.iter().find(|(_, known)| known == entry).map_or(Value::Null, |(name, _)| json!(name))
+}
+
+impl ModeEquations {
+    fn to_value(&self) -> Value {
+        json!({
+            "name": self.name.as_str(),
+            "field": self.field.to_value(),
+            "guards": self.guards.iter().map(GuardEquations::to_value).collect::<Vec<_>>(),
+            "after_limit": self.after_limit.as_ref().map(Jump::to_value),
+        })
+    }
+}
+
+impl GuardEquations {
+    fn to_value(&self) -> Value {
+        json!({
+            "surface": self.guard.surface.as_str(),
+            "direction": name(&self.guard.direction, &DIRECTIONS),
+            "role": name(&self.guard.role, &ROLES),
+            "touch": name(&self.guard.touch, &TOUCHES),
+            "function": self.function.to_value(),
+            "jump": self.jump.as_ref().map(Jump::to_value),
+        })
+    }
+}
+
+impl Jump {
+    fn to_value(&self) -> Value {
+        let mode = self.mode.map(|mode| ("mode".to_owned(), json!(mode.as_str())));
+        let state = self.state.as_ref().map(|state| ("state".to_owned(), state.to_value()));
+        Value::Object(mode.into_iter().chain(state).collect::<Map<_, _>>())
+    }
+}

@@ -1,0 +1,17 @@
+//! How is a model of equations written, stored and run? (feature `ode`)
+//!
+//! [`Equations`] are what a user writes (`equations`), as data, with [`Label`]s for modes and surfaces. `programs` has what
+//! is evaluated of them: a Taylor series for each mode, with its guards as watched formulas. `motion` and `part` are the
+//! motion and the part of a [`Model`](crate::Model). `file` is the JSON of equations.
+
+mod equations;
+mod file;
+mod label;
+mod motion;
+mod part;
+mod programs;
+
+pub use self::equations::Equations;
+pub use label::Label;
+pub use motion::TaylorMotion;
+pub use part::FormulaPart;

@@ -1,0 +1,72 @@
+//! The guards and resets of a model's equations.
+
+use super::equations::Jump;
+use super::label::Label;
+use super::programs::{GuardProgram, Programs};
+use crate::model::ModelPart;
+use crate::state::StateVector;
+use crate::system::Reset;
+use equations::Formulas;
+use std::sync::Arc;
+
+/// The part of a model that its equations give: all guards, with what their events do.
+#[derive(Debug, Clone)]
+pub struct FormulaPart(pub(super) Arc<Programs>);
+
+impl FormulaPart {
+    /// The guard of a surface, in any mode.
+    fn guard(&self, surface: Label) -> Option<&GuardProgram> {
+        let mut guards = self.0.modes.iter().flat_map(|mode| &mode.guards);
+        guards.find(|guard| guard.surface == surface)
+    }
+}
+
+/// The vector of some formulas; NaN where they have no value.
+pub(super) fn vector<X: StateVector>(formulas: &Formulas, state: &X) -> X {
+    let mut vector = state.zeros_like();
+    match formulas.write_values(0.0, state.components(), vector.components_mut()) {
+        Ok(()) => vector,
+        Err(_) => state.filled(|_| f64::NAN),
+    }
+}
+
+/// Mode and state after a jump.
+fn after<X: StateVector>(jump: &Jump, mode: Label, state: &X) -> (Label, X) {
+    let next = jump.state.as_ref().map_or_else(|| state.clone(), |next| vector(next, state));
+    (jump.mode.unwrap_or(mode), next)
+}
+
+impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
+    fn value(&self, surface: Label, state: &X) -> Option<f64> {
+        let guard = self.guard(surface)?;
+        let mut value = [f64::NAN];
+        // Without a value it stays NaN, which the search reports.
+        let _ = guard.function.write_values(0.0, state.components(), &mut value);
+        Some(value[0])
+    }
+
+    fn reset(&self, mode: Label, surface: Label, before: &X) -> Option<Reset<Label, X>> {
+        let program = self.0.mode(mode)?;
+        let guard = program.guards.iter().find(|guard| guard.surface == surface)?;
+        Some(guard.jump.as_ref().map_or(Reset::Stop, |jump| {
+            let (mode, state) = after(jump, mode, before);
+            Reset::Jump { mode, state }
+        }))
+    }
+
+    fn rest(&self, mode: Label, limit: &X) -> Option<(Label, X)> {
+        let jump = self.0.mode(mode)?.after_limit.as_ref()?;
+        Some(after(jump, mode, limit))
+    }
+
+    fn other_value(&self, surface: Label, state: &X, value: f64) -> Option<f64> {
+        let guards = self.0.modes.iter().flat_map(|mode| &mode.guards);
+        let values = guards.filter(|guard| guard.surface == surface).map(|guard| {
+            let mut own = [f64::NAN];
+            let _ = guard.function.write_values(0.0, state.components(), &mut own);
+            own[0]
+        });
+        let differs = |own: &f64| *own != value && !(own.is_nan() && value.is_nan());
+        values.into_iter().find(differs)
+    }
+}

@@ -1,0 +1,105 @@
+//! What runs the equations of a model: series, guards and jumps of each mode.
+
+use super::equations::{Equations, GuardEquations, Jump, ModeEquations};
+use super::label::Label;
+use crate::error::Error;
+use crate::guard::Role;
+use equations::{Constant, Formulas, Node, Series};
+
+/// All that is evaluated of some equations.
+#[derive(Debug)]
+pub(super) struct Programs {
+    pub(super) equations: Equations,
+    /// The number of components of the state, with the time if it is one.
+    pub(super) dimension: usize,
+    pub(super) modes: Vec<ModeProgram>,
+}
+
+/// What is evaluated in one mode.
+#[derive(Debug)]
+pub(super) struct ModeProgram {
+    pub(super) name: Label,
+    pub(super) field: Formulas,
+    /// The field with the guards as watched formulas, in their order.
+    pub(super) series: Series,
+    pub(super) guards: Vec<GuardProgram>,
+    pub(super) after_limit: Option<Jump>,
+}
+
+/// A guard and what its event does.
+#[derive(Debug)]
+pub(super) struct GuardProgram {
+    pub(super) surface: Label,
+    pub(super) function: Formulas,
+    pub(super) jump: Option<Jump>,
+}
+
+impl Programs {
+    pub(super) fn new(equations: &Equations) -> Result<Programs, Error> {
+        let guards = equations.modes.iter().flat_map(|mode| &mode.guards);
+        let uses_time = equations.modes.iter().any(|mode| mode.field.uses_time())
+            || guards.chain(&equations.everywhere).any(GuardEquations::uses_time);
+        let modes =
+            equations.modes.iter().map(|mode| mode.program(&equations.everywhere, uses_time));
+        Ok(Programs {
+            equations: equations.clone(),
+            dimension: equations.names.states.len() + usize::from(uses_time),
+            modes: modes.collect::<Result<_, Error>>()?,
+        })
+    }
+
+    /// The program of a mode.
+    pub(super) fn mode(&self, name: Label) -> Option<&ModeProgram> {
+        self.modes.iter().find(|mode| mode.name == name)
+    }
+}
+
+impl GuardEquations {
+    fn uses_time(&self) -> bool {
+        let state = self.jump.as_ref().and_then(|jump| jump.state.as_ref());
+        self.function.uses_time() || state.is_some_and(Formulas::uses_time)
+    }
+
+    fn program(&self, uses_time: bool) -> GuardProgram {
+        let jump = self.jump.as_ref().map(|jump| {
+            let state = jump.state.as_ref().map(|state| with_time(state, uses_time, Node::Time));
+            Jump { mode: jump.mode, state }
+        });
+        let function = match uses_time {
+            true => self.function.with_time_as_state(None),
+            false => self.function.clone(),
+        };
+        GuardProgram { surface: self.guard.surface, function, jump }
+    }
+}
+
+impl ModeEquations {
+    fn program(
+        &self,
+        everywhere: &[GuardEquations],
+        uses_time: bool,
+    ) -> Result<ModeProgram, Error> {
+        let field = with_time(&self.field, uses_time, Node::Constant(Constant::from(1.0)));
+        // In the order in which the model lists them.
+        let guards = everywhere.iter().chain(&self.guards);
+        let guards: Vec<GuardProgram> = guards
+            .filter(|guard| guard.guard.role != Role::Clock)
+            .map(|guard| guard.program(uses_time))
+            .collect();
+        let mut watched: Option<Formulas> = None;
+        for guard in &guards {
+            watched = Some(match watched {
+                Some(watched) => watched.and(&guard.function)?,
+                None => guard.function.clone(),
+            });
+        }
+        let series = Series::new(&field, watched.as_ref())?;
+        let after_limit = self.after_limit.clone();
+        Ok(ModeProgram { name: self.name, field, series, guards, after_limit })
+    }
+}
+
+/// The formulas, with the time as the last component and its own formula where it is one.
+fn with_time(formulas: &Formulas, uses_time: bool, of_time: Node) -> Formulas {
+    if uses_time { formulas.with_time_as_state(Some(of_time)) } else { formulas.clone() }
+}
