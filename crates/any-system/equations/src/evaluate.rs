@@ -11,6 +11,9 @@ use std::fmt::Debug;
 /// Parts whose values are kept on the stack: guards and jumps have fewer. More would make small formulas slower.
 const PARTS_IN_PLACE: usize = 64;
 
+/// Parts of the smallest formulas, such as x − ½: the processor clears them at once.
+const FEW_PARTS: usize = 8;
+
 /// Formulas with memory for the values of their parts, for many values one after the other.
 ///
 /// ```
@@ -102,9 +105,7 @@ impl Formulas {
     pub fn write_values(&self, time: f64, state: &[f64], into: &mut [f64]) -> Result<(), Error> {
         length("components of the state", self.names.states.len(), state.len())?;
         length("values", self.count(), into.len())?;
-        let mut parts: SmallVec<[f64; PARTS_IN_PLACE]> = SmallVec::new();
-        parts.extend(self.nodes.iter().map(|node| self.number(node)));
-        compute(&self.nodes, &time, state, &mut parts, 1);
+        let parts = self.parts_at(time, state);
         if !parts.iter().chain(state).all(|value| value.is_finite()) {
             self.check_start(&time, state)?;
             let part = parts.iter().position(|value| !value.is_finite()).unwrap_or(0);
@@ -112,6 +113,32 @@ impl Formulas {
         }
         into.iter_mut().zip(&self.outputs).for_each(|(into, &at)| *into = parts[at]);
         Ok(())
+    }
+
+    /// The value of the first formula, NaN where it has none or the state has another length: for functions that are
+    /// evaluated very often, such as guards.
+    pub fn first_value(&self, time: f64, state: &[f64]) -> f64 {
+        if state.len() != self.names.states.len() {
+            return f64::NAN;
+        }
+        let Some(&first) = self.outputs.first() else { return f64::NAN };
+        let value_of = |parts: &mut [f64]| {
+            parts.copy_from_slice(&self.numbers);
+            compute(&self.nodes, &time, state, parts, 1);
+            if parts.iter().all(|value| value.is_finite()) { parts[first] } else { f64::NAN }
+        };
+        match self.nodes.len() {
+            0..=FEW_PARTS => value_of(&mut [0.0; FEW_PARTS][..self.nodes.len()]),
+            count => value_of(&mut SmallVec::<[f64; PARTS_IN_PLACE]>::from_elem(0.0, count)),
+        }
+    }
+
+    // Not inlined, the parts would be moved.
+    #[inline(always)]
+    fn parts_at(&self, time: f64, state: &[f64]) -> SmallVec<[f64; PARTS_IN_PLACE]> {
+        let mut parts = SmallVec::from_slice(&self.numbers);
+        compute(&self.nodes, &time, state, &mut parts, 1);
+        parts
     }
 
     /// Enclosures of the values at all times and states of the given intervals, and at the exact decimals of numbers and

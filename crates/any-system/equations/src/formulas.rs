@@ -21,6 +21,8 @@ pub struct Formulas {
     pub(crate) names: Names,
     pub(crate) nodes: Vec<Node>,
     pub(crate) outputs: Vec<usize>,
+    /// For each part its value if it is a number or a parameter, else 0: what an evaluation begins with.
+    pub(crate) numbers: Vec<f64>,
 }
 
 /// The names of formulas, and the values of parameters.
@@ -136,6 +138,12 @@ impl Formulas {
         }
     }
 
+    pub(crate) fn of(names: Names, nodes: Vec<Node>, outputs: Vec<usize>) -> Formulas {
+        let mut formulas = Formulas { names, nodes, outputs, numbers: Vec::new() };
+        formulas.numbers = formulas.numbers();
+        formulas
+    }
+
     /// The formulas of a list of parts, without those that no output needs.
     pub(crate) fn of_parts(
         names: Names,
@@ -153,7 +161,7 @@ impl Formulas {
             kept.push(node.moved(&new_place));
         }
         let outputs = outputs.into_iter().map(|place| new_place[place]).collect();
-        Ok(Formulas { names, nodes: kept, outputs })
+        Ok(Formulas::of(names, kept, outputs))
     }
 
     /// The names of the state's components and of the parameters, with their values.
@@ -183,6 +191,7 @@ impl Formulas {
             let value = Decimal::new(value).ok_or(refused(NO_VALUE))?;
             self.names.values[at] = Constant::Decimal(value);
         }
+        self.numbers = self.numbers();
         Ok(self)
     }
 
@@ -214,7 +223,7 @@ impl Formulas {
         let mut graph = Graph::of(self.nodes.iter().map(moved).collect());
         let further = further.map(|node| graph.place(moved(&node)));
         let outputs = self.outputs.iter().copied().chain(further).collect();
-        Formulas { names, nodes: graph.into_nodes(), outputs }
+        Formulas::of(names, graph.into_nodes(), outputs)
     }
 
     /// The derivatives in one direction of state and parameters, with the same names. The direction's components are
@@ -306,7 +315,7 @@ impl Formulas {
     /// The text of a part of a graph with these names.
     pub(crate) fn text_of(&self, graph: &Graph, place: usize) -> String {
         let nodes = graph.nodes()[..=place].to_vec();
-        Formulas { names: self.names.clone(), nodes, outputs: vec![] }.part(place)
+        Formulas::of(self.names.clone(), nodes, vec![]).part(place)
     }
 
     /// The derivatives of the outputs, where those of the variables are numbers.

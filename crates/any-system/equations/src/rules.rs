@@ -32,6 +32,8 @@ pub(crate) enum Kind {
     Slope,
     /// y′ = g u′, of g and the slopes of u, which has `most` terms.
     Chain,
+    /// y′ = g u′ of a linear u, whose slope is a number, as in a forcing cos(ω t).
+    LinearChain,
     /// y′ = g u′ + h v′, of g and the slopes of u, of h and the slopes of v.
     Chains,
 }
@@ -64,8 +66,10 @@ impl Rule {
 pub(crate) struct Rules {
     /// The parts, in whose order the first rows stand.
     pub(crate) nodes: Vec<Node>,
-    /// The rows that move.
+    /// The rows that move. First those of polynomials in time, which need no others.
     pub(crate) moving: Vec<Rule>,
+    /// The number of these polynomials, and of the terms of the longest one.
+    pub(crate) polynomials: (usize, usize),
     /// The number of terms of a row that is a polynomial in time.
     pub(crate) terms: Vec<Option<usize>>,
 }
@@ -85,7 +89,7 @@ impl Rules {
         let Moving { graph, moves, chains } = Moving::of(field, graph)?;
         let nodes = graph.into_nodes();
         let terms = terms(&nodes, &moves, &field.outputs);
-        let mut rules = Rules { nodes, moving: Vec::new(), terms };
+        let mut rules = Rules { nodes, moving: Vec::new(), polynomials: (0, 0), terms };
         let mut slopes = vec![None; rules.nodes.len()];
         for place in 0..rules.nodes.len() {
             let operands = chains[place].iter().map(|&(_, operand)| operand);
@@ -109,6 +113,11 @@ impl Rules {
                 rules.moving.push(Rule { row: slope as u32, ..rule });
             }
         }
+        let terms = |rule: &Rule| rules.terms[rule.row as usize];
+        rules.moving.sort_by_key(|rule| terms(rule).is_none());
+        let polynomials = rules.moving.iter().map_while(terms);
+        rules.polynomials =
+            polynomials.fold((0, 0), |(count, most), own| (count + 1, most.max(own)));
         Ok(rules)
     }
 
@@ -165,6 +174,7 @@ impl Rules {
             Node::Binary(Binary::Quotient, a, b) if !moves[b] => rule(Kind::Over, &[a, b]),
             Node::Binary(Binary::Quotient, a, b) => Rule::new(Kind::Quotient, &[a, b], terms(b)),
             _ => match *chain {
+                [(g, u)] if terms(u) == Some(2) => rule(Kind::LinearChain, &[g, u]),
                 [(g, u)] => Rule::new(Kind::Chain, &[g, slope(u)], terms(u)),
                 [(g, u), (h, v), ..] => rule(Kind::Chains, &[g, slope(u), h, slope(v)]),
                 // Numbers do not move, so that only the time is left without a chain.

@@ -93,7 +93,7 @@ impl Series {
         let states = (0..count).map(|component| graph.place(Node::State(component))).collect();
         let rules = Rules::new(field, graph)?;
         let (names, outputs) = (field.names.clone(), field.outputs.clone());
-        let field = Formulas { names, nodes: rules.nodes.clone(), outputs };
+        let field = Formulas::of(names, rules.nodes.clone(), outputs);
         Ok(Series { field, rules, states, watched, field_parts })
     }
 
@@ -165,8 +165,10 @@ impl Series {
         let Coefficients { all, rules, .. } = into;
         compute(&self.field.nodes, time, state, all, length);
         let mut are_valid = all.iter().step_by(length).all(A::is_valid);
+        let (polynomials, longest) = self.rules.polynomials;
         for k in 1..terms {
-            for rule in rules.iter() {
+            // Behind their last terms the coefficients are zero, and stay so.
+            for rule in &rules[if k < longest { 0 } else { polynomials }..] {
                 let found = coefficient(all, length, rule, k);
                 are_valid &= found.is_valid();
                 all[rule.row as usize + k] = found.clone();
@@ -232,6 +234,7 @@ fn coefficient<A: Algebra>(all: &[A], length: usize, rule: &Rule, k: usize) -> A
             A::over(&quotient(&rest, of(a, 0)), k as f64)
         }
         Kind::Chain => A::over(&product_of_slopes(all, length, (a, b), k, rule.most), k as f64),
+        Kind::LinearChain => A::over(&product(of(b, 1), of(a, k - 1)), k as f64),
         Kind::Chains => {
             let first = product_of_slopes(all, length, (a, b), k, u32::MAX);
             let second = product_of_slopes(all, length, (c, d), k, u32::MAX);

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use std::fmt;
+use std::hash::{Hash, Hasher};
 
 /// The longest name in bytes: 31, so that a label with its length fills half a line of cache. It is copied and compared at
 /// every evaluation of a guard.
@@ -16,11 +17,10 @@ const LONGEST: usize = 31;
 /// assert!(Label::new("a name of more than thirty-one bytes").is_err());
 /// # Ok::<(), hybrid_system::Error>(())
 /// ```
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Eq, PartialOrd, Ord)]
 pub struct Label {
-    /// The text, and zeros.
-    bytes: [u8; LONGEST],
-    length: u8,
+    /// The text, zeros, and its length.
+    bytes: [u8; LONGEST + 1],
 }
 
 impl Label {
@@ -29,18 +29,34 @@ impl Label {
     /// # Errors
     /// [`Error::BadLabel`] for a text of more than 31 bytes.
     pub fn new(text: &str) -> Result<Label, Error> {
-        let mut bytes = [0; LONGEST];
-        let place = bytes.get_mut(..text.len());
+        let mut bytes = [0; LONGEST + 1];
+        let place = bytes[..LONGEST].get_mut(..text.len());
         place
             .ok_or_else(|| Error::BadLabel { label: text.to_owned() })?
             .copy_from_slice(text.as_bytes());
-        Ok(Label { bytes, length: text.len() as u8 })
+        bytes[LONGEST] = text.len() as u8;
+        Ok(Label { bytes })
     }
 
     /// The text.
     pub fn as_str(&self) -> &str {
         // It was a text, which is read to its own end.
-        std::str::from_utf8(&self.bytes[..usize::from(self.length)]).unwrap_or_default()
+        std::str::from_utf8(&self.bytes[..usize::from(self.bytes[LONGEST])]).unwrap_or_default()
+    }
+}
+
+/// By eight bytes at a time: a call that compares any number of bytes takes longer.
+impl PartialEq for Label {
+    #[inline]
+    fn eq(&self, other: &Label) -> bool {
+        let (own, others) = (self.bytes.as_chunks::<8>().0, other.bytes.as_chunks::<8>().0);
+        own.iter().zip(others).all(|(a, b)| u64::from_ne_bytes(*a) == u64::from_ne_bytes(*b))
+    }
+}
+
+impl Hash for Label {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.bytes.hash(state);
     }
 }
 

@@ -7,6 +7,8 @@ use crate::model::ModelPart;
 use crate::state::StateVector;
 use crate::system::Reset;
 use equations::Formulas;
+use interval_arithmetic::Enclosure;
+use smallvec::SmallVec;
 use std::sync::Arc;
 
 /// The part of a model that its equations give: all guards, with what their events do.
@@ -38,11 +40,16 @@ fn after<X: StateVector>(jump: &Jump, mode: Label, state: &X) -> (Label, X) {
 
 impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
     fn value(&self, surface: Label, state: &X) -> Option<f64> {
-        let guard = self.guard(surface)?;
-        let mut value = [f64::NAN];
-        // Without a value it stays NaN, which the search reports.
-        let _ = guard.function.write_values(0.0, state.components(), &mut value);
-        Some(value[0])
+        // Without a value it is NaN, which the search reports.
+        Some(self.guard(surface)?.function.first_value(0.0, state.components()))
+    }
+
+    /// Half the width of the enclosure of the value: that of its own arithmetic, and of decimals that are no doubles.
+    fn guard_error(&self, surface: Label, state: &X) -> Option<f64> {
+        let state: SmallVec<[Enclosure; 8]> =
+            state.components().iter().map(|component| Enclosure::from(*component)).collect();
+        let found = self.guard(surface)?.function.enclosures(Enclosure::ZERO, &state).ok()?;
+        Some(found.first()?.width())
     }
 
     fn reset(&self, mode: Label, surface: Label, before: &X) -> Option<Reset<Label, X>> {
@@ -61,12 +68,13 @@ impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
 
     fn other_value(&self, surface: Label, state: &X, value: f64) -> Option<f64> {
         let guards = self.0.modes.iter().flat_map(|mode| &mode.guards);
-        let values = guards.filter(|guard| guard.surface == surface).map(|guard| {
-            let mut own = [f64::NAN];
-            let _ = guard.function.write_values(0.0, state.components(), &mut own);
-            own[0]
-        });
+        let values = guards
+            .filter(|guard| guard.surface == surface)
+            .map(|guard| guard.function.first_value(0.0, state.components()));
         let differs = |own: &f64| *own != value && !(own.is_nan() && value.is_nan());
-        values.into_iter().find(differs)
+        {
+            let mut values = values;
+            values.find(differs)
+        }
     }
 }

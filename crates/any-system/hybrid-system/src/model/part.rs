@@ -48,6 +48,8 @@ macro_rules! methods {
 methods! {
     /// g(x).
     fn value(surface: S, state: &X) -> f64;
+    /// A bound on the rounding of a guard's own arithmetic.
+    fn guard_error(surface: S, state: &X) -> f64;
     /// A surface that has bounds in this part, and is not among the `known` ones.
     fn unknown_surface(known: &dyn Fn(S) -> bool) -> S;
     /// Mode and state after an event.

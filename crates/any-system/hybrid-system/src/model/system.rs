@@ -40,6 +40,10 @@ where
         self.parts.value(surface, state).unwrap_or(f64::NAN)
     }
 
+    fn guard_error(&self, surface: S, state: &X) -> Option<f64> {
+        self.parts.guard_error(surface, state)
+    }
+
     /// Mode and state after the event. [`Reset::Stop`] for a surface that is no guard of the mode.
     #[inline]
     fn reset(&self, mode: M, surface: S, before: &X) -> Reset<M, X> {

@@ -129,9 +129,10 @@ impl<A: Fn(f64) -> f64, R: Fn(f64, f64) -> f64> Bounded for GuardOnStep<'_, A, R
         if let Some(powers) = self.powers {
             let since = (left - self.from, right - self.from);
             // Without the rounding of the state first: its estimate takes longer than the test.
-            return Ok(match power_test::zero_test(powers, since, level, 0.0) {
+            let bounds = power_test::OnInterval::new(powers, since);
+            return Ok(match bounds.test(level, 0.0) {
                 ZeroTest::Undecided => ZeroTest::Undecided,
-                _ => power_test::zero_test(powers, since, level, self.error()),
+                _ => bounds.test(level, self.error()),
             });
         }
         if right - left > self.longest {
@@ -170,6 +171,12 @@ impl<A: Fn(f64) -> f64, R: Fn(f64, f64) -> f64> Bounded for GuardOnStep<'_, A, R
     fn leave(&self, from: f64, until: f64, error: f64) -> Result<Leave, Error> {
         let start = (self.along)(from);
         let error = error.max(self.error());
+        if let Some(powers) = self.powers
+            && let since = (from - self.from, until - self.from)
+            && let Some((time, side)) = power_test::leave(powers, since, LEFT_ZERO * error)
+        {
+            return Ok(Leave::To { time: (self.from + time).min(until), side });
+        }
         let (mut hidden, mut right) = (from, until.min(from + self.longest));
         for _ in 0..MOST_INTERVALS {
             if let Some(values) = self.values_at_nodes(hidden, right, start)? {

@@ -43,32 +43,65 @@ fn sums(coefficients: &[f64], first: usize, radius: f64) -> (f64, f64) {
     (values, slopes)
 }
 
-/// Tests a guard minus `level` on an interval of the step, given by its ends since the step began. `noise` bounds the
-/// rounding of its values.
-pub(super) fn zero_test(
+/// Bounds on a guard on an interval.
+pub(super) struct OnInterval {
+    /// d₀, and d₁ r.
+    middle: f64,
+    slope: f64,
+    /// Σ |dₖ| rᵏ for k ≥ 1, and Σ k|dₖ| rᵏ for k ≥ 2.
+    others: f64,
+    bends: f64,
+    rounding: f64,
+}
+
+impl OnInterval {
+    /// The bounds on an interval of the step, given by its ends since the step began.
+    pub(super) fn new(coefficients: &[f64], (left, right): (f64, f64)) -> Self {
+        let (middle, radius) = (left + 0.5 * (right - left), 0.5 * (right - left).abs());
+        let farthest = left.abs().max(right.abs());
+        let moved = around(coefficients, middle);
+        let slope = moved.get(1).copied().unwrap_or(0.0) * radius;
+        let (bending, bends) = sums(&moved, 2, radius);
+        let rounding = ROUNDING * sums(coefficients, 0, farthest).0;
+        OnInterval { middle: moved[0], slope, others: slope.abs() + bending, bends, rounding }
+    }
+
+    /// What they show about zeros of the guard minus `level`. `noise` bounds the rounding of its values.
+    pub(super) fn test(&self, level: f64, noise: f64) -> ZeroTest {
+        let (here, noise) = (self.middle - level, noise + self.rounding);
+        if here.abs() > self.others + noise {
+            return ZeroTest::NoZero { sign: here.signum() };
+        }
+        if here.abs() + self.others <= 2.0 * noise {
+            return ZeroTest::Hidden;
+        }
+        if self.slope.abs() > self.bends + noise {
+            return ZeroTest::Monotone { slope: self.slope.signum() };
+        }
+        ZeroTest::Undecided
+    }
+}
+
+/// The time, and the side to which a guard leaves its zero at a time since the step began: up to there its change is that
+/// of its slope, and more than `least`. `None` if the bounds do not show it, as at a zero of higher order.
+pub(super) fn leave(
     coefficients: &[f64],
-    (left, right): (f64, f64),
-    level: f64,
-    noise: f64,
-) -> ZeroTest {
-    let (middle, radius) = (left + 0.5 * (right - left), 0.5 * (right - left).abs());
-    let farthest = left.abs().max(right.abs());
-    let noise = noise + ROUNDING * sums(coefficients, 0, farthest).0;
-    let moved = around(coefficients, middle);
-    let (others, _) = sums(&moved, 1, radius);
-    let here = moved[0] - level;
-    if here.abs() > others + noise {
-        return ZeroTest::NoZero { sign: here.signum() };
+    (from, until): (f64, f64),
+    least: f64,
+) -> Option<(f64, f64)> {
+    let moved = around(coefficients, from);
+    let slope = *moved.get(1)?;
+    let noise = least + ROUNDING * sums(coefficients, 0, from.abs().max(until.abs())).0;
+    let mut length = until - from;
+    // |d₁| h > Σ |dₖ| hᵏ, k ≥ 2, while the left side is above the noise: halving shrinks the right side faster.
+    while slope.abs() * length > noise {
+        let (bends, _) = sums(&moved, 2, length);
+        if slope.abs() * length > bends + noise {
+            return Some((from + length, slope.signum()));
+        }
+        length *= 0.5;
     }
-    if here.abs() + others <= 2.0 * noise {
-        return ZeroTest::Hidden;
-    }
-    let (_, bends) = sums(&moved, 2, radius);
-    let slope = moved.get(1).copied().unwrap_or(0.0);
-    if slope.abs() * radius > bends + noise {
-        return ZeroTest::Monotone { slope: slope.signum() };
-    }
-    ZeroTest::Undecided
+    None
 }
 
 /// True if the guard has this side on the whole step, whose length is given.
@@ -80,7 +113,7 @@ pub(super) fn stays(coefficients: &[f64], side: f64, length: f64) -> bool {
         return true;
     }
     let is_clear = |value: f64| value * side > ROUNDING * (here.abs() + others);
-    match zero_test(coefficients, (0.0, length), 0.0, 0.0) {
+    match OnInterval::new(coefficients, (0.0, length)).test(0.0, 0.0) {
         ZeroTest::NoZero { sign } => sign == side,
         ZeroTest::Monotone { .. } => {
             is_clear(coefficients[0]) && is_clear(equations::horner(coefficients, length))
@@ -97,6 +130,9 @@ mod tests {
     #[test]
     fn zeros_of_a_polynomial_are_seen() {
         let both = [2.0, -3.0, 1.0];
+        let zero_test = |coefficients: &[f64], times, level, noise| {
+            OnInterval::new(coefficients, times).test(level, noise)
+        };
         assert_eq!(zero_test(&both, (0.0, 0.5), 0.0, 0.0), ZeroTest::NoZero { sign: 1.0 });
         assert_eq!(zero_test(&both, (0.9, 1.3), 0.0, 0.0), ZeroTest::Monotone { slope: -1.0 });
         assert_eq!(zero_test(&both, (0.0, 3.0), 0.0, 0.0), ZeroTest::Undecided);
