@@ -4,14 +4,22 @@ use crate::constant::Constant;
 use crate::node::{Binary, Unary};
 use interval_arithmetic::Enclosure;
 
-/// A kind of number in which every part of a formula has a value.
-pub trait Algebra: Clone {
-    /// A number of the formula.
-    fn constant(constant: &Constant) -> Self;
-    /// A function of one number. Outside its domain the value is not [valid](Self::is_valid).
-    fn unary(function: Unary, x: &Self) -> Self;
-    /// A function of two numbers. Outside its domain the value is not [valid](Self::is_valid).
-    fn binary(function: Binary, x: &Self, y: &Self) -> Self;
+/// What the coefficients of series are computed with.
+pub trait Arithmetic: Clone {
+    /// The number 0.
+    fn zero() -> Self;
+    /// The number 1.
+    fn one() -> Self;
+    /// −x.
+    fn negative(x: &Self) -> Self;
+    /// x + y.
+    fn sum(x: &Self, y: &Self) -> Self;
+    /// x − y.
+    fn difference(x: &Self, y: &Self) -> Self;
+    /// x y.
+    fn product(x: &Self, y: &Self) -> Self;
+    /// x / y. Where y may be zero the value is not [valid](Self::is_valid).
+    fn quotient(x: &Self, y: &Self) -> Self;
     /// The square of a number: an enclosure of it is never below zero.
     fn square(x: &Self) -> Self;
     /// Σ x_k y_k of two lists of the same length, in an order that vectors of any width have: four sums, of k = 0, 4, 8, …,
@@ -21,10 +29,18 @@ pub trait Algebra: Clone {
     fn times(x: &Self, k: f64) -> Self;
     /// x / k, of a whole number k above zero.
     fn over(x: &Self, k: f64) -> Self;
-    /// The number 0.
-    fn zero() -> Self;
     /// True if there is a value, and it is finite.
     fn is_valid(&self) -> bool;
+}
+
+/// A kind of number in which every part of a formula has a value.
+pub trait Algebra: Arithmetic {
+    /// A number of the formula.
+    fn constant(constant: &Constant) -> Self;
+    /// A function of one number. Outside its domain the value is not [valid](Arithmetic::is_valid).
+    fn unary(function: Unary, x: &Self) -> Self;
+    /// A function of two numbers. Outside its domain the value is not [valid](Arithmetic::is_valid).
+    fn binary(function: Binary, x: &Self, y: &Self) -> Self;
 }
 
 /// Each function of one `f64`.
@@ -55,36 +71,34 @@ pub(crate) fn of_number(function: Unary) -> fn(f64) -> f64 {
     }
 }
 
-impl Algebra for f64 {
-    fn constant(constant: &Constant) -> Self {
-        constant.value()
+impl Arithmetic for f64 {
+    fn one() -> Self {
+        1.0
     }
 
     #[inline]
-    fn unary(function: Unary, x: &Self) -> Self {
-        of_number(function)(*x)
+    fn negative(x: &Self) -> Self {
+        -x
     }
 
     #[inline]
-    fn binary(function: Binary, x: &Self, y: &Self) -> Self {
-        let (x, y) = (*x, *y);
-        match function {
-            Binary::Sum => x + y,
-            Binary::Difference => x - y,
-            Binary::Product => x * y,
-            Binary::Quotient => x / y,
-            // A base below zero has integer powers only, which are products.
-            Binary::Power if x < 0.0 => f64::NAN,
-            Binary::Power => interval_arithmetic::pow(x, y),
-            // −0 is zero.
-            Binary::ArcTangent2 if x == 0.0 && y == 0.0 => f64::NAN,
-            Binary::ArcTangent2 => pxfm::f_atan2(x + 0.0, y + 0.0),
-            // Minima of `f64` pass over NaN.
-            Binary::Minimum if x.is_nan() || y.is_nan() => f64::NAN,
-            Binary::Maximum if x.is_nan() || y.is_nan() => f64::NAN,
-            Binary::Minimum => x.min(y),
-            Binary::Maximum => x.max(y),
-        }
+    fn sum(x: &Self, y: &Self) -> Self {
+        x + y
+    }
+
+    #[inline]
+    fn difference(x: &Self, y: &Self) -> Self {
+        x - y
+    }
+
+    #[inline]
+    fn product(x: &Self, y: &Self) -> Self {
+        x * y
+    }
+
+    #[inline]
+    fn quotient(x: &Self, y: &Self) -> Self {
+        x / y
     }
 
     #[inline]
@@ -125,8 +139,97 @@ impl Algebra for f64 {
     }
 }
 
+impl Algebra for f64 {
+    fn constant(constant: &Constant) -> Self {
+        constant.value()
+    }
+
+    #[inline]
+    fn unary(function: Unary, x: &Self) -> Self {
+        of_number(function)(*x)
+    }
+
+    #[inline]
+    fn binary(function: Binary, x: &Self, y: &Self) -> Self {
+        let (x, y) = (*x, *y);
+        match function {
+            Binary::Sum => x + y,
+            Binary::Difference => x - y,
+            Binary::Product => x * y,
+            Binary::Quotient => x / y,
+            // A base below zero has integer powers only, which are products.
+            Binary::Power if x < 0.0 => f64::NAN,
+            Binary::Power => interval_arithmetic::pow(x, y),
+            // −0 is zero.
+            Binary::ArcTangent2 if x == 0.0 && y == 0.0 => f64::NAN,
+            Binary::ArcTangent2 => pxfm::f_atan2(x + 0.0, y + 0.0),
+            // Minima of `f64` pass over NaN.
+            Binary::Minimum if x.is_nan() || y.is_nan() => f64::NAN,
+            Binary::Maximum if x.is_nan() || y.is_nan() => f64::NAN,
+            Binary::Minimum => x.min(y),
+            Binary::Maximum => x.max(y),
+        }
+    }
+}
+
 /// Outside of a domain.
 const NO_VALUE: Enclosure = Enclosure::new(f64::NAN, f64::NAN);
+
+impl Arithmetic for Enclosure {
+    fn one() -> Self {
+        Enclosure::ONE
+    }
+
+    fn negative(x: &Self) -> Self {
+        if x.is_valid() { -*x } else { NO_VALUE }
+    }
+
+    fn sum(x: &Self, y: &Self) -> Self {
+        if x.is_valid() && y.is_valid() { *x + *y } else { NO_VALUE }
+    }
+
+    fn difference(x: &Self, y: &Self) -> Self {
+        if x.is_valid() && y.is_valid() { *x - *y } else { NO_VALUE }
+    }
+
+    fn product(x: &Self, y: &Self) -> Self {
+        if x.is_valid() && y.is_valid() { *x * *y } else { NO_VALUE }
+    }
+
+    fn quotient(x: &Self, y: &Self) -> Self {
+        let defined = x.is_valid() && y.is_valid() && !y.contains(0.0);
+        if defined { *x / *y } else { NO_VALUE }
+    }
+
+    fn square(x: &Self) -> Self {
+        if x.is_valid() { x.squared() } else { NO_VALUE }
+    }
+
+    fn sum_of_products(x: &[Self], y: &[Self]) -> Self {
+        x.iter().zip(y).fold(Enclosure::ZERO, |sum, (x, y)| {
+            match sum.is_valid() && x.is_valid() && y.is_valid() {
+                true => sum + *x * *y,
+                false => NO_VALUE,
+            }
+        })
+    }
+
+    fn times(x: &Self, k: f64) -> Self {
+        if x.is_valid() { *x * k } else { NO_VALUE }
+    }
+
+    fn over(x: &Self, k: f64) -> Self {
+        if x.is_valid() { *x / Enclosure::from(k) } else { NO_VALUE }
+    }
+
+    fn zero() -> Self {
+        Enclosure::ZERO
+    }
+
+    fn is_valid(&self) -> bool {
+        self.low <= self.high && self.low.is_finite() && self.high.is_finite()
+    }
+}
 
 impl Algebra for Enclosure {
     fn constant(constant: &Constant) -> Self {
@@ -170,11 +273,10 @@ impl Algebra for Enclosure {
         }
         let (x, y) = (*x, *y);
         match function {
-            Binary::Sum => x + y,
-            Binary::Difference => x - y,
-            Binary::Product => x * y,
-            Binary::Quotient if y.low <= 0.0 && 0.0 <= y.high => NO_VALUE,
-            Binary::Quotient => x / y,
+            Binary::Sum => Self::sum(&x, &y),
+            Binary::Difference => Self::difference(&x, &y),
+            Binary::Product => Self::product(&x, &y),
+            Binary::Quotient => Self::quotient(&x, &y),
             Binary::Power if x.low < 0.0 => NO_VALUE,
             Binary::Power => x.powf(y).unwrap_or(NO_VALUE),
             Binary::ArcTangent2 if x.contains(0.0) && y.contains(0.0) => NO_VALUE,
@@ -182,34 +284,5 @@ impl Algebra for Enclosure {
             Binary::Minimum => Enclosure::new(x.low.min(y.low), x.high.min(y.high)),
             Binary::Maximum => Enclosure::new(x.low.max(y.low), x.high.max(y.high)),
         }
-    }
-
-    fn square(x: &Self) -> Self {
-        if x.is_valid() { x.squared() } else { NO_VALUE }
-    }
-
-    fn sum_of_products(x: &[Self], y: &[Self]) -> Self {
-        x.iter().zip(y).fold(Enclosure::ZERO, |sum, (x, y)| {
-            match sum.is_valid() && x.is_valid() && y.is_valid() {
-                true => sum + *x * *y,
-                false => NO_VALUE,
-            }
-        })
-    }
-
-    fn times(x: &Self, k: f64) -> Self {
-        if x.is_valid() { *x * k } else { NO_VALUE }
-    }
-
-    fn over(x: &Self, k: f64) -> Self {
-        if x.is_valid() { *x / Enclosure::from(k) } else { NO_VALUE }
-    }
-
-    fn zero() -> Self {
-        Enclosure::ZERO
-    }
-
-    fn is_valid(&self) -> bool {
-        self.low <= self.high && self.low.is_finite() && self.high.is_finite()
     }
 }

@@ -226,6 +226,24 @@ impl Formulas {
         Formulas::of(names, graph.into_nodes(), outputs)
     }
 
+    /// The same formulas with the parameters as further components of the state, and with a `further` formula for each of
+    /// them, if it is given: of a field the number 0.
+    #[must_use]
+    pub fn with_parameters_as_states(&self, further: Option<f64>) -> Formulas {
+        let states = self.names.states.iter().chain(&self.names.parameters).cloned().collect();
+        let (count, added) = (self.names.states.len(), self.names.parameters.len());
+        let names = Names { states, ..Names::default() };
+        let moved = |node: &Node| match node {
+            Node::Parameter(at) => Node::State(count + at),
+            node => node.clone(),
+        };
+        let mut graph = Graph::of(self.nodes.iter().map(moved).collect());
+        let further = further.map(|rate| graph.number(rate));
+        let further = (0..added).filter_map(|_| further);
+        let outputs = self.outputs.iter().copied().chain(further).collect();
+        Formulas::of(names, graph.into_nodes(), outputs)
+    }
+
     /// The derivatives in one direction of state and parameters, with the same names. The direction's components are
     /// numbers; a direction along the state's component k is 1 there and 0 elsewhere.
     ///

@@ -1,6 +1,6 @@
 //! Many states at once, with the bits of one.
 
-use crate::algebra::{Algebra, of_number};
+use crate::algebra::{Algebra, Arithmetic, of_number};
 use crate::constant::Constant;
 use crate::error::Error;
 use crate::evaluate::Evaluator;
@@ -28,28 +28,29 @@ impl Lanes {
     }
 }
 
-impl Algebra for Lanes {
-    fn constant(constant: &Constant) -> Self {
-        Lanes([constant.value(); WIDTH])
+impl Arithmetic for Lanes {
+    fn one() -> Self {
+        Lanes([1.0; WIDTH])
     }
 
-    fn unary(function: Unary, x: &Self) -> Self {
-        match function {
-            // These are instructions of the processor for all lanes.
-            Unary::Negative => x.each(|x| -x),
-            Unary::SquareRoot => x.each(f64::sqrt),
-            _ => x.each(of_number(function)),
-        }
+    fn negative(x: &Self) -> Self {
+        x.each(|x| -x)
     }
 
-    fn binary(function: Binary, x: &Self, y: &Self) -> Self {
-        match function {
-            Binary::Sum => x.with(y, |x, y| x + y),
-            Binary::Difference => x.with(y, |x, y| x - y),
-            Binary::Product => x.with(y, |x, y| x * y),
-            Binary::Quotient => x.with(y, |x, y| x / y),
-            _ => x.with(y, |x, y| f64::binary(function, &x, &y)),
-        }
+    fn sum(x: &Self, y: &Self) -> Self {
+        x.with(y, |x, y| x + y)
+    }
+
+    fn difference(x: &Self, y: &Self) -> Self {
+        x.with(y, |x, y| x - y)
+    }
+
+    fn product(x: &Self, y: &Self) -> Self {
+        x.with(y, |x, y| x * y)
+    }
+
+    fn quotient(x: &Self, y: &Self) -> Self {
+        x.with(y, |x, y| x / y)
     }
 
     fn square(x: &Self) -> Self {
@@ -84,6 +85,31 @@ impl Algebra for Lanes {
 
     fn is_valid(&self) -> bool {
         self.0.iter().all(|x| x.is_finite())
+    }
+}
+
+impl Algebra for Lanes {
+    fn constant(constant: &Constant) -> Self {
+        Lanes([constant.value(); WIDTH])
+    }
+
+    fn unary(function: Unary, x: &Self) -> Self {
+        match function {
+            // These are instructions of the processor for all lanes.
+            Unary::Negative => Self::negative(x),
+            Unary::SquareRoot => x.each(f64::sqrt),
+            _ => x.each(of_number(function)),
+        }
+    }
+
+    fn binary(function: Binary, x: &Self, y: &Self) -> Self {
+        match function {
+            Binary::Sum => Self::sum(x, y),
+            Binary::Difference => Self::difference(x, y),
+            Binary::Product => Self::product(x, y),
+            Binary::Quotient => Self::quotient(x, y),
+            _ => x.with(y, |x, y| f64::binary(function, &x, &y)),
+        }
     }
 }
 

@@ -84,11 +84,15 @@ struct Moving {
 }
 
 impl Rules {
-    /// The rules of a graph in which the components of the state have these rates.
-    pub(crate) fn new(field: &Formulas, graph: Graph) -> Result<Rules, Error> {
+    /// The rules of a graph in which the components of the state have these rates. With `polynomials` what is a polynomial
+    /// in time has only its own terms.
+    pub(crate) fn new(field: &Formulas, graph: Graph, polynomials: bool) -> Result<Rules, Error> {
         let Moving { graph, moves, chains } = Moving::of(field, graph)?;
         let nodes = graph.into_nodes();
-        let terms = terms(&nodes, &moves, &field.outputs);
+        let terms = match polynomials {
+            true => terms(&nodes, &moves, &field.outputs),
+            false => vec![None; nodes.len()],
+        };
         let mut rules = Rules { nodes, moving: Vec::new(), polynomials: (0, 0), terms };
         let mut slopes = vec![None; rules.nodes.len()];
         for place in 0..rules.nodes.len() {

@@ -1,11 +1,11 @@
 //! Taylor series in time, along the motion ẋ = f(t, x; p).
 
-use crate::algebra::Algebra;
+use crate::algebra::{Algebra, Arithmetic};
 use crate::error::Error;
 use crate::evaluate::compute;
 use crate::formulas::{Formulas, length as check_length};
 use crate::graph::Graph;
-use crate::node::{Binary, Node, Unary};
+use crate::node::Node;
 use crate::rules::{Kind, Rule, Rules};
 use std::fmt;
 
@@ -17,18 +17,18 @@ const MOST_TERMS: usize = 10_000;
 pub struct Coefficients<A> {
     /// Row after row. A row has the coefficients of a part side by side, and then the same ones from the last to the first: a
     /// sum Σ a_j b_{k−j} is one over two lists then.
-    all: Vec<A>,
-    terms: usize,
+    pub(crate) all: Vec<A>,
+    pub(crate) terms: usize,
     /// The rows of the state's components, and of the watched formulas.
     states: Vec<usize>,
     watched: Vec<usize>,
     /// The rules, with the beginnings of rows as their places.
-    rules: Vec<Rule>,
+    pub(crate) rules: Vec<Rule>,
 }
 
 /// The length of a row.
 #[inline(always)]
-const fn length(terms: usize) -> usize {
+pub(crate) const fn length(terms: usize) -> usize {
     2 * terms
 }
 
@@ -66,7 +66,7 @@ impl<A> Coefficients<A> {
 pub struct Series {
     /// The field and the watched formulas, with the parts that their series need.
     pub(crate) field: Formulas,
-    rules: Rules,
+    pub(crate) rules: Rules,
     /// The rows of the state's components and of the watched formulas.
     states: Vec<usize>,
     watched: Vec<usize>,
@@ -83,6 +83,15 @@ impl Series {
     /// watched formulas have other names or values; [`Error::Kink`] for a function with a kink or a jump;
     /// [`Error::TooLarge`].
     pub fn new(field: &Formulas, watched: Option<&Formulas>) -> Result<Series, Error> {
+        Series::with(field, watched, true)
+    }
+
+    /// The same, with or without the knowledge of what is a polynomial in time.
+    pub(crate) fn with(
+        field: &Formulas,
+        watched: Option<&Formulas>,
+        polynomials: bool,
+    ) -> Result<Series, Error> {
         check_length("formulas of the field", field.names.states.len(), field.count())?;
         let mut graph = Graph::of(field.nodes.clone());
         let field_parts = field.nodes.len();
@@ -91,7 +100,7 @@ impl Series {
         // Also of components that no formula has.
         let count = field.names.states.len();
         let states = (0..count).map(|component| graph.place(Node::State(component))).collect();
-        let rules = Rules::new(field, graph)?;
+        let rules = Rules::new(field, graph, polynomials)?;
         let (names, outputs) = (field.names.clone(), field.outputs.clone());
         let field = Formulas::of(names, rules.nodes.clone(), outputs);
         Ok(Series { field, rules, states, watched, field_parts })
@@ -136,6 +145,16 @@ impl Series {
 
     /// Memory for coefficients up to an order, to be used again and again.
     pub(crate) fn memory<A: Algebra>(&self, order: usize) -> Result<Coefficients<A>, Error> {
+        let mut memory = self.empty(order)?;
+        let length = length(memory.terms);
+        for (row, value) in self.field.numbers().into_iter().enumerate() {
+            memory.all[row * length] = value;
+        }
+        Ok(memory)
+    }
+
+    /// The same without the values of numbers.
+    pub(crate) fn empty<A: Arithmetic>(&self, order: usize) -> Result<Coefficients<A>, Error> {
         if order > MOST_TERMS {
             return Err(Error::Order { order, most: MOST_TERMS });
         }
@@ -143,10 +162,7 @@ impl Series {
         if self.rules.rows() * length(terms) > u32::MAX as usize {
             return Err(Error::TooLarge { limit: u32::MAX as usize / length(terms) });
         }
-        let mut all = vec![A::zero(); self.rules.rows() * length(terms)];
-        for (row, value) in self.field.numbers().into_iter().enumerate() {
-            all[row * length(terms)] = value;
-        }
+        let all = vec![A::zero(); self.rules.rows() * length(terms)];
         let (states, watched) = (self.states.clone(), self.watched.clone());
         let rules = self.rules.of_length(length(terms));
         Ok(Coefficients { all, terms, states, watched, rules })
@@ -161,9 +177,16 @@ impl Series {
     ) -> Result<(), Error> {
         check_length("components of the state", self.states.len(), state.len())?;
         self.field.check_start(time, state)?;
+        let length = length(into.terms);
+        compute(&self.field.nodes, time, state, &mut into.all, length);
+        self.finish(into).map_err(|part| self.field.no_value(part, time, state))
+    }
+
+    /// Computes the coefficients from those of order 0; the first part without a value of the lowest order if there is
+    /// one.
+    pub(crate) fn finish<A: Arithmetic>(&self, into: &mut Coefficients<A>) -> Result<(), usize> {
         let (terms, length) = (into.terms, length(into.terms));
         let Coefficients { all, rules, .. } = into;
-        compute(&self.field.nodes, time, state, all, length);
         let mut are_valid = all.iter().step_by(length).all(A::is_valid);
         let (polynomials, longest) = self.rules.polynomials;
         for k in 1..terms {
@@ -182,63 +205,58 @@ impl Series {
         let parts = self.field.nodes.len();
         let order = |k: usize| (0..parts).map(move |row| row * length + k);
         let wrong = (0..terms).flat_map(order).find(|&at| !into.all[at].is_valid());
-        let part = wrong.map_or(0, |at| at / length);
-        Err(self.field.no_value(part, time, state))
+        Err(wrong.map_or(0, |at| at / length))
     }
 }
 
 /// The coefficient k of a row, from those of all rows.
 #[inline(always)]
-fn coefficient<A: Algebra>(all: &[A], length: usize, rule: &Rule, k: usize) -> A {
+pub(crate) fn coefficient<A: Arithmetic>(all: &[A], length: usize, rule: &Rule, k: usize) -> A {
     let [a, b, c, d] = rule.of.map(|row| row as usize);
     let row = rule.row as usize;
     let of = |row: usize, k: usize| &all[row + k];
-    let product = |a: &A, b: &A| A::binary(Binary::Product, a, b);
-    let sum = |a: &A, b: &A| A::binary(Binary::Sum, a, b);
-    let difference = |a: &A, b: &A| A::binary(Binary::Difference, a, b);
-    let quotient = |a: &A, b: &A| A::binary(Binary::Quotient, a, b);
     match rule.kind {
-        Kind::Time if k == 1 => A::constant(&1.0.into()),
+        Kind::Time if k == 1 => A::one(),
         Kind::Time => A::zero(),
         Kind::State => A::over(of(a, k - 1), k as f64),
-        Kind::Negative => A::unary(Unary::Negative, of(a, k)),
-        Kind::Sum => sum(of(a, k), of(b, k)),
-        Kind::Difference => difference(of(a, k), of(b, k)),
-        Kind::Scaled => product(of(a, 0), of(b, k)),
-        Kind::Over => quotient(of(a, k), of(b, 0)),
+        Kind::Negative => A::negative(of(a, k)),
+        Kind::Sum => A::sum(of(a, k), of(b, k)),
+        Kind::Difference => A::difference(of(a, k), of(b, k)),
+        Kind::Scaled => A::product(of(a, 0), of(b, k)),
+        Kind::Over => A::quotient(of(a, k), of(b, 0)),
         Kind::Slope => A::times(of(a, k), k as f64),
         Kind::Square => {
-            let ends = product(of(a, 0), of(a, k));
-            sum(&inner_square(all, length, a, k), &A::times(&ends, 2.0))
+            let ends = A::product(of(a, 0), of(a, k));
+            A::sum(&inner_square(all, length, a, k), &A::times(&ends, 2.0))
         }
         Kind::Product => {
-            let ends = sum(&product(of(a, 0), of(b, k)), &product(of(a, k), of(b, 0)));
-            sum(&inner(all, length, (a, b), k, rule.most), &ends)
+            let ends = A::sum(&A::product(of(a, 0), of(b, k)), &A::product(of(a, k), of(b, 0)));
+            A::sum(&inner(all, length, (a, b), k, rule.most), &ends)
         }
         Kind::Quotient => {
             // a = y b: y_k = (a_k − Σ_{j ≥ 1} b_j y_{k−j})/b_0.
             let known = inner(all, length, (b, row), k, rule.most);
-            let known = sum(&known, &product(of(b, k), of(row, 0)));
-            quotient(&difference(of(a, k), &known), of(b, 0))
+            let known = A::sum(&known, &A::product(of(b, k), of(row, 0)));
+            A::quotient(&A::difference(of(a, k), &known), of(b, 0))
         }
         Kind::Root => {
             // y y = a: 2 y_0 y_k = a_k − Σ y_j y_{k−j}.
-            let rest = difference(of(a, k), &inner_square(all, length, row, k));
-            quotient(&rest, &A::times(of(row, 0), 2.0))
+            let rest = A::difference(of(a, k), &inner_square(all, length, row, k));
+            A::quotient(&rest, &A::times(of(row, 0), 2.0))
         }
         Kind::Power => {
             // y′ a = exponent a′ y: k y_k a_0 = exponent Σ_{j ≥ 1} j a_j y_{k−j} − Σ_{0 < j < k} j y_j a_{k−j}.
             let grows = product_of_slopes(all, length, (row, c), k, u32::MAX);
             let known = inner(all, length, (d, a), k, u32::MAX);
-            let rest = difference(&product(of(b, 0), &grows), &known);
-            A::over(&quotient(&rest, of(a, 0)), k as f64)
+            let rest = A::difference(&A::product(of(b, 0), &grows), &known);
+            A::over(&A::quotient(&rest, of(a, 0)), k as f64)
         }
         Kind::Chain => A::over(&product_of_slopes(all, length, (a, b), k, rule.most), k as f64),
-        Kind::LinearChain => A::over(&product(of(b, 1), of(a, k - 1)), k as f64),
+        Kind::LinearChain => A::over(&A::product(of(b, 1), of(a, k - 1)), k as f64),
         Kind::Chains => {
             let first = product_of_slopes(all, length, (a, b), k, u32::MAX);
             let second = product_of_slopes(all, length, (c, d), k, u32::MAX);
-            A::over(&sum(&first, &second), k as f64)
+            A::over(&A::sum(&first, &second), k as f64)
         }
     }
 }
@@ -246,30 +264,36 @@ fn coefficient<A: Algebra>(all: &[A], length: usize, rule: &Rule, k: usize) -> A
 /// Σ a_j b_{k−j} for 0 < j < k, and j < `most`. The two terms at the ends, which have just been computed, are added by
 /// themselves: nothing waits for them.
 #[inline(always)]
-fn inner<A: Algebra>(all: &[A], length: usize, (a, b): (usize, usize), k: usize, most: u32) -> A {
+fn inner<A: Arithmetic>(
+    all: &[A],
+    length: usize,
+    (a, b): (usize, usize),
+    k: usize,
+    most: u32,
+) -> A {
     let count = (most as usize).min(k) - 1;
     A::sum_of_products(&all[a + 1..][..count], &all[b + length - k..][..count])
 }
 
 /// The same of a row with itself: each product of two different coefficients occurs twice.
 #[inline(always)]
-fn inner_square<A: Algebra>(all: &[A], length: usize, a: usize, k: usize) -> A {
+fn inner_square<A: Arithmetic>(all: &[A], length: usize, a: usize, k: usize) -> A {
     let twice = A::times(&inner(all, length, (a, a), k, k.div_ceil(2) as u32), 2.0);
     match k.is_multiple_of(2) {
-        true => A::binary(Binary::Sum, &twice, &A::square(&all[a + k / 2])),
+        true => A::sum(&twice, &A::square(&all[a + k / 2])),
         false => twice,
     }
 }
 
 /// k times the coefficient k of y, with y′ = g u′: Σ_{j ≥ 1} j u_j g_{k−j}.
 #[inline(always)]
-fn product_of_slopes<A: Algebra>(
+fn product_of_slopes<A: Arithmetic>(
     all: &[A],
     length: usize,
     (g, slope): (usize, usize),
     k: usize,
     most: u32,
 ) -> A {
-    let end = A::binary(Binary::Product, &all[slope + k], &all[g]);
-    A::binary(Binary::Sum, &inner(all, length, (slope, g), k, most), &end)
+    let end = A::product(&all[slope + k], &all[g]);
+    A::sum(&inner(all, length, (slope, g), k, most), &end)
 }

@@ -1,6 +1,6 @@
 //! Models that users write.
 
-use equations::{Formulas, Names, Series};
+use equations::{Formulas, Jet, JetSeries, Names, Series};
 use interval_arithmetic::Enclosure;
 
 /// Bodies in a plane that attract each other, with the positions first: in fifteen lines.
@@ -154,4 +154,29 @@ fn formulas_are_written_as_they_are_read() {
     assert_eq!(written.texts(), ["-sin(mu*x_max)/(1 + x^2)"]);
     let known = r"-\operatorname{sin}\left(\mathrm{mu} \cdot x_{\mathrm{max}}\right)";
     assert_eq!(written.latex(), [format!(r"\frac{{{known}}}{{1 + {{x}}^{{2}}}}")]);
+}
+
+/// Directional derivatives of a formula with many functions, to the third order, by jets and by formulas.
+#[test]
+fn jets_have_the_derivatives_of_the_formulas() {
+    let names = Names::new(&["v", "x"], &[("a", "0.7")]).unwrap();
+    let texts = [
+        "sin(a*x)*exp(-v) + atan2(x, v)",
+        "sqrt(x + v^2)/(a + cosh(x*v)) + x^a + ln(x)*tanh(v)",
+        "asin(x/9) + a^v + (x*v)^1.5 + atan(x)*acos(v/7)",
+    ];
+    let formulas = Formulas::from_text(names, &texts).unwrap();
+    let jets = JetSeries::of_values(&formulas).unwrap();
+    let (state, direction) = ([1.3, 0.6], [0.4, -1.1, 0.9]);
+    let start = [Jet::moving(1.3, 0.4), Jet::moving(0.6, -1.1), Jet::<4>::moving(0.7, 0.9)];
+    let found = jets.values(&start).unwrap();
+    let (mut derivative, mut factorial) = (formulas, 1.0);
+    for k in 0..4 {
+        let exact = derivative.values(0.0, &state).unwrap();
+        for (jet, exact) in found.iter().zip(exact) {
+            assert!((jet.0[k] - exact / factorial).abs() < 1e-13 * (1.0 + exact.abs()), "{k}");
+        }
+        derivative = derivative.derivative(&direction[..2], &direction[2..]).unwrap();
+        factorial *= (k + 1) as f64;
+    }
 }
