@@ -19,7 +19,8 @@ const MOST_HALVINGS: usize = 60;
 /// shortens steps of fields that spread errors fast; a larger one sees less.
 const RATE_ERROR: f64 = 1000.0;
 
-/// How often a step is shortened for a watched formula: each time to a third at least, unless it is short enough.
+/// How often a step is shortened for a series that bends more than the state. Each time it gets at least a tenth shorter;
+/// two or three times are usual.
 const MOST_SHORTENINGS: usize = 40;
 
 /// The motion ẋ = f(t, x; p), by its Taylor series, step by step.
@@ -68,9 +69,21 @@ impl Step {
     }
 }
 
+/// The order for a relative tolerance. A step reaches to e⁻² of the radius of convergence: the term of order p is e^(−2p) of
+/// the state there.
+pub(crate) fn order_of(relative: f64) -> usize {
+    ((1.0 - 0.5 * pxfm::f_log(relative)).ceil() as usize).max(2)
+}
+
+/// The part of the radius of convergence to which a step reaches: e⁻², and a factor that covers the terms that follow
+/// (Jorba and Zou, Section 3.2).
+pub(crate) fn safety(order: usize) -> f64 {
+    pxfm::f_exp(-2.0 - 0.7 / (order - 1) as f64)
+}
+
 /// The n-th root of a size, for the length of a step: to some ten digits, in a third of the time of a power.
 #[inline]
-fn root(size: f64, n: usize) -> f64 {
+pub(crate) fn root(size: f64, n: usize) -> f64 {
     pxfm::f_exp(pxfm::f_log(size) / n as f64)
 }
 
@@ -78,6 +91,35 @@ fn root(size: f64, n: usize) -> f64 {
 #[inline]
 pub fn horner(series: &[f64], x: f64) -> f64 {
     series.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
+}
+
+/// The length, at most `length`, at which the last two terms of a series, given by the sizes of its coefficients, are small
+/// beside its largest one.
+pub(crate) fn shortened(
+    terms: usize,
+    size: impl Fn(usize) -> f64,
+    tolerance: f64,
+    mut length: f64,
+) -> f64 {
+    let order = terms - 1;
+    for _ in 0..MOST_SHORTENINGS {
+        let last = size(order - 1).max(size(order) * length);
+        if last == 0.0 {
+            break;
+        }
+        let (mut power, mut largest) = (1.0, f64::MIN_POSITIVE);
+        for k in 0..order - 1 {
+            let term = size(k) * power;
+            largest = if term > largest { term } else { largest };
+            power *= length;
+        }
+        let too_large = last * power / (tolerance * largest);
+        if !(too_large > 1.0) {
+            break;
+        }
+        length *= root(too_large, order - 1).recip().clamp(1e-3, 0.9);
+    }
+    length
 }
 
 /// The error of a component of this size, where the largest one is `largest`, that a step may make. Without an absolute
@@ -110,11 +152,9 @@ impl<'s> TaylorFlow<'s> {
         if !sensible {
             return Err(Error::Tolerance { relative, absolute });
         }
-        // A step reaches to e⁻² of the radius of convergence: the term of order p is e^(−2p) of the state there.
-        let order = (1.0 - 0.5 * pxfm::f_log(relative)).ceil() as usize;
         Ok(TaylorFlow {
             series,
-            order: order.max(2),
+            order: order_of(relative),
             tolerance: relative,
             tolerances: vec![(absolute, relative); series.dimension()],
             longest_step: f64::INFINITY,
@@ -204,37 +244,16 @@ impl<'s> TaylorFlow<'s> {
         let [before, last] = sizes.map(|size| self.tolerance * size);
         let radius = |size: f64, order: usize| root(size, order).recip();
         let radius = radius(before, self.order - 1).min(radius(last, self.order));
-        // e⁻² of the smaller estimate, and a factor that covers the terms that follow (Jorba and Zou, Section 3.2).
-        let safe = pxfm::f_exp(-2.0 - 0.7 / (self.order - 1) as f64);
-        (safe * radius).min(self.longest_step)
+        (safety(self.order) * radius).min(self.longest_step)
     }
 
     /// The length at which also the last terms of the watched formulas are small beside their largest ones: a formula
     /// may bend more than the state, as sin(x) does along x = t.
-    fn length_for_watched(&self, step: &Step, mut length: f64) -> f64 {
-        let order = self.order;
-        let shortest = f64::MIN_POSITIVE;
-        for series in step.coefficients.all_watched() {
-            for _ in 0..MOST_SHORTENINGS {
-                let last = series[order - 1].abs().max(series[order].abs() * length);
-                if last == 0.0 {
-                    break;
-                }
-                let mut power = 1.0;
-                let largest = series[..order - 1].iter().fold(shortest, |largest, coefficient| {
-                    let size = coefficient.abs() * power;
-                    power *= length;
-                    if size > largest { size } else { largest }
-                });
-                let too_large = last * power / (self.tolerance * largest);
-                if !(too_large > 1.0) {
-                    break;
-                }
-                let shorter = root(too_large, order - 1).recip();
-                length *= shorter.clamp(1e-3, 0.9);
-            }
-        }
-        length
+    fn length_for_watched(&self, step: &Step, length: f64) -> f64 {
+        let watched = step.coefficients.all_watched();
+        watched.fold(length, |length, series| {
+            shortened(series.len(), |k| series[k].abs(), self.tolerance, length)
+        })
     }
 
     /// Shortens a step until the field at its end is that of its polynomial; both stand in the step then.

@@ -137,7 +137,7 @@ pub use crossing::{
 pub use error::Error;
 pub use execution::Execution;
 #[cfg(feature = "ode")]
-pub use formulas::{Equations, Label};
+pub use formulas::{Along, Equations, ExecutionJet, Label};
 pub use guard::{Direction, Guard, Role, Touch};
 pub use interval_arithmetic::Enclosure;
 pub use lands_beyond::LandsBeyond;

@@ -2,16 +2,20 @@
 //!
 //! [`Equations`] are what a user writes (`equations`), as data, with [`Label`]s for modes and surfaces. `programs` has what
 //! is evaluated of them: a Taylor series for each mode, with its guards as watched formulas. `motion` and `part` are the
-//! motion and the part of a [`Model`](crate::Model). `file` is the JSON of equations.
+//! motion and the part of a [`Model`](crate::Model). `jets` has the derivatives of whole executions, `derivatives` those of
+//! [`Differentiable`](crate::Differentiable). `file` is the JSON of equations.
 
+mod derivatives;
 mod equations;
 mod file;
+mod jets;
 mod label;
 mod motion;
 mod part;
 mod programs;
 
 pub use self::equations::Equations;
+pub use jets::{Along, ExecutionJet};
 pub use label::Label;
 pub use motion::TaylorMotion;
 pub use part::FormulaPart;

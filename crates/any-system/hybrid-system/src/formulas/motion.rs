@@ -22,7 +22,7 @@ const TOLERANCE: f64 = 1e-12;
 #[derive(Debug, Clone)]
 pub struct TaylorMotion {
     programs: Arc<Programs>,
-    tolerances: Tolerances,
+    pub(super) tolerances: Tolerances,
 }
 
 impl TaylorMotion {
@@ -30,7 +30,7 @@ impl TaylorMotion {
         TaylorMotion { programs, tolerances: Tolerances::both(TOLERANCE) }
     }
 
-    fn mode(&self, mode: Label) -> Result<&ModeProgram, Error> {
+    pub(super) fn mode(&self, mode: Label) -> Result<&ModeProgram, Error> {
         self.programs.mode(mode).ok_or_else(|| Error::NoVectorField { mode: format!("{mode:?}") })
     }
 }

@@ -6,7 +6,7 @@ use super::programs::{GuardProgram, Programs};
 use crate::model::ModelPart;
 use crate::state::StateVector;
 use crate::system::Reset;
-use equations::Formulas;
+use equations::{Formulas, Jet, JetSeries};
 use interval_arithmetic::Enclosure;
 use smallvec::SmallVec;
 use std::sync::Arc;
@@ -20,6 +20,22 @@ impl FormulaPart {
     fn guard(&self, surface: Label) -> Option<&GuardProgram> {
         let mut guards = self.0.modes.iter().flat_map(|mode| &mode.guards);
         guards.find(|guard| guard.surface == surface)
+    }
+
+    /// The derivatives of some values by one component of the state.
+    fn derivatives<X: StateVector>(
+        &self,
+        jets: &JetSeries,
+        state: &X,
+        axis: usize,
+    ) -> Option<Vec<f64>> {
+        let component =
+            |(at, value): (usize, &f64)| Jet::<2>::moving(*value, f64::from(at == axis));
+        let parameters = self.0.equations.names().values.iter();
+        let parameters = parameters.map(|value| Jet::number(value.value()));
+        let start = state.components().iter().enumerate().map(component).chain(parameters);
+        let values = jets.values(&start.collect::<Vec<_>>()).ok()?;
+        Some(values.iter().map(|value| value.0[1]).collect())
     }
 }
 
@@ -50,6 +66,27 @@ impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
             state.components().iter().map(|component| Enclosure::from(*component)).collect();
         let found = self.guard(surface)?.function.enclosures(Enclosure::ZERO, &state).ok()?;
         Some(found.first()?.width())
+    }
+
+    fn gradient(&self, surface: Label, state: &X) -> Option<X> {
+        let jets = self.guard(surface)?.value_jets().ok()?;
+        let derivative = |axis| self.derivatives(jets, state, axis)?.first().copied();
+        let gradient: Option<Vec<f64>> = (0..state.dimension()).map(derivative).collect();
+        let gradient = gradient?;
+        Some(state.filled(|axis| gradient[axis]))
+    }
+
+    fn reset_column(&self, mode: Label, surface: Label, before: &X, column: usize) -> Option<X> {
+        let program = self.0.mode(mode)?;
+        let guard = program.guards.iter().find(|guard| guard.surface == surface)?;
+        guard.jump.as_ref()?;
+        match guard.reset_jets().ok()? {
+            Some(jets) => {
+                let derivatives = self.derivatives(jets, before, column)?;
+                Some(before.filled(|axis| derivatives[axis]))
+            }
+            None => Some(before.filled(|axis| f64::from(axis == column))),
+        }
     }
 
     fn reset(&self, mode: Label, surface: Label, before: &X) -> Option<Reset<Label, X>> {

@@ -4,7 +4,8 @@ use super::equations::{Equations, GuardEquations, Jump, ModeEquations};
 use super::label::Label;
 use crate::error::Error;
 use crate::guard::Role;
-use equations::{Constant, Formulas, Node, Series};
+use equations::{Constant, Formulas, JetSeries, Node, Series};
+use std::sync::OnceLock;
 
 /// All that is evaluated of some equations.
 #[derive(Debug)]
@@ -24,6 +25,27 @@ pub(super) struct ModeProgram {
     pub(super) series: Series,
     pub(super) guards: Vec<GuardProgram>,
     pub(super) after_limit: Option<Jump>,
+    /// The guards as watched formulas.
+    watched: Option<Formulas>,
+    /// The same series with derivatives, made at its first use.
+    jets: Jets,
+}
+
+/// Formulas with derivatives, made at their first use: many models need none.
+type Jets = OnceLock<Result<JetSeries, equations::Error>>;
+
+fn made(
+    jets: &Jets,
+    make: impl FnOnce() -> Result<JetSeries, equations::Error>,
+) -> Result<&JetSeries, Error> {
+    jets.get_or_init(make).as_ref().map_err(|error| error.clone().into())
+}
+
+impl ModeProgram {
+    /// The series with derivatives.
+    pub(super) fn jets(&self) -> Result<&JetSeries, Error> {
+        made(&self.jets, || JetSeries::new(&self.field, self.watched.as_ref()))
+    }
 }
 
 /// A guard and what its event does.
@@ -32,6 +54,21 @@ pub(super) struct GuardProgram {
     pub(super) surface: Label,
     pub(super) function: Formulas,
     pub(super) jump: Option<Jump>,
+    value_jets: Jets,
+    reset_jets: Jets,
+}
+
+impl GuardProgram {
+    /// The guard with derivatives.
+    pub(super) fn value_jets(&self) -> Result<&JetSeries, Error> {
+        made(&self.value_jets, || JetSeries::of_values(&self.function))
+    }
+
+    /// The state after the event with derivatives; `None` if it stays.
+    pub(super) fn reset_jets(&self) -> Result<Option<&JetSeries>, Error> {
+        let state = self.jump.as_ref().and_then(|jump| jump.state.as_ref());
+        state.map(|state| made(&self.reset_jets, || JetSeries::of_values(state))).transpose()
+    }
 }
 
 impl Programs {
@@ -69,7 +106,8 @@ impl GuardEquations {
             true => self.function.with_time_as_state(None),
             false => self.function.clone(),
         };
-        GuardProgram { surface: self.guard.surface, function, jump }
+        let (value_jets, reset_jets) = (Jets::new(), Jets::new());
+        GuardProgram { surface: self.guard.surface, function, jump, value_jets, reset_jets }
     }
 }
 
@@ -95,7 +133,8 @@ impl ModeEquations {
         }
         let series = Series::new(&field, watched.as_ref())?;
         let after_limit = self.after_limit.clone();
-        Ok(ModeProgram { name: self.name, field, series, guards, after_limit })
+        let (name, jets) = (self.name, Jets::new());
+        Ok(ModeProgram { name, field, series, guards, after_limit, watched, jets })
     }
 }
 

@@ -89,7 +89,7 @@ use std::marker::PhantomData;
 #[must_use]
 pub struct Model<M, S, X, F, P = ()> {
     pub(crate) motion: F,
-    pub(super) parts: P,
+    pub(crate) parts: P,
     pub(super) guards: GuardLists<M, S>,
     sampling_interval: Option<f64>,
     state: PhantomData<fn() -> X>,

@@ -50,6 +50,10 @@ methods! {
     fn value(surface: S, state: &X) -> f64;
     /// A bound on the rounding of a guard's own arithmetic.
     fn guard_error(surface: S, state: &X) -> f64;
+    /// The gradient of a guard, if the part has a formula for it.
+    fn gradient(surface: S, state: &X) -> X;
+    /// ∂x⁺/∂x⁻ₖ of a reset, if the part has a formula for it.
+    fn reset_column(mode: M, surface: S, before: &X, column: usize) -> X;
     /// A surface that has bounds in this part, and is not among the `known` ones.
     fn unknown_surface(known: &dyn Fn(S) -> bool) -> S;
     /// Mode and state after an event.

@@ -1,0 +1,235 @@
+//! Derivatives of a whole execution in one direction: of states and times of events, to any order.
+
+use super::label::Label;
+use super::motion::TaylorMotion;
+use super::programs::ModeProgram;
+use crate::arc::{Arc, ArcEnd, Event};
+use crate::crossing::EventKind;
+use crate::error::Error;
+use crate::model::Model;
+use crate::state::StateVector;
+use equations::{Arithmetic, Jet, JetStep, jet_horner};
+
+/// Smallest rate of a guard at its event, relative to the sum of the sizes of its terms: at this rate four digits of a
+/// derivative are left. A slower one is a grazing.
+const SMALLEST_RATE: f64 = 1e-12;
+
+/// A crossing after this part of the present time is at the same instant as the event before.
+const SAME_INSTANT: f64 = 4.0 * f64::EPSILON;
+
+/// How start and parameters change with ε.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Along {
+    start: Vec<f64>,
+    parameters: Vec<(String, f64)>,
+}
+
+impl Along {
+    /// The start changes by ε times this vector.
+    pub fn start(change: &[f64]) -> Along {
+        Along { start: change.to_vec(), parameters: Vec::new() }
+    }
+
+    /// The parameter with this name changes by ε.
+    pub fn parameter(name: &str) -> Along {
+        Along::default().and_parameter(name, 1.0)
+    }
+
+    /// The same, and the parameter with this name changes by ε times this number.
+    #[must_use]
+    pub fn and_parameter(mut self, name: &str, change: f64) -> Along {
+        self.parameters.push((name.to_owned(), change));
+        self
+    }
+}
+
+/// Where some arcs end, with derivatives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExecutionJet<const T: usize> {
+    /// The state: after the event that ends the last arc, at its own time; or at a limit on time.
+    pub state: Vec<Jet<T>>,
+    /// The time since the start of the first arc.
+    pub time: Jet<T>,
+}
+
+impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
+    /// Where these arcs of an execution end, as the start and the parameters change in a direction: a polynomial in ε
+    /// with T terms. The coefficient of ε^k of a state is its k-th derivative, over k!.
+    ///
+    /// The state after an event is that at the event's own time, which changes too. All mixed derivatives are sums of such
+    /// directional ones: ∂²/∂x∂y in the directions e₁ + e₂, e₁ and e₂ is D² − D₁² − D₂², over 2.
+    ///
+    /// ```
+    /// use hybrid_system::{Along, Equations, State};
+    /// // A ball that falls from the height h under the gravity g lands after √(2h/g).
+    /// let ball = Equations::new(&["height", "speed"], &[("gravity", "2")])
+    ///     .mode("flight", |_, x, p| [x[1], -p["gravity"]])
+    ///     .falling("floor", |_, x, _| x[0])
+    ///     .resets(|_, x, _| [x[0], -0.5 * x[1]])
+    ///     .model::<State<2>>()?;
+    /// let arc = ball.start("flight", [1.0, 0.0], 9.0)?.next().expect("an arc")?;
+    /// let landing = ball.jet::<3>(&[arc], &Along::start(&[1.0, 0.0]))?;
+    /// // √h at h = 1 + ε: 1 + ε/2 − ε²/8. The speed after it is the same here.
+    /// for (found, exact) in landing.time.0.iter().zip([1.0, 0.5, -0.125]) {
+    ///     assert!((found - exact).abs() < 1e-14);
+    /// }
+    /// let by_gravity = ball.jet::<2>(&[arc], &Along::parameter("gravity"))?;
+    /// assert!((by_gravity.time.0[1] + 0.25).abs() < 1e-14);
+    /// # Ok::<(), hybrid_system::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::GrazingSensitivity`] at a touch, and at a guard that is crossed too slowly; [`Error::CornerSensitivity`]
+    /// for two events at one instant; [`Error::NoSensitivity`] for an arc that does not end in an event of a formula or
+    /// at a limit on time; [`Error::Formula`] for a parameter that there is none, and for a jump with a kink.
+    pub fn jet<const T: usize>(
+        &self,
+        arcs: &[Arc<Label, Label, X>],
+        direction: &Along,
+    ) -> Result<ExecutionJet<T>, Error> {
+        let Some(first) = arcs.first() else {
+            return Ok(ExecutionJet { state: Vec::new(), time: Jet::zero() });
+        };
+        let mut state = self.start_jet(&first.start, direction)?;
+        let mut time = Jet::zero();
+        for arc in arcs {
+            let program = self.motion.mode(arc.mode)?;
+            // The derivative is that of this execution: the values are its own.
+            for (jet, value) in state.iter_mut().zip(arc.start.components()) {
+                jet.0.iter_mut().take(1).for_each(|first| *first = *value);
+            }
+            (state, time) = match &arc.end {
+                ArcEnd::Event(event) => self.after_event(program, (arc, event), &state, &time)?,
+                ArcEnd::TimeLimit { .. } => {
+                    // The end is where it is, whenever the arc has begun.
+                    let step = self.jet_flow(program, &state, arc.duration)?;
+                    let mut since = Jet::negative(&time);
+                    since.0.iter_mut().take(1).for_each(|first| *first = step.length);
+                    (at(&step, &since), Jet::number(time.value() + arc.duration))
+                }
+                _ => return Err(Error::NoSensitivity { time: arc.time }),
+            };
+        }
+        state.truncate(first.start.dimension());
+        Ok(ExecutionJet { state, time })
+    }
+
+    /// The state at the start of an execution, and the parameters behind it.
+    pub(super) fn start_jet<const T: usize>(
+        &self,
+        start: &X,
+        direction: &Along,
+    ) -> Result<Vec<Jet<T>>, Error> {
+        let names = self.equations().names();
+        let (expected, found) = (start.dimension(), direction.start.len());
+        if found != 0 && found != expected {
+            return Err(Error::Dimension {
+                what: "the direction of a derivative",
+                expected,
+                found,
+            });
+        }
+        let change = |axis: usize| direction.start.get(axis).copied().unwrap_or(0.0);
+        let states = start.components().iter().enumerate();
+        let mut jets: Vec<_> =
+            states.map(|(axis, value)| Jet::moving(*value, change(axis))).collect();
+        let mut changes = vec![0.0; names.parameters.len()];
+        for (name, change) in &direction.parameters {
+            let place = names.parameters.iter().position(|known| known == name);
+            let reason = "no parameter of these equations";
+            let place = place.ok_or(equations::Error::Name { name: name.clone(), reason })?;
+            changes[place] += change;
+        }
+        let parameters = names.values.iter().zip(changes);
+        jets.extend(parameters.map(|(value, change)| Jet::moving(value.value(), change)));
+        Ok(jets)
+    }
+
+    pub(super) fn jet_flow<const T: usize>(
+        &self,
+        program: &ModeProgram,
+        start: &[Jet<T>],
+        duration: f64,
+    ) -> Result<JetStep<T>, Error> {
+        let tolerances = &self.motion.tolerances;
+        let absolute = (0..start.len()).map(|axis| tolerances.of(axis, 0.0));
+        let absolute = absolute.fold(tolerances.absolute, f64::min);
+        let relative = tolerances.relative.clamp(1e-17, 0.1);
+        Ok(program.jets()?.flow(start, duration, (relative, absolute))?)
+    }
+
+    /// State and time after the event that ends an arc.
+    fn after_event<const T: usize>(
+        &self,
+        program: &ModeProgram,
+        (arc, event): (&Arc<Label, Label, X>, &Event<Label, Label, X>),
+        start: &[Jet<T>],
+        time: &Jet<T>,
+    ) -> Result<(Vec<Jet<T>>, Jet<T>), Error> {
+        let changes = event.after.as_ref() != Some(&(arc.mode, event.before.clone()));
+        let place = program.guards.iter().position(|guard| guard.surface == event.surface);
+        let at_once = event.kind == EventKind::AtStart
+            || event.kind == EventKind::Crossing && arc.duration <= SAME_INSTANT * event.time.abs();
+        let surface = || format!("{:?}", event.surface);
+        match (event.kind, place) {
+            _ if at_once && !changes => return Ok((start.to_vec(), *time)),
+            _ if at_once && arc.jump > 0 => {
+                return Err(Error::CornerSensitivity { time: event.time, surface: surface() });
+            }
+            (EventKind::Touch, _) => {
+                return Err(Error::GrazingSensitivity { time: event.time, rate: 0.0 });
+            }
+            (EventKind::Crossing, Some(_)) => {}
+            _ => return Err(Error::NoSensitivity { time: arc.time }),
+        }
+        let step = self.jet_flow(program, start, arc.duration)?;
+        let guard = step.coefficients.watched(place.unwrap_or(0));
+        let since = zero(guard, step.length).ok_or(Error::GrazingSensitivity {
+            time: event.time,
+            rate: slope(guard, &Jet::number(step.length)).value(),
+        })?;
+        let mut state = at(&step, &since);
+        let elapsed = Jet::number(arc.duration - step.length);
+        let time = Jet::sum(time, &Jet::sum(&since, &elapsed));
+        let jump = place.and_then(|place| program.guards[place].reset_jets().transpose());
+        if let Some(jump) = jump.transpose()? {
+            let after = jump.values(&state)?;
+            state[..after.len()].copy_from_slice(&after);
+        }
+        Ok((state, time))
+    }
+}
+
+/// The state at a time since the last step began.
+fn at<const T: usize>(step: &JetStep<T>, since: &Jet<T>) -> Vec<Jet<T>> {
+    step.coefficients.states().map(|series| jet_horner(series, since)).collect()
+}
+
+/// The rate of a guard.
+fn slope<const T: usize>(guard: &[Jet<T>], time: &Jet<T>) -> Jet<T> {
+    let terms = guard.iter().enumerate().skip(1);
+    let rates: Vec<Jet<T>> = terms.map(|(k, c)| Jet::times(c, k as f64)).collect();
+    jet_horner(&rates, time)
+}
+
+/// The time at which a guard is zero, as a jet whose value is `time`; `None` at a grazing.
+///
+/// Newton's method doubles the number of right terms: as many rounds as there are terms are more than enough.
+fn zero<const T: usize>(guard: &[Jet<T>], time: f64) -> Option<Jet<T>> {
+    let sizes = guard.iter().enumerate().skip(1);
+    let (size, _) = sizes.fold((0.0, 1.0), |(sum, power), (k, c)| {
+        (sum + k as f64 * c.value().abs() * power, power * time.abs())
+    });
+    let rate = slope(guard, &Jet::number(time)).value().abs();
+    if !(rate > SMALLEST_RATE * size) {
+        return None;
+    }
+    let mut found = Jet::number(time);
+    for _ in 0..T {
+        let mut value = jet_horner(guard, &found);
+        // The execution has found the time: what is left of the value is rounding.
+        value.0.iter_mut().take(1).for_each(|first| *first = 0.0);
+        found = Jet::difference(&found, &Jet::quotient(&value, &slope(guard, &found)));
+    }
+    Some(found)
+}
