@@ -46,10 +46,9 @@ impl JetSeries {
     /// # Errors
     /// As [`Series::new`].
     pub fn of_values(formulas: &Formulas) -> Result<JetSeries, Error> {
-        let still = Formulas::of_vector(formulas.names.clone(), |_, x, p| {
-            x.iter().map(|_| p.sum([])).collect()
-        });
-        JetSeries::new(&still?, Some(formulas))
+        let (names, zero) = (formulas.names.clone(), Node::Constant(0.0.into()));
+        let outputs = vec![0; names.states.len()];
+        JetSeries::new(&Formulas::of(names, vec![zero], outputs), Some(formulas))
     }
 
     /// The values of the watched formulas.

@@ -10,6 +10,7 @@ mod clocks;
 mod clocks_beside_events;
 mod cradles;
 mod ends_of_arcs;
+mod equation_models;
 mod exponential_guards;
 mod instant_derivatives;
 mod integrated_events;

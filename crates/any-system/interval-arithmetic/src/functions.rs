@@ -58,7 +58,7 @@ fn wave(x: Enclosure, at_low: f64, at_high: f64, shift: f64) -> Enclosure {
 }
 
 impl Enclosure {
-    /// The sines of the numbers, in radians. An interval with an argument above 10⁹ has all of [−1, 1].
+    /// The sines of the numbers, in radians. A wide interval with an argument above 10⁹ has all of [−1, 1].
     ///
     /// ```
     /// # use interval_arithmetic::Enclosure;
@@ -72,7 +72,7 @@ impl Enclosure {
         self.sin_cos().0
     }
 
-    /// The cosines of the numbers, in radians. An interval with an argument above 10⁹ has all of [−1, 1].
+    /// The cosines of the numbers, in radians. A wide interval with an argument above 10⁹ has all of [−1, 1].
     #[inline]
     pub fn cos(self) -> Self {
         self.sin_cos().1
@@ -82,11 +82,29 @@ impl Enclosure {
     #[inline]
     pub fn sin_cos(self) -> (Self, Self) {
         if !has_places(self) {
-            return (ALL, ALL);
+            return self.far_sin_cos();
         }
         let at_low = pxfm::f_sincos(self.low);
         let at_high = if self.low == self.high { at_low } else { pxfm::f_sincos(self.high) };
         (wave(self, at_low.0, at_high.0, 0.5), wave(self, at_low.1, at_high.1, 0.0))
+    }
+
+    /// The same where the place among the multiples of π is not known: the values in the middle, and what they change up
+    /// to the ends, because no slope is above 1.
+    #[cold]
+    fn far_sin_cos(self) -> (Self, Self) {
+        let middle = self.middle();
+        let radius = up((self.high - middle).max(middle - self.low));
+        // NaN too.
+        if !(radius < 1.0 && middle.is_finite()) {
+            return (ALL, ALL);
+        }
+        let around = |value: f64| Enclosure {
+            low: down(down(value) - radius).max(-1.0),
+            high: up(up(value) + radius).min(1.0),
+        };
+        let (sine, cosine) = pxfm::f_sincos(middle);
+        (around(sine), around(cosine))
     }
 
     /// The arc tangents of the numbers.

@@ -97,6 +97,9 @@ macro_rules! guards {
             surface: &str,
             function: impl for<'g> Fn(Expression<'g>, &[Expression<'g>], &Parameters<'g>) -> Expression<'g>,
         ) -> Self {
+            if self.wrong.is_some() {
+                return self;
+            }
             let function = Formulas::new(self.names.clone(), |t, x, p| [function(t, x, p)]);
             self.guard(surface, Direction::$direction, function)
         }
@@ -141,6 +144,10 @@ impl Equations {
             &Parameters<'g>,
         ) -> [Expression<'g>; N],
     ) -> Self {
+        // A closure that is called with names that were refused would find no components.
+        if self.wrong.is_some() {
+            return self;
+        }
         let field = Formulas::new(self.names.clone(), field);
         self.add_mode(name, field)
     }
@@ -163,6 +170,9 @@ impl Equations {
             &Parameters<'g>,
         ) -> Vec<Expression<'g>>,
     ) -> Self {
+        if self.wrong.is_some() {
+            return self;
+        }
         let field = Formulas::of_vector(self.names.clone(), field);
         self.add_mode(name, field)
     }
@@ -276,6 +286,9 @@ impl Equations {
             &Parameters<'g>,
         ) -> [Expression<'g>; N],
     ) -> Self {
+        if self.wrong.is_some() {
+            return self;
+        }
         let state = Formulas::new(self.names.clone(), state);
         self.with_state(state)
     }

@@ -72,13 +72,15 @@ impl<X: StateVector> Motion<Label, X> for TaylorMotion {
         let own = program.guards.len();
         let searched = system.guards(mode).iter().filter(|guard| guard.role != Role::Clock);
         let watched = searched.enumerate().map(|(place, _)| (place < own).then_some(place));
-        taylor_crossing(
-            system,
-            mode,
-            start,
-            (search, self.tolerances),
-            (&program.series, watched.collect()),
-        )
+        let motion = (&program.series, watched.collect());
+        match taylor_crossing(system, mode, start, (search, self.tolerances), motion)? {
+            // Without guards nothing was integrated: the end of the arc, or why it is not reached.
+            NextEvent::None { state: None, certainty } if search.horizon.is_finite() => {
+                let state = self.states(system, mode, start, &[search.horizon])?.pop();
+                Ok(NextEvent::None { state, certainty })
+            }
+            found => Ok(found),
+        }
     }
 
     fn validate(&self, mode: Label, start: &X) -> Result<(), Error> {

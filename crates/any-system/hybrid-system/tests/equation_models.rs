@@ -1,0 +1,466 @@
+//! Models of equations: their events, files and derivatives, against known answers.
+
+#![cfg(feature = "ode")]
+
+use hybrid_system::*;
+use nalgebra::DVector;
+use std::f64::consts::{PI, TAU};
+
+/// Times of the events of a run, with their surfaces.
+fn events<X: StateVector>(
+    equations: &Equations,
+    tolerance: f64,
+    (mode, start, time): (&str, X, f64),
+) -> Vec<(String, f64)> {
+    let model = equations.model::<X>().unwrap().tolerance(tolerance);
+    let arcs = model.start(mode, start, time).unwrap().map(Result::unwrap);
+    arcs.filter_map(|arc| arc.event().map(|event| (event.surface.to_string(), event.time)))
+        .collect()
+}
+
+fn pendulum() -> Equations {
+    Equations::new(&["angle", "speed"], &[])
+        .mode("swing", |_, x, _| [x[1], -x[0].sin()])
+        .falling("top", |_, x, _| x[1])
+}
+
+/// From rest at 1 rad: 4 K(sin ½) (mpmath).
+#[test]
+fn a_pendulum_comes_back_after_its_periods() {
+    for tolerance in [1e-6, 1e-9, 1e-12, 1e-14] {
+        let found = events(&pendulum(), tolerance, ("swing", State::from([1.0, 0.0]), 70.0));
+        assert_eq!(found.len(), 10);
+        for (k, (_, time)) in found.iter().enumerate() {
+            let off = time - 6.699_975_664_370_453 * (k + 1) as f64;
+            assert!(off.abs() < 200.0 * tolerance + 1e-13, "{tolerance:e} {k}: {off:e}");
+        }
+    }
+}
+
+/// ẍ + 0.1ẋ + x = cos 1.3t with a stop at ½, restitution 0.8: the last of 83 impacts up to t = 400 comes at
+/// 396.4881294366 by two other programs.
+#[test]
+fn a_forced_oscillator_meets_its_stop() {
+    let oscillator = Equations::new(&["x", "v"], &[("forcing", "1.3"), ("restitution", "0.8")])
+        .mode("free", |t, x, p| [x[1], (p["forcing"] * t).cos() - x[0] - 0.1 * x[1]])
+        .rising("stop", |_, x, _| x[0] - 0.5)
+        .resets(|_, x, p| [x[0], -p["restitution"] * x[1]]);
+    for tolerance in [1e-10, 1e-12, 1e-14] {
+        let found = events(&oscillator, tolerance, ("free", State::from([0.0, 1.0, 0.0]), 400.0));
+        assert_eq!(found.len(), 83);
+        let off = found[82].1 - 396.488_129_436_6;
+        assert!(off.abs() < 1e-10 + 1e3 * tolerance, "{tolerance:e}: {off:e}");
+    }
+}
+
+/// Dips inside one step of any length: the step is as long as the motion, which is a line.
+#[test]
+fn no_dip_inside_a_step_is_missed() {
+    for depth in [1.0, 1e-3, 1e-6, 1e-9] {
+        let line = Equations::new(&["x"], &[])
+            .mode("line", |_, x, _| [x[0].number(1.0)])
+            .falling("in", move |_, x, _| (x[0] - 3.37).powi(2) - depth)
+            .rising("out", move |_, x, _| (x[0] - 3.37).powi(2) - depth);
+        let found = events(&line, 1e-9, ("line", State::from([0.0]), 1000.0));
+        let half = f64::sqrt(depth);
+        assert_eq!(found.len(), 2, "{depth:e}");
+        for ((surface, time), (name, exact)) in
+            found.iter().zip([("in", 3.37 - half), ("out", 3.37 + half)])
+        {
+            assert_eq!(surface, name);
+            assert!((time - exact).abs() < 1e-14 / half + 1e-15, "{depth:e}: {time}");
+        }
+    }
+}
+
+/// A guard that bends where the state does not: sin x along x = t, to t = 100. Also as a closure.
+#[test]
+fn guards_may_bend_more_than_the_state() {
+    let line = Equations::new(&["x"], &[])
+        .mode("line", |_, x, _| [x[0].number(1.0)])
+        .either("sine", |_, x, _| (3.0 * x[0] + 1.0).sin());
+    let found = events(&line, 1e-12, ("line", State::from([0.0]), 100.0));
+    assert_eq!(found.len(), 95);
+    for (k, (_, time)) in found.iter().enumerate() {
+        let off = 3.0 * time + 1.0 - PI * (k + 1) as f64;
+        assert!(off.abs() < 1e-11, "{k} {off:e}");
+    }
+    let closure = Equations::new(&["x", "v"], &[])
+        .mode("turn", |_, x, _| [x[1], -x[0]])
+        .model::<State<2>>()
+        .unwrap()
+        .guard(
+            Label::new("turn").unwrap(),
+            Guard::either(Label::new("up").unwrap()),
+            |x| x[0],
+            |x| (Label::new("turn").unwrap(), *x),
+        );
+    let times = closure.start("turn", [0.5, 0.5], 100.0).unwrap().map(Result::unwrap);
+    let times: Vec<f64> = times.filter_map(|arc| Some(arc.event()?.time)).collect();
+    assert_eq!(times.len(), 32);
+    for (k, time) in times.iter().enumerate() {
+        assert!((time - 0.75 * PI - PI * k as f64).abs() < 1e-10, "{k}: {time}");
+    }
+}
+
+/// Kepler's orbit with e = 0.6: at its apocentres.
+#[test]
+fn a_planet_passes_its_apocentres() {
+    let names = ["x", "y", "u", "v"];
+    let kepler = Equations::new(&names, &[])
+        .mode_text("orbit", &["u", "v", "-x/(x^2 + y^2)^1.5", "-y/(x^2 + y^2)^1.5"])
+        .falling_text("apocentre", "x*u + y*v");
+    let found =
+        events(&kepler, 1e-13, ("orbit", DVector::from_vec(vec![0.4, 0.0, 0.0, 2.0]), 40.0));
+    assert_eq!(found.len(), 6);
+    for (k, (_, time)) in found.iter().enumerate() {
+        assert!((time - PI * (2 * k + 1) as f64).abs() < 1e-11, "{k}: {time}");
+    }
+}
+
+/// Rössler's system, section x = 0, ẋ > 0: the orbit of period one meets it near y = −8.3809417428298,
+/// z = 0.029590060630665 (CAPD), found here by Newton's method with the derivatives of the model.
+#[test]
+fn the_first_periodic_orbit_of_roessler() {
+    let roessler = Equations::new(&["x", "y", "z"], &[("a", "0.2"), ("b", "0.2"), ("c", "5.7")])
+        .mode("flow", |_, x, p| {
+            [-x[1] - x[2], x[0] + p["a"] * x[1], p["b"] + x[2] * (x[0] - p["c"])]
+        })
+        .rising("section", |_, x, _| x[0])
+        .model::<State<3>>()
+        .unwrap()
+        .tolerance(1e-14);
+    let mut point = [-8.4, 0.03];
+    for _ in 0..6 {
+        let start = State::from([0.0, point[0], point[1]]);
+        let arc = roessler.start("flow", start, 20.0).unwrap().next().unwrap().unwrap();
+        let columns = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|along| {
+            let jet = roessler.jet::<2>(&[arc], &Along::start(&along)).unwrap();
+            [jet.state[1].0[1], jet.state[2].0[1]]
+        });
+        let end = arc.event().unwrap().before;
+        let off = [end[1] - point[0], end[2] - point[1]];
+        let [a, c] = [columns[0][0] - 1.0, columns[0][1]];
+        let [b, d] = [columns[1][0], columns[1][1] - 1.0];
+        let det = a * d - b * c;
+        point[0] -= (d * off[0] - b * off[1]) / det;
+        point[1] -= (a * off[1] - c * off[0]) / det;
+    }
+    assert!((point[0] + 8.380_941_742_829_8).abs() < 1e-11, "{point:?}");
+    assert!((point[1] - 0.029_590_060_630_665).abs() < 1e-12, "{point:?}");
+}
+
+/// A ball on a floor, with its Zeno limit at 3 times the fall, and rest behind it.
+#[test]
+fn a_ball_comes_to_rest() {
+    let ball = Equations::new(&["height", "speed"], &[("restitution", "0.5")])
+        .mode("flight", |_, x, _| [x[1], x[0].number(-1.0)])
+        .falling("floor", |_, x, _| x[0])
+        .resets(|_, x, p| [x[0], -p["restitution"] * x[1]])
+        .rests("floor")
+        .mode("floor", |_, x, _| [x[0].number(0.0), x[0].number(0.0)]);
+    let model = ball.model::<State<2>>().unwrap();
+    let mut arcs = model.start("flight", [0.5, 0.0], 9.0).unwrap();
+    let arcs: Vec<_> = arcs.by_ref().collect::<Result<_, _>>().unwrap();
+    let limit = arcs.iter().find_map(|arc| match &arc.end {
+        ArcEnd::Zeno { limit, .. } => Some(limit.time),
+        _ => None,
+    });
+    assert!((limit.unwrap() - 3.0).abs() < 1e-9, "{limit:?}");
+    assert_eq!(arcs.last().unwrap().mode, "floor");
+}
+
+/// The limits on time of models in which the time is a component, and a motion backward.
+#[test]
+fn motions_go_back() {
+    let forced = Equations::new(&["x"], &[]).mode("m", |t, x, _| [t.sin() * x[0]]);
+    let model = forced.model::<State<2>>().unwrap().tolerance(1e-14);
+    let mode = Label::new("m").unwrap();
+    let exact = |x: f64, from: f64, to: f64| x * (from.cos() - to.cos()).exp();
+    for (from, time) in [(0.0, 5.0), (2.0, -7.0), (1e6, 3.0)] {
+        let there = model.flow(mode, &State::from([2.0, from]), time);
+        assert_eq!(there[1], from + time);
+        let tolerance = 1e-13 + 1e-15 * f64::abs(from);
+        assert!((there[0] - exact(2.0, from, from + time)).abs() < tolerance, "{from} {there}");
+        let back = model.flow(mode, &there, -time);
+        assert!((back[0] - 2.0).abs() < 2.0 * tolerance, "{back}");
+    }
+    let states = model.flow_at(mode, &State::from([1.0, 0.0]), &[0.0, 1.0, 1.0, 4.0]).unwrap();
+    for (state, time) in states.iter().zip([0.0, 1.0, 1.0, 4.0]) {
+        assert!((state[0] - exact(1.0, 0.0, time)).abs() < 1e-13);
+    }
+}
+
+/// Text, closures and files are the same equations. A parameter is changed by its name.
+#[test]
+fn texts_closures_and_files_are_equal() {
+    let parameters = [("mu", "5"), ("level", "0.2")];
+    let closures = Equations::new(&["x", "v"], &parameters)
+        .either("observed", |_, x, _| x[1])
+        .mode("slow", |_, x, p| [x[1], p["mu"] * (1.0 - x[0] * x[0]) * x[1] - x[0]])
+        .rising("level", |_, x, p| x[0] - p["level"])
+        .touch(Touch::Ignore)
+        .to("fast")
+        .resets(|t, x, _| [x[0], x[1] + t])
+        .mode("fast", |_, x, _| [x[1], -x[0]])
+        .falling("end", |_, x, _| x[0] + 1.0)
+        .contact()
+        .stops();
+    let texts = Equations::new(&["x", "v"], &parameters)
+        .either_text("observed", "v")
+        .mode_text("slow", &["v", "mu*(1 - x*x)*v - x"])
+        .rising_text("level", "x - level")
+        .touch(Touch::Ignore)
+        .to("fast")
+        .resets_text(&["x", "v + t"])
+        .mode_text("fast", &["v", "-x"])
+        .falling_text("end", "x + 1")
+        .contact()
+        .stops();
+    // Numbers of closures are doubles, those of texts decimals.
+    let read = Equations::from_json(&texts.to_json().unwrap()).unwrap();
+    assert_eq!(read, texts);
+    let start = ("slow", State::from([0.0, 1.0, 0.5]), 9.0);
+    let [a, b, c] = [&closures, &texts, &read].map(|equations| events(equations, 1e-12, start));
+    assert_eq!(a, b);
+    assert_eq!(b, c);
+    assert_eq!(a.first().unwrap().0, "level");
+    assert_eq!(a.last().unwrap().0, "end");
+    let other = read.with_parameters(&[("level", "0.3")]);
+    assert!(events(&other, 1e-12, start)[0].1 > a[0].1);
+}
+
+/// The name of the variable by which the second process finds the file.
+const FILE: &str = "EQUATIONS_OF_ANOTHER_PROCESS";
+
+fn run_bits(equations: &Equations) -> String {
+    let found = events(equations, 1e-12, ("swing", State::from([1.0, 0.3]), 40.0));
+    found.iter().map(|(_, time)| format!("{:016x}", time.to_bits())).collect()
+}
+
+/// Writes a model, and runs this test program again: it reads the model and prints the bits of its events.
+#[test]
+fn another_process_runs_the_same_bits() {
+    if let Ok(file) = std::env::var(FILE) {
+        println!("bits {}", run_bits(&Equations::from_json(&file).unwrap()));
+        return;
+    }
+    let model = pendulum();
+    let program = std::env::current_exe().unwrap();
+    let name = "equation_models::another_process_runs_the_same_bits";
+    let output = std::process::Command::new(program)
+        .args(["--exact", name, "--nocapture"])
+        .env(FILE, model.to_json().unwrap())
+        .output()
+        .unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let bits = text.lines().find_map(|line| line.split("bits ").nth(1)).unwrap();
+    assert_eq!(bits, run_bits(&model));
+    assert_eq!(bits.len() % 16, 0);
+}
+
+/// The period 4 K(sin(a/2)) at a = 1: its Taylor coefficients by the amplitude (mpmath).
+#[test]
+fn derivatives_of_a_period_to_the_third_order() {
+    let exact = [
+        6.699_975_664_370_453,
+        0.885_206_953_111_523_8,
+        0.553_304_533_962_988_2,
+        0.126_819_815_694_152_7,
+    ];
+    for tolerance in [1e-6, 1e-8, 1e-10, 1e-12, 1e-14] {
+        let model = pendulum().model::<State<2>>().unwrap().tolerance(tolerance);
+        let arc = model.start("swing", [1.0, 0.0], 9.0).unwrap().next().unwrap().unwrap();
+        let jet = model.jet::<4>(&[arc], &Along::start(&[1.0, 0.0])).unwrap();
+        for (k, exact) in exact.iter().enumerate() {
+            let off = (jet.time.0[k] - exact).abs() / exact;
+            assert!(off < 100.0 * tolerance + 1e-13, "{tolerance:e} {k}: {off:e}");
+        }
+    }
+}
+
+/// Along an impacting orbit: the chain of saltation matrices, the derivative along one direction, and the difference of
+/// two runs.
+#[test]
+fn derivatives_through_impacts_agree() {
+    let oscillator = Equations::new(&["x", "v"], &[("damping", "0.1")])
+        .mode("free", |t, x, p| [x[1], (1.3 * t).cos() - x[0] - p["damping"] * x[1]])
+        .rising("stop", |_, x, _| x[0] - 0.5)
+        .resets(|_, x, _| [x[0], -0.8 * x[1]]);
+    let model = oscillator.model::<State<3>>().unwrap().tolerance(1e-13);
+    let start = State::from([0.0, 1.0, 0.0]);
+    let arcs: Vec<_> = model.start("free", start, 12.0).unwrap().map(Result::unwrap).collect();
+    assert!(arcs.len() > 3);
+    let matrix = sensitivity(&model, &arcs).unwrap();
+    for (axis, along) in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].iter().enumerate() {
+        let jet = model.jet::<3>(&arcs, &Along::start(along)).unwrap();
+        let column = [0, 1].map(|row| jet.state[row].0[1]);
+        for row in 0..2 {
+            let off = (column[row] - matrix[(row, axis)]).abs();
+            assert!(off < 1e-10 * matrix.amax(), "{row} {axis}: {off:e}");
+        }
+        // Half of the second difference.
+        let end = |step: f64| {
+            let start = start + State::from(*along) * step;
+            let arcs = model.start("free", start, 12.0).unwrap().map(Result::unwrap);
+            let last = arcs.last().unwrap();
+            last.state(&model, last.duration).unwrap()
+        };
+        let step = 1e-4;
+        let second = (end(step) + end(-step) - 2.0 * end(0.0)) / (2.0 * step * step);
+        for row in 0..2 {
+            let found = jet.state[row].0[2];
+            assert!(
+                (second[row] - found).abs() < 1e-4 * (1.0 + found.abs()),
+                "{row} {axis} {found}"
+            );
+        }
+    }
+    // By a parameter, against two runs.
+    let jet = model.jet::<2>(&arcs, &Along::parameter("damping")).unwrap();
+    let end = |damping: &str| {
+        let model = oscillator.clone().with_parameters(&[("damping", damping)]);
+        let model = model.model::<State<3>>().unwrap().tolerance(1e-13);
+        let last = model.start("free", start, 12.0).unwrap().map(Result::unwrap).last().unwrap();
+        last.state(&model, last.duration).unwrap()
+    };
+    let difference = (end("0.10001") - end("0.09999")) / 2e-5;
+    for row in 0..2 {
+        assert!(
+            (difference[row] - jet.state[row].0[1]).abs() < 1e-5 * (1.0 + difference[row].abs())
+        );
+    }
+    assert!(model.jet::<2>(&arcs, &Along::parameter("mass")).is_err());
+    assert!(model.jet::<2>(&arcs, &Along::start(&[1.0])).is_err());
+}
+
+/// x = sin t touches 1, and passes 1 − δ slowly: the derivative of the time is −tan of the phase, and infinite at last.
+#[test]
+fn derivatives_are_refused_at_a_grazing() {
+    let circle = |level: f64| {
+        Equations::new(&["x", "v"], &[])
+            .mode("turn", |_, x, _| [x[1], -x[0]])
+            .rising("level", move |_, x, _| x[0] - level)
+            .touch(Touch::Event)
+            .stops()
+            .model::<State<2>>()
+            .unwrap()
+            .tolerance(1e-14)
+    };
+    for level in [0.5, 0.99, 1.0 - 1e-6] {
+        let model = circle(level);
+        let arc = model.start("turn", [0.0, 1.0], 9.0).unwrap().next().unwrap().unwrap();
+        let jet = model.jet::<2>(&[arc], &Along::start(&[0.0, 1.0])).unwrap();
+        // (1 + ε) sin τ = level.
+        let exact = -level / (1.0 - level * level).sqrt();
+        assert!((jet.time.0[1] / exact - 1.0).abs() < 1e-8, "{level}");
+    }
+    let model = circle(1.0);
+    let arc = model.start("turn", [0.0, 1.0], 9.0).unwrap().next().unwrap().unwrap();
+    assert_eq!(arc.event().unwrap().kind, EventKind::Touch);
+    let refused = model.jet::<2>(&[arc], &Along::start(&[0.0, 1.0]));
+    assert!(matches!(refused, Err(Error::GrazingSensitivity { .. })), "{refused:?}");
+}
+
+#[test]
+fn wrong_equations_are_refused() {
+    let names = || Equations::new(&["x"], &[("a", "2")]);
+    let refused = |equations: Equations, part: &str| {
+        let error = equations.model::<State<1>>().unwrap_err().to_string();
+        assert!(error.contains(part), "{error}");
+        assert!(equations.to_json().is_err());
+    };
+    refused(Equations::new(&["x", "x"], &[]).mode("m", |_, x, _| [x[0]]), "used twice");
+    refused(names(), "they have no mode");
+    refused(names().mode_text("m", &["x + y"]), "column 5");
+    refused(names().mode_text("m", &["x", "x"]), "field of a mode");
+    refused(names().mode("m", |_, x, p| [p["b"] * x[0]]), "no parameter");
+    refused(names().mode("m", |_, x, _| [x[0]]).to("n"), "no guard has been declared");
+    refused(
+        names().mode("m", |_, x, _| [x[0]]).falling("g", |_, x, _| x[0]).to("n"),
+        "n: the equations have no",
+    );
+    refused(
+        names().mode("m", |_, x, _| [x[0]]).mode("m", |_, x, _| [x[0]]),
+        "a mode has it already",
+    );
+    refused(names().mode(&"m".repeat(32), |_, x, _| [x[0]]), "more than 31 bytes");
+    refused(
+        names()
+            .mode("m", |_, x, _| [x[0]])
+            .falling("g", |_, x, _| x[0])
+            .resets(|_, x, _| [x[0], x[0]]),
+        "the state after an event",
+    );
+    let kink = names().mode("m", |_, x, _| [x[0].abs()]).model::<State<1>>().unwrap_err();
+    assert!(kink.to_string().contains("make it a guard"), "{kink}");
+    // The wrong mode, the wrong number of components.
+    let model = names().mode("m", |t, x, _| [x[0] + t]).model::<DVector<f64>>().unwrap();
+    assert!(model.start("n", DVector::zeros(2), 1.0).is_err());
+    assert!(matches!(
+        model.start("m", DVector::zeros(1), 1.0).err(),
+        Some(Error::Dimension { expected: 2, found: 1, .. })
+    ));
+}
+
+/// A logarithm that leaves its domain on the way: the error names the part, the state and the time.
+#[test]
+fn a_formula_without_a_value_is_named() {
+    let model =
+        Equations::new(&["x"], &[]).mode_text("m", &["-1 - 0*ln(x)"]).model::<State<1>>().unwrap();
+    let error = model.start("m", [1.0], 5.0).unwrap().next().unwrap().unwrap_err().to_string();
+    assert!(error.contains("ln(x)"), "{error}");
+    // The event before is found.
+    let model = Equations::new(&["x"], &[])
+        .mode_text("m", &["-1 - 0*ln(x)"])
+        .falling_text("half", "x - 0.5")
+        .stops()
+        .model::<State<1>>()
+        .unwrap();
+    let arc = model.start("m", [1.0], 5.0).unwrap().next().unwrap().unwrap();
+    assert!((arc.event().unwrap().time - 0.5).abs() < 1e-14);
+}
+
+#[test]
+fn files_of_any_bytes_are_safe() {
+    let good = pendulum().to_json().unwrap();
+    for cut in (0..good.len()).step_by(7) {
+        assert!(Equations::from_json(&good[..cut]).is_err());
+    }
+    for (from, to) in [
+        ("\"version\":1", "\"version\":2"),
+        ("hybrid equations", "equations"),
+        ("\"falling\"", "\"down\""),
+        ("\"name\":\"swing\"", "\"name\":7"),
+        ("\"guards\":[", "\"guards\":[null,"),
+        ("\"jump\":{}", "\"jump\":{\"mode\":\"none\"}"),
+        ("\"outputs\":[", "\"outputs\":[99,"),
+        ("\"states\":[\"angle\"", "\"states\":[\"t\""),
+    ] {
+        assert!(good.contains(from), "{from} {good}");
+        let found = Equations::from_json(&good.replacen(from, to, 1));
+        assert!(found.is_err(), "{from} {found:?}");
+    }
+}
+
+/// Steps at ends: an event at the horizon, at the start of time, on every step, and at a time of 10⁹.
+#[test]
+fn events_at_ends_and_far_away() {
+    let circle = Equations::new(&["x", "v"], &[])
+        .mode("turn", |_, x, _| [x[1], -x[0]])
+        .falling("zero", |_, x, _| x[0]);
+    let start = State::from([1.0, 0.0]);
+    let found = events(&circle, 1e-14, ("turn", start, 0.5 * PI));
+    assert!(found.len() <= 1);
+    assert_eq!(events(&circle, 1e-14, ("turn", start, 0.5 * PI - 1e-9)).len(), 0);
+    assert_eq!(events(&circle, 1e-14, ("turn", start, 0.5 * PI + 1e-9)).len(), 1);
+    assert_eq!(events(&circle, 1e-9, ("turn", start, TAU * 1000.0)).len(), 1000);
+    let clock = Equations::new(&["x"], &[])
+        .mode("m", |t, _, _| [t.cos()])
+        .rising("noon", |t, _, _| (TAU * t).sin());
+    let found = events(&clock, 1e-12, ("m", State::from([0.0, 1e9 + 0.25]), 5.0));
+    assert_eq!(found.len(), 5);
+    for (k, (_, time)) in found.iter().enumerate() {
+        assert!((time - 0.75 - k as f64).abs() < 1e-6, "{time}");
+    }
+}
