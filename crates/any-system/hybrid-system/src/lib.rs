@@ -8,6 +8,8 @@
 //!
 //! | item | role |
 //! |---|---|
+//! | `Equations` | a model by its equations, written once: events, exact derivatives, JSON (feature `ode`) |
+//! | `Along`, `ExecutionJet` | derivatives of a whole execution, to any order (feature `ode`) |
 //! | [`Model`] | a model written with closures, in some 20 lines |
 //! | [`HybridSystem`] | the trait of a model: flow, guards, guard values, reset |
 //! | [`Guard`], [`Direction`] | a switching surface, and the direction in which a crossing counts |
