@@ -1,11 +1,13 @@
 //! Functions of time, state and parameters.
 
+use crate::algebra::{Algebra, Arithmetic};
 use crate::constant::{Constant, Decimal};
 use crate::derivative::partials;
 use crate::error::Error;
 use crate::expression::{Expression, Parameters, Term};
 use crate::graph::Graph;
 use crate::node::{Node, uses};
+use interval_arithmetic::Enclosure;
 use std::cell::RefCell;
 use std::collections::HashSet;
 
@@ -174,6 +176,11 @@ impl Formulas {
         self.outputs.len()
     }
 
+    /// The parts, and the places of the formulas among them: for programs that compute with other kinds of numbers.
+    pub fn nodes(&self) -> (&[Node], &[usize]) {
+        (&self.nodes, &self.outputs)
+    }
+
     /// The number of different parts.
     pub fn parts(&self) -> usize {
         self.nodes.len()
@@ -282,6 +289,24 @@ impl Formulas {
     /// As [`Formulas::derivative`].
     pub fn jacobian(&self) -> Result<Formulas, Error> {
         self.all_derivatives(self.names.states.len(), Node::State)
+    }
+
+    /// For each formula its enclosure, if it is a number whatever time and state are.
+    pub fn constants(&self) -> Vec<Option<Enclosure>> {
+        let mut values: Vec<Option<Enclosure>> = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            values.push(match *node {
+                Node::Time | Node::State(_) => None,
+                Node::Parameter(at) => Some(Enclosure::constant(&self.names.values[at])),
+                Node::Constant(ref constant) => Some(Enclosure::constant(constant)),
+                Node::Unary(function, a) => values[a].map(|a| Enclosure::unary(function, &a)),
+                Node::Binary(function, a, b) => {
+                    values[a].zip(values[b]).map(|(a, b)| Enclosure::binary(function, &a, &b))
+                }
+            });
+        }
+        let valid = |at: &usize| values[*at].filter(Enclosure::is_valid);
+        self.outputs.iter().map(valid).collect()
     }
 
     /// All first derivatives by the parameters, row by row: ∂f_i/∂p_j is the output i k + j.

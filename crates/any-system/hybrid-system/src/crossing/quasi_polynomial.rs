@@ -95,6 +95,13 @@ impl QuasiPolynomial {
         QuasiPolynomial { terms: vec![term.normalized()] }
     }
 
+    /// The same function with frequencies at or above zero, so that like terms are found.
+    #[cfg(feature = "ode")]
+    pub(crate) fn normalized(self) -> Self {
+        let terms = self.terms.into_iter().map(Term::normalized).collect();
+        QuasiPolynomial { terms }
+    }
+
     /// Adds a term to one of the same rate and frequency, or to the list.
     fn push(&mut self, term: Term) {
         match self.terms.iter_mut().find(|own| own.is_like(&term)) {

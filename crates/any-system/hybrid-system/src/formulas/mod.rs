@@ -1,10 +1,12 @@
 //! How is a model of equations written, stored and run? (feature `ode`)
 //!
 //! [`Equations`] are what a user writes (`equations`), as data, with [`Label`]s for modes and surfaces. `programs` has what
-//! is evaluated of them: a Taylor series for each mode, with its guards as watched formulas. `motion` and `part` are the
+//! is evaluated of them: a Taylor series for each mode, with its guards as watched formulas. `closed_form`
+//! solves linear fields, in functions of time that `quasi_values` computes with. `motion` and `part` are the
 //! motion and the part of a [`Model`](crate::Model). `jets` has the derivatives of whole executions, `derivatives` those of
 //! [`Differentiable`](crate::Differentiable). `file` is the JSON of equations.
 
+mod closed_form;
 mod derivatives;
 mod equations;
 mod file;
@@ -13,6 +15,7 @@ mod label;
 mod motion;
 mod part;
 mod programs;
+mod quasi_values;
 
 pub use self::equations::Equations;
 pub use jets::{Along, ExecutionJet};

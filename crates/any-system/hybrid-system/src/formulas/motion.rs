@@ -10,7 +10,7 @@ use crate::guard::Role;
 use crate::model::{Model, ModelPart, Motion};
 use crate::ode::{Tolerances, taylor_crossing, taylor_states};
 use crate::state::StateVector;
-use crate::system::HybridSystem;
+use crate::system::{HybridSystem, default_search};
 use equations::Series;
 use std::sync::Arc;
 
@@ -50,7 +50,12 @@ impl<X: StateVector> Motion<Label, X> for TaylorMotion {
     where
         T: HybridSystem<Mode = Label, State = X>,
     {
-        taylor_states(&self.mode(mode)?.series, start, times, &self.tolerances)
+        let program = self.mode(mode)?;
+        let Some(motion) = program.closed_form(start.components()) else {
+            return taylor_states(&program.series, start, times, &self.tolerances);
+        };
+        let at = |time: f64| start.filled(|axis| motion.components[axis].value(time));
+        Ok(times.iter().map(|&time| if time == 0.0 { start.clone() } else { at(time) }).collect())
     }
 
     fn field(&self, mode: Label, state: &X) -> Option<X> {
@@ -70,6 +75,11 @@ impl<X: StateVector> Motion<Label, X> for TaylorMotion {
         let program = self.mode(mode)?;
         // The equations' guards come first among those of a mode.
         let own = program.guards.len();
+        let all = system.guards(mode).iter().filter(|guard| guard.role != Role::Clock).count();
+        let closed = || program.closed_form(start.components()).is_some();
+        if all == own && search.horizon.is_finite() && closed() {
+            return default_search(system, mode, start, search);
+        }
         let searched = system.guards(mode).iter().filter(|guard| guard.role != Role::Clock);
         let watched = searched.enumerate().map(|(place, _)| (place < own).then_some(place));
         let motion = (&program.series, watched.collect());

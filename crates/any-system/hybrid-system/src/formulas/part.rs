@@ -3,6 +3,7 @@
 use super::equations::Jump;
 use super::label::Label;
 use super::programs::{GuardProgram, Programs};
+use crate::crossing::QuasiPolynomial;
 use crate::model::ModelPart;
 use crate::state::StateVector;
 use crate::system::Reset;
@@ -66,6 +67,13 @@ impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
             state.components().iter().map(|component| Enclosure::from(*component)).collect();
         let found = self.guard(surface)?.function.enclosures(Enclosure::ZERO, &state).ok()?;
         Some(found.first()?.width())
+    }
+
+    /// Where the motion and all guards of the mode have a closed form.
+    fn quasi_polynomial(&self, mode: Label, surface: Label, start: &X) -> Option<QuasiPolynomial> {
+        let program = self.0.mode(mode)?;
+        let place = program.guards.iter().position(|guard| guard.surface == surface)?;
+        program.closed_form(start.components())?.guards.into_iter().nth(place)
     }
 
     fn gradient(&self, surface: Label, state: &X) -> Option<X> {

@@ -1,7 +1,10 @@
 //! What runs the equations of a model: series, guards and jumps of each mode.
 
+use super::closed_form::ClosedForm;
 use super::equations::{Equations, GuardEquations, Jump, ModeEquations};
 use super::label::Label;
+use super::quasi_values::quasi_value;
+use crate::crossing::QuasiPolynomial;
 use crate::error::Error;
 use crate::guard::Role;
 use equations::{Constant, Formulas, JetSeries, Node, Series};
@@ -25,10 +28,18 @@ pub(super) struct ModeProgram {
     pub(super) series: Series,
     pub(super) guards: Vec<GuardProgram>,
     pub(super) after_limit: Option<Jump>,
+    /// The closed form of the motion, if it has one.
+    closed_form: Option<ClosedForm>,
     /// The guards as watched formulas.
     watched: Option<Formulas>,
     /// The same series with derivatives, made at its first use.
     jets: Jets,
+}
+
+/// A motion from a start, in closed form.
+pub(super) struct ClosedMotion {
+    pub(super) components: Vec<QuasiPolynomial>,
+    pub(super) guards: Vec<QuasiPolynomial>,
 }
 
 /// Formulas with derivatives, made at their first use: many models need none.
@@ -42,6 +53,14 @@ fn made(
 }
 
 impl ModeProgram {
+    /// The components along the motion from a start, and the guards along them, if all of them have a closed form.
+    pub(super) fn closed_form(&self, start: &[f64]) -> Option<ClosedMotion> {
+        let components = self.closed_form.as_ref()?.motion(start)?;
+        let known: Vec<_> = components.iter().cloned().map(Some).collect();
+        let guards = self.guards.iter().map(|guard| quasi_value(&guard.function, 0, &known));
+        Some(ClosedMotion { guards: guards.collect::<Option<_>>()?, components })
+    }
+
     /// The series with derivatives.
     pub(super) fn jets(&self) -> Result<&JetSeries, Error> {
         made(&self.jets, || JetSeries::new(&self.field, self.watched.as_ref()))
@@ -133,8 +152,8 @@ impl ModeEquations {
         }
         let series = Series::new(&field, watched.as_ref())?;
         let after_limit = self.after_limit.clone();
-        let (name, jets) = (self.name, Jets::new());
-        Ok(ModeProgram { name, field, series, guards, after_limit, watched, jets })
+        let (name, jets, closed_form) = (self.name, Jets::new(), ClosedForm::of(&field));
+        Ok(ModeProgram { name, field, series, guards, after_limit, closed_form, watched, jets })
     }
 }
 
