@@ -8,6 +8,7 @@ mod certain_events;
 mod checkpoint;
 mod clocks;
 mod clocks_beside_events;
+mod closed_forms;
 mod cradles;
 mod ends_of_arcs;
 mod equation_models;

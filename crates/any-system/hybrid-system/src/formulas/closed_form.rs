@@ -12,6 +12,7 @@
 //! All numbers are enclosures. Where one of them does not tell a double root from two near ones, or a resonance from a
 //! forcing beside it, there is no closed form, and the motion is integrated.
 
+use super::exact::{difference, product, quotient, sum};
 use super::quasi_values::{enclosed, quasi_value, term};
 use crate::crossing::{QuasiPolynomial, QuasiPolynomialPart};
 use equations::Formulas;
@@ -129,25 +130,25 @@ impl Complex {
         Complex { re, im: Enclosure::ZERO }
     }
     fn plus(self, other: Self) -> Self {
-        Complex { re: self.re + other.re, im: self.im + other.im }
+        Complex { re: sum(self.re, other.re), im: sum(self.im, other.im) }
     }
     fn minus(self, other: Self) -> Self {
-        Complex { re: self.re - other.re, im: self.im - other.im }
+        Complex { re: difference(self.re, other.re), im: difference(self.im, other.im) }
     }
     fn times(self, other: Self) -> Self {
         Complex {
-            re: self.re * other.re - self.im * other.im,
-            im: self.re * other.im + self.im * other.re,
+            re: difference(product(self.re, other.re), product(self.im, other.im)),
+            im: sum(product(self.re, other.im), product(self.im, other.re)),
         }
     }
     /// The quotient; `None` if the divisor may be zero.
     fn over(self, other: Self) -> Option<Self> {
-        let size = other.re.squared() + other.im.squared();
+        let size = sum(product(other.re, other.re), product(other.im, other.im));
         if !size.is_positive() {
             return None;
         }
         let turned = self.times(Complex { re: other.re, im: -other.im });
-        Some(Complex { re: turned.re / size, im: turned.im / size })
+        Some(Complex { re: quotient(turned.re, size), im: quotient(turned.im, size) })
     }
     fn is_zero(self) -> bool {
         self.re == Enclosure::ZERO && self.im == Enclosure::ZERO
@@ -192,10 +193,10 @@ fn single(a: Enclosure, forcing: &QuasiPolynomial, start: f64) -> Option<QuasiPo
             }
             y.pop();
         }
-        at_start = at_start + y.first().map_or(Enclosure::ZERO, |y| y.re);
+        at_start = sum(at_start, y.first().map_or(Enclosure::ZERO, |y| y.re));
         found = found + QuasiPolynomial::from_parts(vec![real_form(mu, &y)]);
     }
-    let own = Complex::real(Enclosure::from(start) - at_start);
+    let own = Complex::real(difference(Enclosure::from(start), at_start));
     Some(found + QuasiPolynomial::from_parts(vec![real_form(Complex::real(a), &[own])]))
 }
 
@@ -213,7 +214,7 @@ fn pair(
             let (mu, g) = exponential_form(&part);
             // The inverse of [[μ − a, −b], [−c, μ − d]].
             let (first, last) = (mu.minus(Complex::real(a)), mu.minus(Complex::real(d)));
-            let determinant = first.times(last).minus(Complex::real(b * c));
+            let determinant = first.times(last).minus(Complex::real(product(b, c)));
             let mut y = vec![[Complex::ZERO; 2]; g.len() + 1];
             for k in (0..g.len()).rev() {
                 let mut right = y[k + 1].map(|y| Complex::ZERO.minus(whole(k + 1).times(y)));
@@ -227,7 +228,7 @@ fn pair(
             y.pop();
             for (axis, found) in found.iter_mut().enumerate() {
                 let own: Vec<Complex> = y.iter().map(|y| y[axis]).collect();
-                left[axis] = left[axis] - own.first().map_or(Enclosure::ZERO, |y| y.re);
+                left[axis] = difference(left[axis], own.first().map_or(Enclosure::ZERO, |y| y.re));
                 *found = found.clone() + QuasiPolynomial::from_parts(vec![real_form(mu, &own)]);
             }
         }
@@ -236,14 +237,23 @@ fn pair(
     Some(found.into_iter().zip(own).map(|(found, own)| found + own).collect())
 }
 
+/// The square root, exact where it is a number.
+fn root(square: Enclosure) -> Option<Enclosure> {
+    let near = Enclosure::from(square.middle().sqrt());
+    if product(near, near) == square { Some(near) } else { square.sqrt() }
+}
+
 /// e^(Bt) u.
 fn free(matrix: &[Enclosure], u: [Enclosure; 2]) -> Option<[QuasiPolynomial; 2]> {
     let &[a, b, c, d] = matrix else { return None };
-    let half = Enclosure::from(0.5);
-    let (middle, radius) = (half * (a + d), half * (a - d));
+    let half = |x: Enclosure| product(Enclosure::from(0.5), x);
+    let (middle, radius) = (half(sum(a, d)), half(difference(a, d)));
     // (B − τ) u, and the square of the distance of the roots from their middle τ.
-    let bent = [radius * u[0] + b * u[1], c * u[0] - radius * u[1]];
-    let square = radius.squared() + b * c;
+    let bent = [
+        sum(product(radius, u[0]), product(b, u[1])),
+        difference(product(c, u[0]), product(radius, u[1])),
+    ];
+    let square = sum(product(radius, radius), product(b, c));
     let zero = Enclosure::ZERO;
     let of = |axis: usize| -> Option<Vec<QuasiPolynomialPart>> {
         let (u, bent) = (u[axis], bent[axis]);
@@ -251,15 +261,15 @@ fn free(matrix: &[Enclosure], u: [Enclosure; 2]) -> Option<[QuasiPolynomial; 2]>
             return Some(vec![term(middle, zero, (vec![u, bent], vec![]))]);
         }
         if square.is_negative() {
-            let omega = (-square).sqrt()?;
-            return Some(vec![term(middle, omega, (vec![u], vec![bent / omega]))]);
+            let omega = root(-square)?;
+            return Some(vec![term(middle, omega, (vec![u], vec![quotient(bent, omega)]))]);
         }
         if square.is_positive() {
-            let root = square.sqrt()?;
-            let other = bent / root;
+            let root = root(square)?;
+            let other = quotient(bent, root);
             return Some(vec![
-                term(middle + root, zero, (vec![half * (u + other)], vec![])),
-                term(middle - root, zero, (vec![half * (u - other)], vec![])),
+                term(sum(middle, root), zero, (vec![half(sum(u, other))], vec![])),
+                term(difference(middle, root), zero, (vec![half(difference(u, other))], vec![])),
             ]);
         }
         None

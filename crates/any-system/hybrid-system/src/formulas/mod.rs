@@ -9,6 +9,7 @@
 mod closed_form;
 mod derivatives;
 mod equations;
+mod exact;
 mod file;
 mod jets;
 mod label;

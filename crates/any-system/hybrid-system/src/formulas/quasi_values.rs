@@ -19,7 +19,7 @@ pub(super) fn with_error(number: Enclosure) -> (f64, f64) {
 
 /// The enclosure that a number with a bound on its error stands for.
 pub(super) fn enclosed((value, error): (f64, f64)) -> Enclosure {
-    Enclosure::around(value, error)
+    if error == 0.0 { Enclosure::from(value) } else { Enclosure::around(value, error) }
 }
 
 /// exp(σt)(cos·cos ωt + sin·sin ωt), with one coefficient each.

@@ -1,0 +1,149 @@
+//! Linear fields of equations have their closed forms: their events are certain, and those that are none are integrated.
+
+#![cfg(feature = "ode")]
+
+use hybrid_system::*;
+use std::f64::consts::PI;
+
+/// Events of a run with their certainties.
+fn events<const N: usize>(
+    equations: &Equations,
+    (mode, start, time): (&str, [f64; N], f64),
+) -> Vec<(f64, Certainty)> {
+    let model = equations.model::<State<N>>().unwrap();
+    let arcs = model.start(mode, start, time).unwrap().map(Result::unwrap);
+    arcs.filter_map(|arc| arc.event().map(|event| (event.time, event.certainty))).collect()
+}
+
+fn assert_times(found: &[(f64, Certainty)], exact: impl Fn(usize) -> f64, error: f64) {
+    for (k, (time, _)) in found.iter().enumerate() {
+        assert!((time - exact(k)).abs() <= error, "{k}: {time} {}", exact(k));
+    }
+}
+
+fn all_certain(found: &[(f64, Certainty)]) -> bool {
+    found.iter().all(|(_, certainty)| *certainty == Certainty::Certain)
+}
+
+#[test]
+fn polynomials_exponentials_and_oscillators_are_certain() {
+    let ball = Equations::new(&["x", "v"], &[("g", "1"), ("bounce", "0.5")])
+        .mode("flight", |_, x, p| [x[1], -p["g"]])
+        .falling("floor", |_, x, _| x[0])
+        .resets(|_, x, p| [x[0], -p["bounce"] * x[1]]);
+    let found = events(&ball, ("flight", [0.5, 0.0], 2.8));
+    assert!(found.len() == 4 && all_certain(&found));
+    assert_times(&found, |k| 3.0 - 2.0 * 0.5f64.powi(k as i32), 1e-14);
+
+    let room = Equations::new(&["room"], &[("outside", "10"), ("heater", "20")])
+        .mode("on", |_, x, p| [p["outside"] + p["heater"] - x[0]])
+        .rising("warm", |_, x, _| x[0] - 21.0)
+        .to("off")
+        .mode("off", |_, x, p| [p["outside"] - x[0]])
+        .falling("cold", |_, x, _| x[0] - 19.0)
+        .to("on");
+    let found = events(&room, ("on", [15.0], 4.0));
+    let cycle = (11.0f64 / 9.0).ln();
+    assert!(found.len() > 15 && all_certain(&found));
+    assert_times(&found, |k| (15.0f64 / 9.0).ln() + k as f64 * cycle, 1e-13);
+
+    // x″ + 2ζx′ + x = 0 from (1, 0), ζ = 0.1: x = 0 where tan ωt = −ω/ζ.
+    let damped = Equations::new(&["x", "v"], &[("zeta", "0.1")])
+        .mode("swing", |_, x, p| [x[1], -x[0] - 2.0 * p["zeta"] * x[1]])
+        .either("zero", |_, x, _| x[0]);
+    let found = events(&damped, ("swing", [1.0, 0.0], 40.0));
+    let omega = 0.99f64.sqrt();
+    assert!(found.len() == 12 && all_certain(&found));
+    assert_times(&found, |k| (PI - (omega / 0.1).atan() + PI * k as f64) / omega, 1e-13);
+}
+
+/// A guard that is a product, along a chain of three components, with a polynomial and an exponential forcing.
+#[test]
+fn chains_of_components_with_forcing() {
+    // z′ = −2z, y′ = −y + z + t, x′ = y.
+    let chain = Equations::new(&["x", "y", "z"], &[])
+        .mode("m", |t, x, _| [x[1], -x[1] + x[2] + t, -2.0 * x[2]])
+        .either("product", |_, x, _| (x[0] - 1.0) * (x[1] - 0.4));
+    let found = events(&chain, ("m", [0.0, 1.0, 1.0, 0.0], 9.0));
+    assert!(all_certain(&found), "{found:?}");
+    // z = e^(−2t), y = 3e^(−t) − e^(−2t) + t − 1, x = 5/2 − 3e^(−t) + e^(−2t)/2 + t²/2 − t.
+    let y = |t: f64| 3.0 * (-t).exp() - (-2.0 * t).exp() + t - 1.0;
+    let x = |t: f64| 2.5 - 3.0 * (-t).exp() + 0.5 * (-2.0 * t).exp() + 0.5 * t * t - t;
+    assert_eq!(found.len(), 1);
+    for (time, _) in &found {
+        assert!(((x(*time) - 1.0) * (y(*time) - 0.4)).abs() < 1e-13, "{time}");
+    }
+}
+
+/// Resonance and its neighbours: (cos ωt − cos t)/(1 − ω²), or t sin t/2.
+#[test]
+fn a_resonance_and_its_neighbours_are_right() {
+    for omega in [1.0f64, 1.0 + f64::EPSILON, 1.0 - f64::EPSILON, 1.0 + 1e-9, 1.0 + 1e-4, 1.01, 1.7]
+    {
+        let forced = Equations::new(&["x", "v"], &[])
+            .mode("m", move |t, x, _| [x[1], (omega * t).cos() - x[0]])
+            .either("zero", |_, x, _| x[0]);
+        let found = events(&forced, ("m", [0.0, 0.0, 0.0], 20.0));
+        // The product form: t sin(at) sin(bt)/(…) with a = (1 + ω)/2: zeros at kπ/a while |b| t < π.
+        let (a, b) = (0.5 * (1.0 + omega), 0.5 * (1.0 - omega).abs());
+        let mut exact: Vec<f64> =
+            (1..).map(|k| PI * f64::from(k) / a).take_while(|t| *t < 20.0).collect();
+        exact.extend((1..).map(|k| PI * f64::from(k) / b).take_while(|t| *t < 20.0));
+        exact.sort_by(f64::total_cmp);
+        // Double zeros are touches, which this guard does not have at these frequencies.
+        assert_eq!(found.len(), exact.len(), "{omega}: {found:?} {exact:?}");
+        assert_times(&found, |k| exact[k], 2e-9);
+    }
+}
+
+/// Critical damping and its neighbours: x = (1 + (1 + v₀)t)e^(−t) has its zero at −1/(1 + v₀).
+#[test]
+fn critical_damping_and_its_neighbours_are_right() {
+    for damping in [2.0, 2.0 + 2.0 * f64::EPSILON, 2.0 - f64::EPSILON, 2.0 + 1e-9] {
+        let oscillator = Equations::new(&["x", "v"], &[])
+            .mode("m", move |_, x, _| [x[1], -x[0] - damping * x[1]])
+            .falling("zero", |_, x, _| x[0]);
+        let found = events(&oscillator, ("m", [1.0, -3.0], 30.0));
+        assert_eq!(found.len(), 1, "{damping}");
+        assert!((found[0].0 - 0.5).abs() < 1e-8, "{damping}: {found:?}");
+    }
+    let exact = Equations::new(&["x", "v"], &[])
+        .mode("m", |_, x, _| [x[1], -x[0] - 2.0 * x[1]])
+        .falling("zero", |_, x, _| x[0]);
+    let found = events(&exact, ("m", [1.0, -3.0], 30.0));
+    assert!(all_certain(&found) && (found[0].0 - 0.5).abs() < 1e-15);
+}
+
+/// The same oscillator with a stop, in closed form and integrated: a component that stays zero makes the field no linear
+/// one.
+#[test]
+fn closed_forms_and_integration_agree() {
+    let closed = Equations::new(&["x", "v"], &[])
+        .mode("m", |t, x, _| [x[1], (1.3 * t).cos() - x[0] - 0.1 * x[1]])
+        .rising("stop", |_, x, _| x[0] - 0.5)
+        .resets(|_, x, _| [x[0], -0.8 * x[1]]);
+    let other = Equations::new(&["x", "v", "z"], &[])
+        .mode("m", |t, x, _| [x[1], (1.3 * t).cos() - x[0] - 0.1 * x[1], x[2] * x[2]])
+        .rising("stop", |_, x, _| x[0] - 0.5)
+        .resets(|_, x, _| [x[0], -0.8 * x[1], x[2]]);
+    let a = events(&closed, ("m", [0.0, 1.0, 0.0], 60.0));
+    let b = events(&other, ("m", [0.0, 1.0, 0.0, 0.0], 60.0));
+    assert!(a.len() > 8 && a.len() == b.len());
+    assert!(all_certain(&a));
+    assert!(b.iter().all(|(_, certainty)| *certainty == Certainty::Interpolated));
+    for ((first, _), (second, _)) in a.iter().zip(&b) {
+        assert!((first - second).abs() < 1e-10, "{first} {second}");
+    }
+}
+
+/// A guard that is no quasi-polynomial, or a closure, is searched along the integrated motion.
+#[test]
+fn other_guards_are_searched_on_steps() {
+    let circle = Equations::new(&["x", "v"], &[])
+        .mode("turn", |_, x, _| [x[1], -x[0]])
+        .either("root", |_, x, _| (x[0] + 2.0).sqrt() - 1.5)
+        .either("zero", |_, x, _| x[1]);
+    let found = events(&circle, ("turn", [1.0, 0.5], 10.0));
+    assert!(found.len() > 4);
+    assert!(found.iter().all(|(_, certainty)| *certainty == Certainty::Interpolated));
+}
