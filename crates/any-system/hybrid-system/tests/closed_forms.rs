@@ -53,7 +53,7 @@ fn polynomials_exponentials_and_oscillators_are_certain() {
         .either("zero", |_, x, _| x[0]);
     let found = events(&damped, ("swing", [1.0, 0.0], 40.0));
     let omega = 0.99f64.sqrt();
-    assert!(found.len() == 12 && all_certain(&found));
+    assert!(found.len() == 13 && all_certain(&found));
     assert_times(&found, |k| (PI - (omega / 0.1).atan() + PI * k as f64) / omega, 1e-13);
 }
 

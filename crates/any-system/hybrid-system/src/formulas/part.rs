@@ -73,7 +73,7 @@ impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
     fn quasi_polynomial(&self, mode: Label, surface: Label, start: &X) -> Option<QuasiPolynomial> {
         let program = self.0.mode(mode)?;
         let place = program.guards.iter().position(|guard| guard.surface == surface)?;
-        program.closed_form(start.components())?.guards.into_iter().nth(place)
+        program.closed_form(start.components())?.guards.get(place).cloned()
     }
 
     fn gradient(&self, surface: Label, state: &X) -> Option<X> {

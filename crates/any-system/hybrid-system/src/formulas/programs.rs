@@ -8,7 +8,7 @@ use crate::crossing::QuasiPolynomial;
 use crate::error::Error;
 use crate::guard::Role;
 use equations::{Constant, Formulas, JetSeries, Node, Series};
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock};
 
 /// All that is evaluated of some equations.
 #[derive(Debug)]
@@ -30,13 +30,18 @@ pub(super) struct ModeProgram {
     pub(super) after_limit: Option<Jump>,
     /// The closed form of the motion, if it has one.
     closed_form: Option<ClosedForm>,
+    /// The last start, and what it gave.
+    last_closed: Mutex<Option<LastClosed>>,
     /// The guards as watched formulas.
     watched: Option<Formulas>,
     /// The same series with derivatives, made at its first use.
     jets: Jets,
 }
 
+type LastClosed = (Vec<f64>, Option<Arc<ClosedMotion>>);
+
 /// A motion from a start, in closed form.
+#[derive(Debug)]
 pub(super) struct ClosedMotion {
     pub(super) components: Vec<QuasiPolynomial>,
     pub(super) guards: Vec<QuasiPolynomial>,
@@ -54,11 +59,26 @@ fn made(
 
 impl ModeProgram {
     /// The components along the motion from a start, and the guards along them, if all of them have a closed form.
-    pub(super) fn closed_form(&self, start: &[f64]) -> Option<ClosedMotion> {
-        let components = self.closed_form.as_ref()?.motion(start)?;
+    ///
+    /// An arc asks for it several times. The last one is kept; another thread that uses the model computes its own.
+    pub(super) fn closed_form(&self, start: &[f64]) -> Option<Arc<ClosedMotion>> {
+        let form = self.closed_form.as_ref()?;
+        let Ok(mut last) = self.last_closed.try_lock() else { return self.new_closed(form, start) };
+        if let Some((known, motion)) = last.as_ref()
+            && known.iter().map(|x| x.to_bits()).eq(start.iter().map(|x| x.to_bits()))
+        {
+            return motion.clone();
+        }
+        let motion = self.new_closed(form, start);
+        *last = Some((start.to_vec(), motion.clone()));
+        motion
+    }
+
+    fn new_closed(&self, form: &ClosedForm, start: &[f64]) -> Option<Arc<ClosedMotion>> {
+        let components = form.motion(start)?;
         let known: Vec<_> = components.iter().cloned().map(Some).collect();
         let guards = self.guards.iter().map(|guard| quasi_value(&guard.function, 0, &known));
-        Some(ClosedMotion { guards: guards.collect::<Option<_>>()?, components })
+        Some(Arc::new(ClosedMotion { guards: guards.collect::<Option<_>>()?, components }))
     }
 
     /// The series with derivatives.
@@ -153,7 +173,17 @@ impl ModeEquations {
         let series = Series::new(&field, watched.as_ref())?;
         let after_limit = self.after_limit.clone();
         let (name, jets, closed_form) = (self.name, Jets::new(), ClosedForm::of(&field));
-        Ok(ModeProgram { name, field, series, guards, after_limit, closed_form, watched, jets })
+        Ok(ModeProgram {
+            name,
+            field,
+            series,
+            guards,
+            after_limit,
+            closed_form,
+            last_closed: Mutex::new(None),
+            watched,
+            jets,
+        })
     }
 }
 
