@@ -95,8 +95,8 @@ impl Rules {
         };
         let mut rules = Rules { nodes, moving: Vec::new(), polynomials: (0, 0), terms };
         let mut slopes = vec![None; rules.nodes.len()];
-        for place in 0..rules.nodes.len() {
-            let operands = chains[place].iter().map(|&(_, operand)| operand);
+        for (place, chain) in chains.iter().enumerate() {
+            let operands = chain.iter().map(|&(_, operand)| operand);
             let of_power =
                 rules.power(place, &moves).map_or([None, None], |(a, _)| [Some(a), Some(place)]);
             for needed in operands.chain(of_power.into_iter().flatten()) {

@@ -113,8 +113,9 @@ impl Series {
 
     /// The degree in time of a motion all of whose components are polynomials, from any start: such as a free fall.
     pub fn degree(&self) -> Option<usize> {
-        let degrees = self.states.iter().map(|&row| self.rules.terms[row].map(|terms| terms - 1));
-        degrees.fold(Some(0), |most, degree| most.zip(degree).map(|(most, one)| most.max(one)))
+        let degree = |&row: &usize| self.rules.terms[row].map(|terms| terms - 1);
+        let degrees: Option<Vec<usize>> = self.states.iter().map(degree).collect();
+        Some(degrees?.into_iter().max().unwrap_or(0))
     }
 
     /// The coefficients up to `order` at a time and a state.

@@ -213,7 +213,7 @@ impl<'s> TaylorFlow<'s> {
     /// [`Error::Length`]; [`Error::NoValue`] if the field or its series has no value at the state; [`Error::Time`] for
     /// a time that is not finite; [`Error::Stuck`] if no step moves the time.
     pub fn step(&self, time: f64, state: &[f64], end: f64, step: &mut Step) -> Result<(), Error> {
-        if !(time.is_finite() && !end.is_nan()) {
+        if !time.is_finite() || end.is_nan() {
             return Err(Error::Time { time, end });
         }
         self.series.expand(&time, state, &mut step.coefficients)?;

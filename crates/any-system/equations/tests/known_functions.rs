@@ -54,9 +54,8 @@ fn series_have_the_known_coefficients() {
         let found = series.coefficients(0.0, &start, known.len() - 1).unwrap();
         // A coefficient may be 0, as those of the sine at 0. Its error is one of the others then.
         let size = |k: usize| known[k].abs() + known[k - 1].abs().min(1.0);
-        for k in 1..known.len() {
-            let off = (found.watched(0)[k] - known[k]).abs();
-            assert!(off <= 1e-12 * size(k), "{what}, {k}: {} {}", found.watched(0)[k], known[k]);
+        for (k, (found, known)) in found.watched(0).iter().zip(&known).enumerate().skip(1) {
+            assert!((found - known).abs() <= 1e-12 * size(k), "{what}, {k}: {found} {known}");
         }
         let [off, ulp] = [(found.watched(0)[0] - known[0]).abs(), f64::EPSILON * known[0].abs()];
         assert!(off <= 2.0 * ulp + 1e-323, "{what}: {} {}", found.watched(0)[0], known[0]);

@@ -13,12 +13,6 @@ pub enum Error {
     #[cfg(feature = "ode")]
     #[error(transparent)]
     Formula(#[from] equations::Error),
-    /// A name of a mode or a surface is too long to be copied like a number.
-    #[error("the name {label:?} has more than 31 bytes: shorten it")]
-    BadLabel {
-        /// The name.
-        label: String,
-    },
     /// The equations of a model do not fit together.
     #[error("{what}: {reason}")]
     BadEquations {

@@ -11,6 +11,7 @@ mod clocks_beside_events;
 mod closed_forms;
 mod cradles;
 mod ends_of_arcs;
+mod equation_derivatives;
 mod equation_models;
 mod exponential_guards;
 mod instant_derivatives;

@@ -5,10 +5,10 @@ use super::motion::TaylorMotion;
 use super::part::FormulaPart;
 use super::programs::Programs;
 use crate::error::Error;
-use crate::guard::{Direction, Guard, Role, Touch};
+use crate::guard::Guard;
 use crate::model::Model;
 use crate::state::StateVector;
-use equations::{Expression, Formulas, Names, Parameters};
+use equations::{Formulas, Names};
 use std::sync::Arc;
 
 /// A hybrid system by its equations, written once, with the names of its variables, parameters, modes and surfaces.
@@ -53,7 +53,7 @@ pub struct Equations {
     pub(super) everywhere: Vec<GuardEquations>,
     pub(super) modes: Vec<ModeEquations>,
     /// What was wrong first.
-    wrong: Option<Error>,
+    pub(super) wrong: Option<Error>,
 }
 
 /// A mode by its equations.
@@ -84,34 +84,7 @@ pub(super) struct Jump {
     pub(super) state: Option<Formulas>,
 }
 
-const NO_GUARD: &str = "what an event does stands behind its guard, and no guard has been declared";
-const NO_MODE: &str = "the equations have no such mode";
-
-/// Gives the three directions of guards, from a closure and from text.
-macro_rules! guards {
-    ($($(#[$about:meta])* $name:ident $from_text:ident $direction:ident;)*) => {$(
-        $(#[$about])*
-        #[must_use]
-        pub fn $name(
-            self,
-            surface: &str,
-            function: impl for<'g> Fn(Expression<'g>, &[Expression<'g>], &Parameters<'g>) -> Expression<'g>,
-        ) -> Self {
-            if self.wrong.is_some() {
-                return self;
-            }
-            let function = Formulas::new(self.names.clone(), |t, x, p| [function(t, x, p)]);
-            self.guard(surface, Direction::$direction, function)
-        }
-
-        /// The same, from text.
-        #[must_use]
-        pub fn $from_text(self, surface: &str, function: &str) -> Self {
-            let function = Formulas::from_text(self.names.clone(), &[function]);
-            self.guard(surface, Direction::$direction, function)
-        }
-    )*};
-}
+pub(super) const NO_MODE: &str = "the equations have no such mode";
 
 impl Equations {
     /// Equations without modes, with the names of the state's components, and of parameters with their values: decimals
@@ -126,226 +99,6 @@ impl Equations {
 
     pub(super) fn of_names(names: Names) -> Equations {
         Equations { names, everywhere: vec![], modes: vec![], wrong: None }
-    }
-
-    fn refused(mut self, error: impl Into<Error>) -> Self {
-        self.wrong.get_or_insert(error.into());
-        self
-    }
-
-    /// Adds a mode with its field: the rate of each component.
-    #[must_use]
-    pub fn mode<const N: usize>(
-        self,
-        name: &str,
-        field: impl for<'g> Fn(
-            Expression<'g>,
-            &[Expression<'g>],
-            &Parameters<'g>,
-        ) -> [Expression<'g>; N],
-    ) -> Self {
-        // A closure that is called with names that were refused would find no components.
-        if self.wrong.is_some() {
-            return self;
-        }
-        let field = Formulas::new(self.names.clone(), field);
-        self.add_mode(name, field)
-    }
-
-    /// The same, from texts.
-    #[must_use]
-    pub fn mode_text(self, name: &str, field: &[&str]) -> Self {
-        let field = Formulas::from_text(self.names.clone(), field);
-        self.add_mode(name, field)
-    }
-
-    /// The same, from a closure that returns a vector: for a number of components that is known when it runs.
-    #[must_use]
-    pub fn mode_vector(
-        self,
-        name: &str,
-        field: impl for<'g> Fn(
-            Expression<'g>,
-            &[Expression<'g>],
-            &Parameters<'g>,
-        ) -> Vec<Expression<'g>>,
-    ) -> Self {
-        if self.wrong.is_some() {
-            return self;
-        }
-        let field = Formulas::of_vector(self.names.clone(), field);
-        self.add_mode(name, field)
-    }
-
-    fn add_mode(mut self, name: &str, field: Result<Formulas, equations::Error>) -> Self {
-        // What follows belongs to names that were refused.
-        if self.wrong.is_some() {
-            return self;
-        }
-        match (Label::new(name), field) {
-            (Err(error), _) => self.refused(error),
-            (_, Err(error)) => self.refused(error),
-            (Ok(name), _) if self.modes.iter().any(|mode| mode.name == name) => {
-                self.refused(Error::BadEquations {
-                    what: name.to_string(),
-                    reason: "a mode has it already",
-                })
-            }
-            (Ok(name), Ok(field)) => {
-                self.modes.push(ModeEquations { name, field, guards: vec![], after_limit: None });
-                self
-            }
-        }
-    }
-
-    guards! {
-        /// Adds a guard: an event when g(t, x) goes from negative to positive.
-        rising rising_text Rising;
-        /// Adds a guard: an event when g(t, x) goes from positive to negative.
-        falling falling_text Falling;
-        /// Adds a guard: an event at every change of sign of g(t, x).
-        either either_text Either;
-    }
-
-    fn guard(
-        mut self,
-        surface: &str,
-        direction: Direction,
-        function: Result<Formulas, equations::Error>,
-    ) -> Self {
-        if self.wrong.is_some() {
-            return self;
-        }
-        match (Label::new(surface), function) {
-            (Err(error), _) => self.refused(error),
-            (_, Err(error)) => self.refused(error),
-            (Ok(surface), Ok(function)) => {
-                // An observer, until something else is said.
-                let guard = Guard { surface, direction, role: Role::Crossing, touch: Touch::Error };
-                let added = GuardEquations { guard, function, jump: Some(Jump::default()) };
-                match self.modes.last_mut() {
-                    Some(mode) => mode.guards.push(added),
-                    None => self.everywhere.push(added),
-                }
-                self
-            }
-        }
-    }
-
-    fn last_guard(&mut self) -> Option<&mut GuardEquations> {
-        match self.modes.last_mut() {
-            Some(mode) => mode.guards.last_mut(),
-            None => self.everywhere.last_mut(),
-        }
-    }
-
-    /// Changes the guard that was added last.
-    fn with_last(mut self, change: impl FnOnce(&mut GuardEquations)) -> Self {
-        if self.wrong.is_some() {
-            return self;
-        }
-        match self.last_guard() {
-            Some(guard) => {
-                change(guard);
-                self
-            }
-            None => {
-                self.refused(Error::BadEquations { what: "equations".to_owned(), reason: NO_GUARD })
-            }
-        }
-    }
-
-    /// Changes what the event of the guard that was added last does. A state beyond the surface cannot go on then, unless
-    /// the guard is a [crossing](Self::crossing).
-    fn with_jump(self, change: impl FnOnce(&mut Jump)) -> Self {
-        self.with_last(|guard| {
-            let observes = guard.jump.as_ref().is_some_and(|jump| *jump == Jump::default());
-            if observes && guard.guard.role == Role::Crossing {
-                guard.guard.role = Role::Switch;
-            }
-            change(guard.jump.get_or_insert_default());
-        })
-    }
-
-    /// The event of the last guard leads to this mode.
-    #[must_use]
-    pub fn to(self, mode: &str) -> Self {
-        match Label::new(mode) {
-            Ok(mode) => self.with_jump(|jump| jump.mode = Some(mode)),
-            Err(error) => self.refused(error),
-        }
-    }
-
-    /// The event of the last guard leads to this state.
-    #[must_use]
-    pub fn resets<const N: usize>(
-        self,
-        state: impl for<'g> Fn(
-            Expression<'g>,
-            &[Expression<'g>],
-            &Parameters<'g>,
-        ) -> [Expression<'g>; N],
-    ) -> Self {
-        if self.wrong.is_some() {
-            return self;
-        }
-        let state = Formulas::new(self.names.clone(), state);
-        self.with_state(state)
-    }
-
-    /// The same, from texts.
-    #[must_use]
-    pub fn resets_text(self, state: &[&str]) -> Self {
-        let state = Formulas::from_text(self.names.clone(), state);
-        self.with_state(state)
-    }
-
-    fn with_state(self, state: Result<Formulas, equations::Error>) -> Self {
-        match state {
-            _ if self.wrong.is_some() => self,
-            Ok(state) => self.with_jump(|jump| jump.state = Some(state)),
-            Err(error) => self.refused(error),
-        }
-    }
-
-    /// The event of the last guard ends the execution.
-    #[must_use]
-    pub fn stops(self) -> Self {
-        self.with_jump(|_| ()).with_last(|guard| guard.jump = None)
-    }
-
-    /// The last guard is a contact that holds, such as a floor: see [`Role::Contact`].
-    #[must_use]
-    pub fn contact(self) -> Self {
-        self.with_last(|guard| guard.guard.role = Role::Contact)
-    }
-
-    /// The last guard is crossed in flight alone: see [`Role::Crossing`].
-    #[must_use]
-    pub fn crossing(self) -> Self {
-        // An observer is one already; the event of another one may still be declared.
-        self.with_jump(|_| ()).with_last(|guard| guard.guard.role = Role::Crossing)
-    }
-
-    /// What a touch of the last guard is.
-    #[must_use]
-    pub fn touch(self, touch: Touch) -> Self {
-        self.with_last(|guard| guard.guard.touch = touch)
-    }
-
-    /// After infinitely many events of the last mode in finite time the execution goes on in this mode, at the limit.
-    #[must_use]
-    pub fn rests(mut self, mode: &str) -> Self {
-        match (Label::new(mode), self.modes.last_mut()) {
-            (Err(error), _) => self.refused(error),
-            (Ok(mode), Some(last)) => {
-                last.after_limit = Some(Jump { mode: Some(mode), state: None });
-                self
-            }
-            (Ok(mode), None) => {
-                self.refused(Error::BadEquations { what: mode.to_string(), reason: NO_MODE })
-            }
-        }
     }
 
     /// The same equations with other values of parameters, as decimals by name.
@@ -380,7 +133,7 @@ impl Equations {
     /// An error unless all modes to which events lead are there, and all formulas have their numbers of components.
     ///
     /// # Errors
-    /// What was wrong first in the equations: [`Error::Formula`], [`Error::BadLabel`], [`Error::BadEquations`].
+    /// What was wrong first in the equations: [`Error::Formula`], [`Error::BadEquations`].
     pub fn check(&self) -> Result<(), Error> {
         if let Some(error) = &self.wrong {
             return Err(error.clone());

@@ -65,7 +65,7 @@ impl Equations {
     /// The equations of a file. Any bytes are safe: what is no such file is an error with its place.
     ///
     /// # Errors
-    /// [`Error::Formula`], [`Error::BadLabel`], [`Error::BadEquations`].
+    /// [`Error::Formula`], [`Error::BadEquations`].
     pub fn from_json(text: &str) -> Result<Equations, Error> {
         let file = equations::bounded_value(text)?;
         if file["format"] != FORMAT || file["version"] != VERSION {

@@ -27,13 +27,15 @@ impl Label {
     /// The label with this text.
     ///
     /// # Errors
-    /// [`Error::BadLabel`] for a text of more than 31 bytes.
+    /// [`Error::BadEquations`] for a text of more than 31 bytes.
     pub fn new(text: &str) -> Result<Label, Error> {
         let mut bytes = [0; LONGEST + 1];
+        let too_long = || Error::BadEquations {
+            what: format!("the name {text:?}"),
+            reason: "it has more than 31 bytes: shorten it",
+        };
         let place = bytes[..LONGEST].get_mut(..text.len());
-        place
-            .ok_or_else(|| Error::BadLabel { label: text.to_owned() })?
-            .copy_from_slice(text.as_bytes());
+        place.ok_or_else(too_long)?.copy_from_slice(text.as_bytes());
         bytes[LONGEST] = text.len() as u8;
         Ok(Label { bytes })
     }

@@ -1,11 +1,12 @@
 //! How is a model of equations written, stored and run? (feature `ode`)
 //!
-//! [`Equations`] are what a user writes (`equations`), as data, with [`Label`]s for modes and surfaces. `programs` has what
+//! [`Equations`] are what a user writes (`equations`, `builder`), as data, with [`Label`]s for modes and surfaces. `programs` has what
 //! is evaluated of them: a Taylor series for each mode, with its guards as watched formulas. `closed_form`
 //! solves linear fields, in functions of time that `quasi_values` computes with. `motion` and `part` are the
 //! motion and the part of a [`Model`](crate::Model). `jets` has the derivatives of whole executions, `derivatives` those of
 //! [`Differentiable`](crate::Differentiable). `file` is the JSON of equations.
 
+mod builder;
 mod closed_form;
 mod derivatives;
 mod equations;
