@@ -85,7 +85,7 @@ pub(crate) fn by_us() -> Result<Vec<FoundEvents>, Error> {
             lines,
         })
     };
-    ours::scenes().into_iter().map(found).collect()
+    ours::scenes()?.into_iter().map(found).collect()
 }
 
 fn read(path: &Path) -> Result<Vec<FoundEvents>, Error> {
@@ -102,15 +102,15 @@ mod tests {
     #[test]
     fn our_events_are_the_exact_ones() {
         let answers = answers().unwrap();
-        for (answer, (scene, run)) in answers.iter().zip(ours::scenes()) {
+        for (answer, (scene, run)) in answers.iter().zip(ours::scenes().unwrap()) {
             let (times, end) = run().unwrap();
             let (scene, name) = (scene.to_owned(), "ours".to_owned());
             let found = FoundEvents { scene, name, seconds: 1.0, times, end, lines: 1 };
             let verdict = verdict(&found, answer);
             assert_eq!(answer.scene, found.scene);
             assert_eq!((verdict.right, verdict.wrong), (verdict.exact, 0), "{verdict:?}");
-            // The pendulum's energy errors of 1e-12 a step make its times drift: 2e-9 after 48 periods.
-            assert!(verdict.error < 1e-8 && verdict.end == verdict::End::Right, "{verdict:?}");
+            // The pendulum's energy errors make its times drift, over 48 periods.
+            assert!(verdict.error < 1e-10 && verdict.end == verdict::End::Right, "{verdict:?}");
         }
     }
 
