@@ -10,14 +10,15 @@ use crate::taylor_flow::{order_of, root, safety, shortened};
 /// The most steps of one motion.
 const MOST_STEPS: usize = 1_000_000;
 
-/// The last step of a motion with derivatives.
-#[derive(Debug, Clone, PartialEq)]
-pub struct JetStep<const T: usize> {
-    /// The coefficients of state and watched formulas, in powers of the time since the step began.
-    pub coefficients: Coefficients<Jet<T>>,
-    /// The time from its beginning to the end of the motion.
-    pub length: f64,
-}
+/// How often a step is halved.
+const MOST_HALVINGS: usize = 60;
+
+/// How much larger than the tolerance times the order the error of a rate, times the step, may be: see `taylor_flow`. A
+/// derivative is compared with the largest one.
+const RATE_ERROR: f64 = 30.0;
+
+/// A step is tested against the field at its end, and at this part of it.
+const INSIDE: f64 = 0.381_966_011_250_105_1;
 
 /// The sum Σ c_k x^k of jets at a jet x.
 pub fn jet_horner<const T: usize>(series: &[Jet<T>], x: &Jet<T>) -> Jet<T> {
@@ -26,19 +27,19 @@ pub fn jet_horner<const T: usize>(series: &[Jet<T>], x: &Jet<T>) -> Jet<T> {
 }
 
 impl JetSeries {
-    /// Follows the motion from a state, the parameters included, for a `duration`, which may be below zero, and gives its
-    /// last step. The error of a component in a step is its size times `relative` and `absolute`, added; that of a
-    /// derivative its largest component times `relative`.
+    /// Follows the motion from a state, the parameters included, for a `duration`, which may be below zero. The error of a
+    /// component in a step is its size times `relative` and `absolute`, added; that of a derivative its largest component
+    /// times `relative`.
     ///
     /// # Errors
     /// As [`coefficients`](Self::coefficients); [`Error::Tolerance`]; [`Error::Time`] for a duration that is not finite;
-    /// [`Error::Stuck`] after a million steps.
+    /// [`Error::Stuck`] if no step is short enough, and after a million steps.
     pub fn flow<const T: usize>(
         &self,
         start: &[Jet<T>],
         duration: f64,
         (relative, absolute): (f64, f64),
-    ) -> Result<JetStep<T>, Error> {
+    ) -> Result<Vec<Jet<T>>, Error> {
         if !((1e-17..=0.1).contains(&relative) && absolute >= 0.0) {
             return Err(Error::Tolerance { relative, absolute });
         }
@@ -48,23 +49,68 @@ impl JetSeries {
         let order = order_of(relative);
         let (mut state, mut time) = (start.to_vec(), 0.0);
         for _ in 0..MOST_STEPS {
+            if time == duration {
+                return Ok(state);
+            }
             let coefficients = self.coefficients(&state, order)?;
             let left = duration - time;
-            let length = length(&coefficients, (relative, absolute), left.abs());
-            if length >= left.abs() {
-                return Ok(JetStep { coefficients, length: left });
+            let mut length = length(&coefficients, (relative, absolute), left.abs()).copysign(left);
+            let mut halvings = 0;
+            while !self.goes_on(&coefficients, length, (relative, absolute)) {
+                length *= 0.5;
+                halvings += 1;
+                if halvings > MOST_HALVINGS {
+                    return Err(Error::Stuck { time, end: duration });
+                }
             }
-            let end = time + length.copysign(left);
+            let end = if length == left { duration } else { time + length };
             if end == time {
                 break;
             }
-            let since = Jet::number(end - time);
+            let since = Jet::number(length);
             let states = coefficients.states().map(|series| jet_horner(series, &since));
-            state = states.collect();
-            time = end;
+            (state, time) = (states.collect(), end);
         }
         Err(Error::Stuck { time, end: duration })
     }
+
+    /// The field at the end of a step and inside it is that of the polynomials, with all derivatives.
+    fn goes_on<const T: usize>(
+        &self,
+        coefficients: &Coefficients<Jet<T>>,
+        length: f64,
+        (relative, absolute): (f64, f64),
+    ) -> bool {
+        [INSIDE, 1.0].iter().all(|part| {
+            let since = part * length;
+            let at: Vec<Jet<T>> = coefficients
+                .states()
+                .map(|series| jet_horner(series, &Jet::number(since)))
+                .collect();
+            let Ok(there) = self.coefficients(&at, 1) else { return false };
+            (0..T).all(|order| {
+                let sizes = at.iter().map(|jet| jet.0[order].abs());
+                let size = sizes.fold(0.0, f64::max);
+                let mut off = 0.0_f64;
+                let mut rounding = 0.0_f64;
+                for (series, there) in coefficients.states().zip(there.states()) {
+                    let terms = series.iter().enumerate().skip(1).rev();
+                    let rate = terms.fold(0.0, |sum, (k, c)| sum * since + k as f64 * c.0[order]);
+                    let own = (rate - there[1].0[order]).abs() * length.abs();
+                    off = if own <= off || off.is_nan() { off } else { own };
+                    rounding = rounding.max((rate * length).abs());
+                }
+                let scale = size.max(rounding);
+                let allowed = series_order(coefficients)
+                    * (relative * scale + if order == 0 { absolute } else { 0.0 });
+                off <= RATE_ERROR * (allowed + f64::EPSILON * rounding + f64::MIN_POSITIVE)
+            })
+        })
+    }
+}
+
+fn series_order<const T: usize>(coefficients: &Coefficients<Jet<T>>) -> f64 {
+    coefficients.states().next().map_or(1.0, |series| series.len() as f64)
 }
 
 /// The length of a step, at most `longest`.

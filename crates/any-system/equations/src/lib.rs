@@ -58,7 +58,7 @@ pub use evaluate::Evaluator;
 pub use expression::{Expression, Parameters, Term};
 pub use formulas::{Formulas, Names};
 pub use jet::Jet;
-pub use jet_flow::{JetStep, jet_horner};
+pub use jet_flow::jet_horner;
 pub use jet_series::JetSeries;
 pub use json::bounded_value;
 pub use lanes::Columns;

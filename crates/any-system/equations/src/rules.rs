@@ -51,6 +51,16 @@ pub(crate) struct Rule {
 }
 
 impl Rule {
+    /// The number of rows from which it comes.
+    fn operands(&self) -> usize {
+        match self.kind {
+            Kind::Time => 0,
+            Kind::State | Kind::Negative | Kind::Square | Kind::Root | Kind::Slope => 1,
+            Kind::Power | Kind::Chains => 4,
+            _ => 2,
+        }
+    }
+
     fn new(kind: Kind, of: &[usize], most: Option<usize>) -> Rule {
         let mut rule =
             Rule { kind, row: 0, of: [0; 4], most: most.map_or(u32::MAX, |most| most as u32) };
@@ -130,6 +140,28 @@ impl Rules {
         let begin = |row: u32| row * length as u32;
         let moved = |rule: &Rule| Rule { row: begin(rule.row), of: rule.of.map(begin), ..*rule };
         self.moving.iter().map(moved).collect()
+    }
+
+    /// For each row, whether one of these parts needs it, or its coefficients.
+    pub(crate) fn needed(&self, wanted: &[usize]) -> Vec<bool> {
+        let mut needed = vec![false; self.rows()];
+        wanted.iter().for_each(|&row| needed[row] = true);
+        loop {
+            let before = needed.iter().filter(|needed| **needed).count();
+            for rule in self.moving.iter().rev() {
+                if needed[rule.row as usize] {
+                    rule.of[..rule.operands()].iter().for_each(|&row| needed[row as usize] = true);
+                }
+            }
+            for (place, node) in self.nodes.iter().enumerate().rev() {
+                if needed[place] {
+                    node.operands().for_each(|operand| needed[operand] = true);
+                }
+            }
+            if needed.iter().filter(|needed| **needed).count() == before {
+                return needed;
+            }
+        }
     }
 
     /// The number of rows.

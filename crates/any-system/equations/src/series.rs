@@ -70,8 +70,11 @@ pub struct Series {
     /// The rows of the state's components and of the watched formulas.
     states: Vec<usize>,
     watched: Vec<usize>,
-    /// The first parts, of which the field consists.
+    /// The first parts, of which the field consists, and with them those of the watched formulas.
     pub(crate) field_parts: usize,
+    pub(crate) value_parts: usize,
+    /// For each row, whether the field needs it.
+    in_field: Vec<bool>,
 }
 
 impl Series {
@@ -99,11 +102,14 @@ impl Series {
             watched.map_or(Ok(Vec::new()), |watched| field.joined(&mut graph, watched))?;
         // Also of components that no formula has.
         let count = field.names.states.len();
-        let states = (0..count).map(|component| graph.place(Node::State(component))).collect();
+        let states: Vec<usize> =
+            (0..count).map(|component| graph.place(Node::State(component))).collect();
+        let value_parts = graph.nodes().len();
         let rules = Rules::new(field, graph, polynomials)?;
+        let in_field = rules.needed(&states);
         let (names, outputs) = (field.names.clone(), field.outputs.clone());
         let field = Formulas::of(names, rules.nodes.clone(), outputs);
-        Ok(Series { field, rules, states, watched, field_parts })
+        Ok(Series { field, rules, states, watched, field_parts, value_parts, in_field })
     }
 
     /// The number of components of the state.
@@ -141,7 +147,12 @@ impl Series {
     ) -> Result<Coefficients<A>, Error> {
         let mut found = self.memory(order)?;
         self.expand(&time, state, &mut found)?;
-        Ok(found)
+        let length = length(found.terms);
+        let wrong = |row: &usize| !found.all[row * length..][..found.terms].iter().all(A::is_valid);
+        match (0..self.field.nodes.len()).find(wrong) {
+            Some(part) => Err(self.field.no_value(part, &time, state)),
+            None => Ok(found),
+        }
     }
 
     /// Memory for coefficients up to an order, to be used again and again.
@@ -169,7 +180,12 @@ impl Series {
         Ok(Coefficients { all, terms, states, watched, rules })
     }
 
-    /// Computes all coefficients at a time and a state.
+    /// The place of a watched formula among the parts.
+    pub(crate) fn watched_part(&self, formula: usize) -> Option<usize> {
+        self.watched.get(formula).copied()
+    }
+
+    /// Computes all coefficients at a time and a state. Those of watched formulas may have no values.
     pub(crate) fn expand<A: Algebra + fmt::Debug>(
         &self,
         time: &A,
@@ -180,7 +196,10 @@ impl Series {
         self.field.check_start(time, state)?;
         let length = length(into.terms);
         compute(&self.field.nodes, time, state, &mut into.all, length);
-        self.finish(into).map_err(|part| self.field.no_value(part, time, state))
+        match self.finish(into) {
+            Err(part) if self.in_field[part] => Err(self.field.no_value(part, time, state)),
+            _ => Ok(()),
+        }
     }
 
     /// Computes the coefficients from those of order 0; the first part without a value of the lowest order if there is
@@ -202,11 +221,12 @@ impl Series {
         if are_valid {
             return Ok(());
         }
-        // Of the lowest order without a value, the first part.
+        // Of the lowest order without a value, the first part, and one that the field needs if there is one.
         let parts = self.field.nodes.len();
         let order = |k: usize| (0..parts).map(move |row| row * length + k);
-        let wrong = (0..terms).flat_map(order).find(|&at| !into.all[at].is_valid());
-        Err(wrong.map_or(0, |at| at / length))
+        let wrong = || (0..terms).flat_map(order).filter(|&at| !into.all[at].is_valid());
+        let in_field = wrong().find(|&at| self.in_field[at / length]);
+        Err(in_field.or_else(|| wrong().next()).map_or(0, |at| at / length))
     }
 }
 

@@ -15,9 +15,25 @@ const MOST_STEPS: usize = 1_000_000;
 /// How often a step is halved, until it is some 10⁻¹⁸ of its first length: next to the end of a field's domain.
 const MOST_HALVINGS: usize = 60;
 
-/// How much larger than the tolerance times the order the error of a rate may be, times the step. A smaller number
-/// shortens steps of fields that spread errors fast; a larger one sees less.
-const RATE_ERROR: f64 = 1000.0;
+/// How much larger than the tolerance times the order the error of a rate may be, times the step. The terms that are left
+/// out give one of about 1/7. A smaller number shortens steps of fields that spread errors fast; a larger one sees less.
+const RATE_ERROR: f64 = 30.0;
+
+/// How much larger than the tolerance times the order, of its largest term, the distance of a watched formula from its
+/// polynomial may be. It is only trusted to show where zeros are; the zeros themselves are those of the formula.
+const WATCHED_ERROR: f64 = 1000.0;
+
+/// A step is tested against the field at its end, and at this part of it: no simple fraction, at which a field that
+/// repeats itself would look like its series.
+const INSIDE: f64 = 0.381_966_011_250_105_1;
+
+/// A term of a lower order may be so many times larger than the last two let expect. A smaller number shortens steps of
+/// regular series; a larger one sees fewer of those with gaps, such as 1/(1 + x⁴).
+const GAP: f64 = 1000.0;
+
+/// For a watched formula a step is made no shorter than this part of it: next to a pole of the formula its values are
+/// looked at instead.
+const SHORTEST_FOR_WATCHED: f64 = 1.0 / 1024.0;
 
 /// How often a step is shortened for a series that bends more than the state. Each time it gets at least a tenth shorter;
 /// two or three times are usual.
@@ -53,7 +69,9 @@ pub struct Step {
     pub state_at_end: Vec<f64>,
     /// The field at its end.
     pub rate_at_end: Vec<f64>,
-    /// Values of the field's parts.
+    /// For each watched formula, whether its polynomial is the formula, as far as two values show.
+    pub trusted: Vec<bool>,
+    /// Values of the parts.
     parts: Vec<f64>,
 }
 
@@ -79,6 +97,10 @@ pub(crate) fn order_of(relative: f64) -> usize {
 /// (Jorba and Zou, Section 3.2).
 pub(crate) fn safety(order: usize) -> f64 {
     pxfm::f_exp(-2.0 - 0.7 / (order - 1) as f64)
+}
+
+fn powi(base: f64, exponent: usize) -> f64 {
+    (0..exponent).fold(1.0, |power, _| power * base)
 }
 
 /// The n-th root of a size, for the length of a step: to some ten digits, in a third of the time of a power.
@@ -201,6 +223,7 @@ impl<'s> TaylorFlow<'s> {
             coefficients: self.series.memory(self.order)?,
             state_at_end: vec![0.0; dimension],
             rate_at_end: vec![0.0; dimension],
+            trusted: Vec::new(),
             parts: self.series.field.numbers(),
         })
     }
@@ -218,13 +241,17 @@ impl<'s> TaylorFlow<'s> {
         }
         self.series.expand(&time, state, &mut step.coefficients)?;
         step.time = time;
-        let length = self.length_for_watched(step, self.length_for_state(step));
+        let length = self.length_for_state(step).min((end - time).abs());
+        let length = self.length_for_watched(step, length);
         step.end = match end >= time {
             true => (time + length).min(end),
             false => (time - length).max(end),
         };
         if !step.end.is_finite() {
             return Err(Error::Time { time, end });
+        }
+        if step.end == time && end != time {
+            return Err(Error::Stuck { time, end });
         }
         self.shorten(step)
     }
@@ -244,26 +271,54 @@ impl<'s> TaylorFlow<'s> {
         let [before, last] = sizes.map(|size| self.tolerance * size);
         let radius = |size: f64, order: usize| root(size, order).recip();
         let radius = radius(before, self.order - 1).min(radius(last, self.order));
+        let radius = self.without_gaps(step, radius.min(f64::MAX), largest);
         (safety(self.order) * radius).min(self.longest_step)
+    }
+
+    /// The radius at which terms of lower orders are no larger than the last two let expect.
+    fn without_gaps(&self, step: &Step, mut radius: f64, largest: f64) -> f64 {
+        let first = self.order / 2;
+        for (series, tolerances) in step.coefficients.states().zip(&self.tolerances) {
+            let scale = allowed(*tolerances, series[0].abs(), largest) / self.tolerance;
+            let mut power = powi(radius, first);
+            for (k, coefficient) in series.iter().enumerate().skip(first) {
+                if coefficient.abs() * power > GAP * scale {
+                    radius = root(coefficient.abs() / scale, k).recip();
+                    power = powi(radius, k);
+                }
+                power *= radius;
+            }
+        }
+        radius
     }
 
     /// The length at which also the last terms of the watched formulas are small beside their largest ones: a formula
     /// may bend more than the state, as sin(x) does along x = t.
     fn length_for_watched(&self, step: &Step, length: f64) -> f64 {
+        let least = SHORTEST_FOR_WATCHED * length;
         let watched = step.coefficients.all_watched();
         watched.fold(length, |length, series| {
-            shortened(series.len(), |k| series[k].abs(), self.tolerance, length)
+            let found = shortened(series.len(), |k| series[k].abs(), self.tolerance, length);
+            // Without values there is nothing to be shortened for.
+            if found >= least { found } else { length.min(least) }
         })
     }
 
-    /// Shortens a step until the field at its end is that of its polynomial; both stand in the step then.
+    /// Shortens a step until the field at its end, and inside it, is that of its polynomial; state and field at the end
+    /// stand in the step then.
     fn shorten(&self, step: &mut Step) -> Result<(), Error> {
         let end = step.end;
         let mut refused = None;
         for _ in 0..MOST_HALVINGS {
-            match self.go_to_end(step) {
-                Ok(()) if self.goes_on(step) => return Ok(()),
-                Ok(()) => refused = None,
+            step.trusted.clear();
+            step.trusted.resize(step.coefficients.all_watched().len(), true);
+            let inside = step.time + INSIDE * (step.end - step.time);
+            match self
+                .agrees(step, inside)
+                .and_then(|agrees| Ok(agrees && self.agrees(step, step.end)?))
+            {
+                Ok(true) => return Ok(()),
+                Ok(false) => refused = None,
                 Err(error) => refused = Some(error),
             }
             step.end = step.time + 0.5 * (step.end - step.time);
@@ -274,30 +329,45 @@ impl<'s> TaylorFlow<'s> {
         Err(refused.unwrap_or(Error::Stuck { time: step.time, end }))
     }
 
-    /// Computes the state and the field at the end of a step.
-    fn go_to_end(&self, step: &mut Step) -> Result<(), Error> {
-        let length = step.end - step.time;
+    /// Computes the state and the field at a time of a step; true if the field is that of the polynomial.
+    fn agrees(&self, step: &mut Step, time: f64) -> Result<bool, Error> {
+        let length = time - step.time;
         for (state, series) in step.state_at_end.iter_mut().zip(step.coefficients.states()) {
             *state = horner(series, length);
         }
         let field = &self.series.field;
-        let nodes = &field.nodes[..self.series.field_parts];
-        field.check_start(&step.end, &step.state_at_end)?;
-        compute(nodes, &step.end, &step.state_at_end, &mut step.parts, 1);
-        let parts = &step.parts[..nodes.len()];
+        field.check_start(&time, &step.state_at_end)?;
+        let values = &field.nodes[..self.series.value_parts];
+        compute(values, &time, &step.state_at_end, &mut step.parts, 1);
+        let parts = &step.parts[..self.series.field_parts];
         if let Some(part) = parts.iter().position(|value| !value.is_finite()) {
-            return Err(field.no_value(part, &step.end, &step.state_at_end));
+            return Err(field.no_value(part, &time, &step.state_at_end));
         }
         for (rate, &at) in step.rate_at_end.iter_mut().zip(&field.outputs) {
             *rate = parts[at];
         }
-        Ok(())
+        self.trust(step, length);
+        Ok(self.goes_on(step, length))
     }
 
-    /// The rate at the end of a step is that of its polynomial. Where it is not, the field is not the one of the series:
+    /// Compares the watched formulas with their polynomials.
+    fn trust(&self, step: &mut Step, length: f64) {
+        let allowed = WATCHED_ERROR * self.order as f64 * (self.tolerance + f64::EPSILON);
+        for (place, series) in step.coefficients.all_watched().enumerate() {
+            let value = self.series.watched_part(place).map_or(f64::NAN, |part| step.parts[part]);
+            let (mut power, mut size) = (1.0, 0.0_f64);
+            for coefficient in series {
+                size = size.max((coefficient * power).abs());
+                power *= length;
+            }
+            // NaN is no trust.
+            step.trusted[place] &= (horner(series, length) - value).abs() <= allowed * size;
+        }
+    }
+
+    /// The rate at a time of a step is that of its polynomial. Where it is not, the field is not the one of the series:
     /// (1 + t/2)² is the motion of ẋ = √x for t > −2 alone.
-    fn goes_on(&self, step: &Step) -> bool {
-        let length = step.end - step.time;
+    fn goes_on(&self, step: &Step, length: f64) -> bool {
         let ends = step.state_at_end.iter().zip(&step.rate_at_end);
         // The rate of the terms that are left out is some `order` times as large as they are, and the field spreads an
         // error of the state, of any component, by some factor in a step. A field of another branch is off by all of its
@@ -311,9 +381,11 @@ impl<'s> TaylorFlow<'s> {
             let size = series[0].abs().max(state.abs());
             most = most.max(self.order as f64 * allowed(*tolerances, size, size));
             let rounding = f64::EPSILON * (rate * length).abs();
-            off = off.max((rate - rate_at_end).abs() * length.abs() - RATE_ERROR * rounding);
+            let own = (rate - rate_at_end).abs() * length.abs() - RATE_ERROR * rounding;
+            // NaN stays.
+            off = if own <= off || off.is_nan() { off } else { own };
         }
-        !(off > RATE_ERROR * most)
+        off <= RATE_ERROR * most
     }
 
     /// The steps up to `end`, which `see` receives one after the other; the state there. It goes on while `see` returns

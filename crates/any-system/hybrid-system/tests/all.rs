@@ -14,6 +14,7 @@ mod ends_of_arcs;
 mod equation_derivatives;
 mod equation_models;
 mod exponential_guards;
+mod hard_guards;
 mod instant_derivatives;
 mod integrated_events;
 mod integrated_modes;

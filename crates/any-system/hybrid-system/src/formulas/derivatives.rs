@@ -8,7 +8,6 @@ use crate::ode::Linearized;
 use crate::sensitivity::Differentiable;
 use crate::state::State;
 use crate::system::HybridSystem;
-use equations::{Jet, jet_horner};
 use nalgebra::SMatrix;
 
 impl<P, const N: usize> Model<Label, Label, State<N>, TaylorMotion, P> {
@@ -24,10 +23,8 @@ impl<P, const N: usize> Model<Label, Label, State<N>, TaylorMotion, P> {
             let start = self.start_jet::<2>(start, direction)?;
             self.jet_flow(program, &start, time)
         });
-        let Ok(step) = found else { return State::repeat(f64::NAN) };
-        let since = Jet::number(step.length);
-        let mut states = step.coefficients.states();
-        State::from_fn(|_, _| states.next().map_or(f64::NAN, |own| jet_horner(own, &since).0[1]))
+        let Ok(end) = found else { return State::repeat(f64::NAN) };
+        State::from_fn(|row, _| end[row].0[1])
     }
 }
 

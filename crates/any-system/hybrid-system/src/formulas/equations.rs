@@ -120,7 +120,9 @@ impl Equations {
 
     fn all_formulas(&mut self) -> impl Iterator<Item = &mut Formulas> {
         let modes = self.modes.iter_mut().flat_map(|mode| {
-            [&mut mode.field].into_iter().chain(mode.guards.iter_mut().flat_map(of_guard))
+            let limit = mode.after_limit.as_mut().and_then(|jump| jump.state.as_mut());
+            let own = [Some(&mut mode.field), limit].into_iter().flatten();
+            own.chain(mode.guards.iter_mut().flat_map(of_guard))
         });
         modes.chain(self.everywhere.iter_mut().flat_map(of_guard))
     }
@@ -156,7 +158,10 @@ impl Equations {
                 .as_ref()
                 .map_or(Ok(()), |state| check_length("the state after an event", state))
         };
-        for mode in &self.modes {
+        for (place, mode) in self.modes.iter().enumerate() {
+            if self.modes[..place].iter().any(|other| other.name == mode.name) {
+                return bad(mode.name.to_string(), "a mode has it already");
+            }
             check_length("the field of a mode", &mode.field)?;
             mode.after_limit.as_ref().map_or(Ok(()), check_jump)?;
         }

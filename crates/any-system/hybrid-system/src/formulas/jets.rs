@@ -2,16 +2,16 @@
 
 use super::label::Label;
 use super::motion::TaylorMotion;
-use super::programs::ModeProgram;
+use super::programs::{GuardProgram, ModeProgram};
 use crate::arc::{Arc, ArcEnd, Event};
 use crate::crossing::EventKind;
 use crate::error::Error;
 use crate::model::Model;
 use crate::state::StateVector;
-use equations::{Arithmetic, Jet, JetStep, jet_horner};
+use equations::{Arithmetic, Coefficients, Jet, jet_horner};
 
-/// Smallest rate of a guard at its event, relative to the sum of the sizes of its terms: at this rate four digits of a
-/// derivative are left. A slower one is a grazing.
+/// Smallest rate of a guard at its event, relative to the sum of the sizes of its terms, ∂g/∂x ẋ: at this rate four digits of
+/// a derivative are left. A slower one is a grazing.
 const SMALLEST_RATE: f64 = 1e-12;
 
 /// A crossing after this part of the present time is at the same instant as the event before.
@@ -95,17 +95,17 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         for arc in arcs {
             let program = self.motion.mode(arc.mode)?;
             // The derivative is that of this execution: the values are its own.
-            for (jet, value) in state.iter_mut().zip(arc.start.components()) {
-                jet.0.iter_mut().take(1).for_each(|first| *first = *value);
-            }
+            put_values(&mut state, &arc.start);
             (state, time) = match &arc.end {
                 ArcEnd::Event(event) => self.after_event(program, (arc, event), &state, &time)?,
                 ArcEnd::TimeLimit { .. } => {
                     // The end is where it is, whenever the arc has begun.
-                    let step = self.jet_flow(program, &state, arc.duration)?;
+                    let end = program
+                        .jets()?
+                        .coefficients(&self.jet_flow(program, &state, arc.duration)?, T)?;
                     let mut since = Jet::negative(&time);
-                    since.0.iter_mut().take(1).for_each(|first| *first = step.length);
-                    (at(&step, &since), Jet::number(time.value() + arc.duration))
+                    since.0.iter_mut().take(1).for_each(|first| *first = 0.0);
+                    (at(&end, &since), Jet::number(time.value() + arc.duration))
                 }
                 _ => return Err(Error::NoSensitivity { time: arc.time }),
             };
@@ -145,12 +145,13 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         Ok(jets)
     }
 
+    /// The state after a time.
     pub(super) fn jet_flow<const T: usize>(
         &self,
         program: &ModeProgram,
         start: &[Jet<T>],
         duration: f64,
-    ) -> Result<JetStep<T>, Error> {
+    ) -> Result<Vec<Jet<T>>, Error> {
         let tolerances = &self.motion.tolerances;
         let absolute = (0..start.len()).map(|axis| tolerances.of(axis, 0.0));
         let absolute = absolute.fold(tolerances.absolute, f64::min);
@@ -182,17 +183,21 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
             (EventKind::Crossing, Some(_)) => {}
             _ => return Err(Error::NoSensitivity { time: arc.time }),
         }
-        let step = self.jet_flow(program, start, arc.duration)?;
-        let guard = step.coefficients.watched(place.unwrap_or(0));
-        let since = zero(guard, step.length).ok_or(Error::GrazingSensitivity {
-            time: event.time,
-            rate: slope(guard, &Jet::number(step.length)).value(),
-        })?;
-        let mut state = at(&step, &since);
-        let elapsed = Jet::number(arc.duration - step.length);
-        let time = Jet::sum(time, &Jet::sum(&since, &elapsed));
-        let jump = place.and_then(|place| program.guards[place].reset_jets().transpose());
-        if let Some(jump) = jump.transpose()? {
+        let place = place.unwrap_or(0);
+        let mut state = self.jet_flow(program, start, arc.duration)?;
+        put_values(&mut state, &event.before);
+        // The time of the event is that of the execution and T − 1 powers of ε: no more terms of the motion count.
+        let motion = program.jets()?.coefficients(&state, T)?;
+        let guard = motion.watched(place);
+        let size = rate_size(&program.guards[place], &state, motion.states())?;
+        let rate = guard.get(1).map_or(0.0, Jet::value);
+        if !(rate.abs() > SMALLEST_RATE * size) {
+            return Err(Error::GrazingSensitivity { time: event.time, rate });
+        }
+        let since = zero(guard);
+        state = at(&motion, &since);
+        let time = Jet::sum(time, &Jet::sum(&since, &Jet::number(arc.duration)));
+        if let Some(jump) = program.guards[place].reset_jets()? {
             let after = jump.values(&state)?;
             state[..after.len()].copy_from_slice(&after);
         }
@@ -200,9 +205,36 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
     }
 }
 
-/// The state at a time since the last step began.
-fn at<const T: usize>(step: &JetStep<T>, since: &Jet<T>) -> Vec<Jet<T>> {
-    step.coefficients.states().map(|series| jet_horner(series, since)).collect()
+/// The values are those of an execution.
+fn put_values<const T: usize, X: StateVector>(jets: &mut [Jet<T>], values: &X) {
+    for (jet, value) in jets.iter_mut().zip(values.components()) {
+        jet.0.iter_mut().take(1).for_each(|first| *first = *value);
+    }
+}
+
+/// The state at a small time of a motion.
+fn at<const T: usize>(motion: &Coefficients<Jet<T>>, since: &Jet<T>) -> Vec<Jet<T>> {
+    motion.states().map(|series| jet_horner(series, since)).collect()
+}
+
+/// Σ |∂g/∂xₖ| |ẋₖ|: the size of a guard's rate if its terms did not cancel.
+fn rate_size<'c, const T: usize>(
+    guard: &GuardProgram,
+    state: &[Jet<T>],
+    motion: impl Iterator<Item = &'c [Jet<T>]>,
+) -> Result<f64, Error> {
+    let mut size = 0.0;
+    for (axis, series) in motion.enumerate() {
+        let rate = series.get(1).map_or(0.0, Jet::value).abs();
+        if rate > 0.0 {
+            let along =
+                |(k, jet): (usize, &Jet<T>)| Jet::<2>::moving(jet.value(), f64::from(k == axis));
+            let along: Vec<_> = state.iter().enumerate().map(along).collect();
+            let change = guard.value_jets()?.values(&along)?;
+            size += rate * change.first().map_or(0.0, |change| change.0[1].abs());
+        }
+    }
+    Ok(size)
 }
 
 /// The rate of a guard.
@@ -212,24 +244,16 @@ fn slope<const T: usize>(guard: &[Jet<T>], time: &Jet<T>) -> Jet<T> {
     jet_horner(&rates, time)
 }
 
-/// The time at which a guard is zero, as a jet whose value is `time`; `None` at a grazing.
+/// The time near zero at which a guard is zero, which has the value zero.
 ///
 /// Newton's method doubles the number of right terms: as many rounds as there are terms are more than enough.
-fn zero<const T: usize>(guard: &[Jet<T>], time: f64) -> Option<Jet<T>> {
-    let sizes = guard.iter().enumerate().skip(1);
-    let (size, _) = sizes.fold((0.0, 1.0), |(sum, power), (k, c)| {
-        (sum + k as f64 * c.value().abs() * power, power * time.abs())
-    });
-    let rate = slope(guard, &Jet::number(time)).value().abs();
-    if !(rate > SMALLEST_RATE * size) {
-        return None;
-    }
-    let mut found = Jet::number(time);
+fn zero<const T: usize>(guard: &[Jet<T>]) -> Jet<T> {
+    let mut found = Jet::zero();
     for _ in 0..T {
         let mut value = jet_horner(guard, &found);
         // The execution has found the time: what is left of the value is rounding.
         value.0.iter_mut().take(1).for_each(|first| *first = 0.0);
         found = Jet::difference(&found, &Jet::quotient(&value, &slope(guard, &found)));
     }
-    Some(found)
+    found
 }

@@ -113,7 +113,7 @@ impl GuardProgram {
 impl Programs {
     pub(super) fn new(equations: &Equations) -> Result<Programs, Error> {
         let guards = equations.modes.iter().flat_map(|mode| &mode.guards);
-        let uses_time = equations.modes.iter().any(|mode| mode.field.uses_time())
+        let uses_time = equations.modes.iter().any(ModeEquations::uses_time)
             || guards.chain(&equations.everywhere).any(GuardEquations::uses_time);
         let modes =
             equations.modes.iter().map(|mode| mode.program(&equations.everywhere, uses_time));
@@ -130,17 +130,24 @@ impl Programs {
     }
 }
 
+impl Jump {
+    fn uses_time(&self) -> bool {
+        self.state.as_ref().is_some_and(Formulas::uses_time)
+    }
+
+    fn program(&self, uses_time: bool) -> Jump {
+        let state = self.state.as_ref().map(|state| with_time(state, uses_time, Node::Time));
+        Jump { mode: self.mode, state }
+    }
+}
+
 impl GuardEquations {
     fn uses_time(&self) -> bool {
-        let state = self.jump.as_ref().and_then(|jump| jump.state.as_ref());
-        self.function.uses_time() || state.is_some_and(Formulas::uses_time)
+        self.function.uses_time() || self.jump.as_ref().is_some_and(Jump::uses_time)
     }
 
     fn program(&self, uses_time: bool) -> GuardProgram {
-        let jump = self.jump.as_ref().map(|jump| {
-            let state = jump.state.as_ref().map(|state| with_time(state, uses_time, Node::Time));
-            Jump { mode: jump.mode, state }
-        });
+        let jump = self.jump.as_ref().map(|jump| jump.program(uses_time));
         let function = match uses_time {
             true => self.function.with_time_as_state(None),
             false => self.function.clone(),
@@ -151,6 +158,10 @@ impl GuardEquations {
 }
 
 impl ModeEquations {
+    fn uses_time(&self) -> bool {
+        self.field.uses_time() || self.after_limit.as_ref().is_some_and(Jump::uses_time)
+    }
+
     fn program(
         &self,
         everywhere: &[GuardEquations],
@@ -171,7 +182,7 @@ impl ModeEquations {
             });
         }
         let series = Series::new(&field, watched.as_ref())?;
-        let after_limit = self.after_limit.clone();
+        let after_limit = self.after_limit.as_ref().map(|jump| jump.program(uses_time));
         let (name, jets, closed_form) = (self.name, Jets::new(), ClosedForm::of(&field));
         Ok(ModeProgram {
             name,

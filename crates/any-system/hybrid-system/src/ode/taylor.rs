@@ -136,14 +136,18 @@ impl<V: StateVector> Stepping<V> for TaylorIntegration<'_, V> {
         let end = if first {
             time + self.longest_first.copysign(self.end)
         } else if self.end.is_infinite() {
-            self.piece *= 2.0;
             time + self.piece.copysign(self.end)
         } else {
             self.end
         };
         let state: SmallVec<[f64; 8]> = SmallVec::from_slice(&self.step.state_at_end);
         match self.flow.step(time, &state, end, &mut self.step) {
-            Ok(()) => Ok(()),
+            Ok(()) => {
+                if self.step.end == end {
+                    self.piece *= 2.0;
+                }
+                Ok(())
+            }
             Err(equations::Error::Stuck { .. }) => failed("no step is short enough"),
             Err(error) => Err(error.into()),
         }
@@ -194,6 +198,7 @@ impl<V: StateVector> Stepping<V> for TaylorIntegration<'_, V> {
 
     fn guard(&self, place: usize) -> Option<&[f64]> {
         let watched = (*self.watched.get(place)?)?;
-        Some(self.step.coefficients.watched(watched))
+        let trusted = self.step.trusted.get(watched).copied().unwrap_or(false);
+        trusted.then(|| self.step.coefficients.watched(watched))
     }
 }
