@@ -71,8 +71,9 @@ pub struct Step {
     pub rate_at_end: Vec<f64>,
     /// For each watched formula, whether its polynomial is the formula, as far as two values show.
     pub trusted: Vec<bool>,
-    /// Values of the parts.
+    /// Values of the parts, and the slopes of the polynomials, where they were compared last.
     parts: Vec<f64>,
+    slopes: Vec<f64>,
 }
 
 impl Step {
@@ -97,6 +98,20 @@ pub(crate) fn order_of(relative: f64) -> usize {
 /// (Jorba and Zou, Section 3.2).
 pub(crate) fn safety(order: usize) -> f64 {
     pxfm::f_exp(-2.0 - 0.7 / (order - 1) as f64)
+}
+
+/// The value of a polynomial and its slope.
+#[inline]
+fn value_and_slope(series: &[f64], x: f64) -> (f64, f64) {
+    let step = |(value, slope): (f64, f64), c: &f64| (value * x + c, slope * x + value);
+    series.iter().rev().fold((0.0, 0.0), step)
+}
+
+/// The value of a polynomial, and the sum of the sizes of its terms.
+#[inline]
+fn value_and_size(series: &[f64], x: f64) -> (f64, f64) {
+    let step = |(value, size): (f64, f64), c: &f64| (value * x + c, size * x.abs() + c.abs());
+    series.iter().rev().fold((0.0, 0.0), step)
 }
 
 fn powi(base: f64, exponent: usize) -> f64 {
@@ -224,6 +239,7 @@ impl<'s> TaylorFlow<'s> {
             state_at_end: vec![0.0; dimension],
             rate_at_end: vec![0.0; dimension],
             trusted: Vec::new(),
+            slopes: vec![0.0; dimension],
             parts: self.series.field.numbers(),
         })
     }
@@ -298,7 +314,8 @@ impl<'s> TaylorFlow<'s> {
         let least = SHORTEST_FOR_WATCHED * length;
         let watched = step.coefficients.all_watched();
         watched.fold(length, |length, series| {
-            let found = shortened(series.len(), |k| series[k].abs(), self.tolerance, length);
+            let tolerance = WATCHED_ERROR * self.tolerance;
+            let found = shortened(series.len(), |k| series[k].abs(), tolerance, length);
             // Without values there is nothing to be shortened for.
             if found >= least { found } else { length.min(least) }
         })
@@ -332,8 +349,9 @@ impl<'s> TaylorFlow<'s> {
     /// Computes the state and the field at a time of a step; true if the field is that of the polynomial.
     fn agrees(&self, step: &mut Step, time: f64) -> Result<bool, Error> {
         let length = time - step.time;
-        for (state, series) in step.state_at_end.iter_mut().zip(step.coefficients.states()) {
-            *state = horner(series, length);
+        let components = step.state_at_end.iter_mut().zip(&mut step.slopes);
+        for ((state, slope), series) in components.zip(step.coefficients.states()) {
+            (*state, *slope) = value_and_slope(series, length);
         }
         let field = &self.series.field;
         field.check_start(&time, &step.state_at_end)?;
@@ -355,13 +373,9 @@ impl<'s> TaylorFlow<'s> {
         let allowed = WATCHED_ERROR * self.order as f64 * (self.tolerance + f64::EPSILON);
         for (place, series) in step.coefficients.all_watched().enumerate() {
             let value = self.series.watched_part(place).map_or(f64::NAN, |part| step.parts[part]);
-            let (mut power, mut size) = (1.0, 0.0_f64);
-            for coefficient in series {
-                size = size.max((coefficient * power).abs());
-                power *= length;
-            }
+            let (polynomial, size) = value_and_size(series, length);
             // NaN is no trust.
-            step.trusted[place] &= (horner(series, length) - value).abs() <= allowed * size;
+            step.trusted[place] &= (polynomial - value).abs() <= allowed * size;
         }
     }
 
@@ -374,10 +388,10 @@ impl<'s> TaylorFlow<'s> {
         // rate.
         let mut most = f64::MIN_POSITIVE;
         let mut off = 0.0_f64;
-        let components = step.coefficients.states().zip(&self.tolerances).zip(ends);
-        for ((series, tolerances), (state, rate_at_end)) in components {
-            let rate =
-                (1..series.len()).rev().fold(0.0, |sum, k| sum * length + k as f64 * series[k]);
+        let starts = step.coefficients.states().zip(&self.tolerances);
+        for (((series, tolerances), (state, rate_at_end)), rate) in
+            starts.zip(ends).zip(&step.slopes)
+        {
             let size = series[0].abs().max(state.abs());
             most = most.max(self.order as f64 * allowed(*tolerances, size, size));
             let rounding = f64::EPSILON * (rate * length).abs();
