@@ -139,7 +139,7 @@ pub use crossing::{
 pub use error::Error;
 pub use execution::Execution;
 #[cfg(feature = "ode")]
-pub use formulas::{Along, Equations, ExecutionJet, Label};
+pub use formulas::{Along, Equations, EquationsModel, ExecutionJet, Label};
 pub use guard::{Direction, Guard, Role, Touch};
 pub use interval_arithmetic::Enclosure;
 pub use lands_beyond::LandsBeyond;

@@ -15,83 +15,26 @@ use return_map::{
     periodic_point_with_derivative,
 };
 
-/// The Lorenz system with σ = 10, ρ = 28, β = 8/3.
-#[derive(Debug, Clone, Copy)]
-struct Lorenz;
+type Lorenz = EquationsModel<State<3>>;
 
-/// Smaller by two orders than the errors that the tests accept.
-const TOLERANCES: Tolerances = Tolerances::both(1e-14);
-
-impl Linearized<3> for Lorenz {
-    fn field_jacobian(&self, _: (), x: &State<3>) -> SMatrix<f64, 3, 3> {
-        SMatrix::<f64, 3, 3>::new(
-            -10.0,
-            10.0,
-            0.0, //
-            28.0 - x[2],
-            -1.0,
-            -x[0], //
-            x[1],
-            x[0],
-            -8.0 / 3.0,
-        )
-    }
+/// The Lorenz system, which passes its section downwards. The tolerance is smaller by two orders than the errors that the
+/// tests accept.
+fn lorenz() -> Result<Lorenz, hybrid_system::Error> {
+    let flow = Equations::new(&["x", "y", "z"], &[("sigma", "10"), ("rho", "28")])
+        .mode_text("flow", &["sigma*(y - x)", "x*(rho - z) - y", "x*y - 8/3*z"])
+        .falling_text("section", "z - 27")
+        .model()?;
+    Ok(flow.tolerance(1e-14))
 }
 
-impl HybridSystem for Lorenz {
-    type State = State<3>;
-    type Mode = ();
-    type Surface = ();
-    fn flow(&self, mode: (), x: &State<3>, t: f64) -> State<3> {
-        integrated_flow(self, mode, x, t, TOLERANCES)
-    }
-    fn guards(&self, _: ()) -> &[Guard<()>] {
-        const { &[Guard::falling(()).crossing()] }
-    }
-    fn guard_value(&self, _: (), x: &State<3>) -> f64 {
-        x[2] - 27.0
-    }
-    fn reset(&self, _: (), _: (), x: &State<3>) -> Reset<(), State<3>> {
-        Reset::Jump { mode: (), state: Vector3::new(x[0], x[1], 27.0) }
-    }
-    fn first_crossing(
-        &self,
-        mode: (),
-        x: &State<3>,
-        search: &Search<()>,
-    ) -> Result<NextEvent<(), State<3>>, hybrid_system::Error> {
-        integrated_crossing(self, mode, x, search, TOLERANCES)
-    }
-    fn vector_field(&self, _: (), x: &State<3>) -> Option<State<3>> {
-        Some(Vector3::new(
-            10.0 * (x[1] - x[0]),
-            x[0] * (28.0 - x[2]) - x[1],
-            x[0] * x[1] - 8.0 / 3.0 * x[2],
-        ))
-    }
-}
-
-impl Differentiable<3> for Lorenz {
-    fn flow_jacobian(&self, mode: (), x: &State<3>, t: f64) -> SMatrix<f64, 3, 3> {
-        integrated_jacobian(self, mode, x, t, TOLERANCES)
-            .unwrap_or_else(|_| SMatrix::repeat(f64::NAN)) // the return map refuses a NaN
-    }
-    fn guard_gradient(&self, _: (), _: &State<3>) -> State<3> {
-        Vector3::z()
-    }
-    fn reset_jacobian(&self, _: (), _: (), _: &State<3>) -> SMatrix<f64, 3, 3> {
-        SMatrix::from_diagonal(&Vector3::new(1.0, 1.0, 0.0))
-    }
-}
-
-/// The section z = 27, with coordinates x and y.
-struct Plane;
+/// The section z = 27, with coordinates x and y, and the mode.
+struct Plane(Label);
 
 impl Section<Lorenz, 3, 2> for Plane {
-    fn point(&self, x: &SVector<f64, 2>) -> ((), State<3>) {
-        ((), Vector3::new(x[0], x[1], 27.0))
+    fn point(&self, x: &SVector<f64, 2>) -> (Label, State<3>) {
+        (self.0, Vector3::new(x[0], x[1], 27.0))
     }
-    fn coordinates(&self, event: &Event<(), (), State<3>>) -> Option<SVector<f64, 2>> {
+    fn coordinates(&self, event: &Event<Label, Label, State<3>>) -> Option<SVector<f64, 2>> {
         event.after.map(|(_, state)| Vector2::new(state[0], state[1]))
     }
 }
@@ -100,13 +43,14 @@ impl SmoothSection<Lorenz, 3, 2> for Plane {
     fn point_jacobian(&self, _: &SVector<f64, 2>) -> SMatrix<f64, 3, 2> {
         SMatrix::<f64, 3, 2>::identity()
     }
-    fn coordinates_jacobian(&self, _: &Event<(), (), State<3>>) -> SMatrix<f64, 2, 3> {
+    fn coordinates_jacobian(&self, _: &Event<Label, Label, State<3>>) -> SMatrix<f64, 2, 3> {
         SMatrix::<f64, 2, 3>::identity()
     }
 }
 
 fn next(x: &SVector<f64, 2>) -> Result<SmoothReturn<2>, Error> {
-    ReturnMap::new(&Lorenz, &Plane, Limits::new(100.0, 10)).next_with_derivative(x)
+    let section = Plane(Label::new("flow")?);
+    ReturnMap::new(&lorenz()?, &section, Limits::new(100.0, 10)).next_with_derivative(x)
 }
 
 /// The periodic orbit, as the fixed point of one return followed by the symmetry.

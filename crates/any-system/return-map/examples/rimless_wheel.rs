@@ -12,21 +12,6 @@ use hybrid_system::*;
 use nalgebra::{SMatrix, SVector, Vector1, Vector2};
 use return_map::{Error, ReturnMap, Section, SmoothSection, periodic_point_with_derivative};
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Mode {
-    OnOneSpoke,
-    /// At rest on two spokes.
-    Standing,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Surface {
-    /// The next spoke hits the ground.
-    Forward,
-    /// The wheel rocks back, and the last spoke hits the ground.
-    Backward,
-}
-
 /// State: θ, θ̇ of the spoke on the ground.
 #[derive(Debug, Clone, Copy)]
 struct Wheel {
@@ -37,7 +22,7 @@ struct Wheel {
 }
 
 /// Smaller by two orders than the errors that the tests accept.
-const TOLERANCES: Tolerances = Tolerances::both(1e-13);
+const TOLERANCE: f64 = 1e-13;
 
 impl Wheel {
     /// cos 2α, the factor of the speed at a collision.
@@ -57,105 +42,50 @@ impl Wheel {
     }
 }
 
-impl Linearized<2> for Wheel {
-    fn field_jacobian(&self, _: Mode, x: &State<2>) -> SMatrix<f64, 2, 2> {
-        SMatrix::<f64, 2, 2>::new(0.0, 1.0, x[0].cos(), 0.0)
+impl Wheel {
+    /// The spoke on the ground, until the next one hits the ground or the wheel rocks back. Infinitely many rocking
+    /// collisions in finite time end at rest on two spokes.
+    fn model(self) -> Result<EquationsModel<State<2>>, hybrid_system::Error> {
+        let (ahead, behind) = (self.slope + self.half_angle, self.slope - self.half_angle);
+        let kept = self.kept();
+        let wheel = Equations::new(&["angle", "speed"], &[])
+            .mode("rolls", |_, x, _| [x[1], x[0].sin()])
+            .rising("forward", move |_, x, _| x[0] - ahead)
+            .resets(move |_, x, _| [x[0].number(behind), kept * x[1]])
+            .falling("backward", move |_, x, _| x[0] - behind)
+            .resets(move |_, x, _| [x[0].number(ahead), kept * x[1]])
+            .rests("stands")
+            .mode_text("stands", &["0", "0"]);
+        Ok(wheel.model()?.tolerance(TOLERANCE))
     }
 }
 
-impl HybridSystem for Wheel {
-    type State = State<2>;
-    type Mode = Mode;
-    type Surface = Surface;
-    fn flow(&self, mode: Mode, x: &State<2>, t: f64) -> State<2> {
-        match mode {
-            Mode::OnOneSpoke => integrated_flow(self, mode, x, t, TOLERANCES),
-            Mode::Standing => *x,
-        }
-    }
-    fn guards(&self, mode: Mode) -> &[Guard<Surface>] {
-        match mode {
-            Mode::OnOneSpoke => {
-                const { &[Guard::rising(Surface::Forward), Guard::falling(Surface::Backward)] }
-            }
-            Mode::Standing => &[],
-        }
-    }
-    fn guard_value(&self, surface: Surface, x: &State<2>) -> f64 {
-        match surface {
-            Surface::Forward => x[0] - (self.slope + self.half_angle),
-            Surface::Backward => x[0] - (self.slope - self.half_angle),
-        }
-    }
-    fn reset(&self, _: Mode, surface: Surface, x: &State<2>) -> Reset<Mode, State<2>> {
-        let angle = match surface {
-            Surface::Forward => self.slope - self.half_angle,
-            Surface::Backward => self.slope + self.half_angle,
-        };
-        Reset::Jump { mode: Mode::OnOneSpoke, state: Vector2::new(angle, self.kept() * x[1]) }
-    }
-    /// Infinitely many rocking collisions in finite time end at rest on two spokes.
-    fn rest(&self, _: Mode, _: &State<2>) -> Option<(Mode, State<2>)> {
-        Some((Mode::Standing, Vector2::new(self.slope - self.half_angle, 0.0)))
-    }
-    fn first_crossing(
-        &self,
-        mode: Mode,
-        x: &State<2>,
-        search: &Search<Surface>,
-    ) -> Result<NextEvent<Surface, State<2>>, hybrid_system::Error> {
-        match mode {
-            Mode::OnOneSpoke => integrated_crossing(self, mode, x, search, TOLERANCES),
-            Mode::Standing => Ok(NextEvent::never()),
-        }
-    }
-    fn vector_field(&self, mode: Mode, x: &State<2>) -> Option<State<2>> {
-        Some(match mode {
-            Mode::OnOneSpoke => Vector2::new(x[1], x[0].sin()),
-            Mode::Standing => Vector2::zeros(),
-        })
-    }
-}
+/// The section after a forward collision, with the speed as coordinate, and the mode behind it.
+struct AfterCollision(Wheel, Label);
 
-impl Differentiable<2> for Wheel {
-    fn flow_jacobian(&self, mode: Mode, x: &State<2>, t: f64) -> SMatrix<f64, 2, 2> {
-        integrated_jacobian(self, mode, x, t, TOLERANCES)
-            .unwrap_or_else(|_| SMatrix::repeat(f64::NAN)) // the return map refuses a NaN
+impl Section<EquationsModel<State<2>>, 2, 1> for AfterCollision {
+    fn point(&self, speed: &SVector<f64, 1>) -> (Label, State<2>) {
+        (self.1, Vector2::new(self.0.slope - self.0.half_angle, speed[0]))
     }
-    fn guard_gradient(&self, _: Surface, _: &State<2>) -> State<2> {
-        Vector2::x()
-    }
-    fn reset_jacobian(&self, _: Mode, _: Surface, _: &State<2>) -> SMatrix<f64, 2, 2> {
-        SMatrix::from_diagonal(&Vector2::new(0.0, self.kept()))
-    }
-}
-
-/// The section after a forward collision, with the speed as coordinate.
-struct AfterCollision(Wheel);
-
-impl Section<Wheel, 2, 1> for AfterCollision {
-    fn point(&self, speed: &SVector<f64, 1>) -> (Mode, State<2>) {
-        (Mode::OnOneSpoke, Vector2::new(self.0.slope - self.0.half_angle, speed[0]))
-    }
-    fn coordinates(&self, event: &Event<Mode, Surface, State<2>>) -> Option<SVector<f64, 1>> {
-        let (_, state) = event.after.filter(|_| event.surface == Surface::Forward)?;
+    fn coordinates(&self, event: &Event<Label, Label, State<2>>) -> Option<SVector<f64, 1>> {
+        let (_, state) = event.after.filter(|_| event.surface == "forward")?;
         Some(Vector1::new(state[1]))
     }
 }
 
-impl SmoothSection<Wheel, 2, 1> for AfterCollision {
+impl SmoothSection<EquationsModel<State<2>>, 2, 1> for AfterCollision {
     fn point_jacobian(&self, _: &SVector<f64, 1>) -> SMatrix<f64, 2, 1> {
         SMatrix::<f64, 2, 1>::new(0.0, 1.0)
     }
-    fn coordinates_jacobian(&self, _: &Event<Mode, Surface, State<2>>) -> SMatrix<f64, 1, 2> {
+    fn coordinates_jacobian(&self, _: &Event<Label, Label, State<2>>) -> SMatrix<f64, 1, 2> {
         SMatrix::<f64, 1, 2>::new(0.0, 1.0)
     }
 }
 
 /// The periodic motion: its speed after a collision, and its multiplier.
 fn roll(wheel: Wheel, guess: f64) -> Result<(f64, f64), Error> {
-    let section = AfterCollision(wheel);
-    let map = ReturnMap::new(&wheel, &section, Limits::new(100.0, 10));
+    let (model, section) = (wheel.model()?, AfterCollision(wheel, Label::new("rolls")?));
+    let map = ReturnMap::new(&model, &section, Limits::new(100.0, 10));
     let step = |speed: &SVector<f64, 1>| {
         let back = map.next_with_derivative(speed)?;
         Ok((back.to.coordinates, back.derivative))
@@ -171,10 +101,10 @@ fn main() -> Result<(), Error> {
     println!("multiplier: {multiplier:.12}, exactly {:.12}", wheel.kept().powi(2));
     let start = Vector2::new(wheel.slope - wheel.half_angle, 0.99 * wheel.least_speed());
     let mut rocks = 0;
-    for arc in Execution::new(&wheel, Mode::OnOneSpoke, start, Limits::new(100.0, 1000)) {
+    for arc in wheel.model()?.start("rolls", start, 100.0)? {
         let arc = arc?;
         rocks += usize::from(arc.event().is_some());
-        if arc.mode == Mode::Standing {
+        if arc.mode == "stands" {
             println!(
                 "below the least speed it rocks {rocks} times and stands from t = {:.9}",
                 arc.time
@@ -203,8 +133,9 @@ mod tests {
     #[test]
     fn one_step_agrees_with_its_formula() {
         let wheel = Wheel { slope: 0.1, half_angle: 0.3 };
-        let section = AfterCollision(wheel);
-        let map = ReturnMap::new(&wheel, &section, Limits::new(100.0, 10));
+        let rolls = hybrid_system::Label::new("rolls").unwrap();
+        let (model, section) = (wheel.model().unwrap(), AfterCollision(wheel, rolls));
+        let map = ReturnMap::new(&model, &section, Limits::new(100.0, 10));
         for speed in [1.01, 1.5, 3.0].map(|factor| factor * wheel.least_speed()) {
             let image = map.image(speed).unwrap().unwrap();
             let gained = 4.0 * wheel.slope.sin() * wheel.half_angle.sin();
@@ -221,8 +152,9 @@ mod tests {
             Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits, UnmatchedReason,
         };
         let wheel = Wheel { slope: 0.08, half_angle: 0.3 };
-        let section = AfterCollision(wheel);
-        let map = ReturnMap::new(&wheel, &section, Limits::new(100.0, 10));
+        let rolls = hybrid_system::Label::new("rolls").unwrap();
+        let (model, section) = (wheel.model().unwrap(), AfterCollision(wheel, rolls));
+        let map = ReturnMap::new(&model, &section, Limits::new(100.0, 10));
         let step = |speed: &[f64]| map.image(speed[0]).ok().flatten().map(|image| vec![image]);
         let (least, rolling) = (wheel.least_speed(), wheel.rolling_speed());
         let speeds = Interval::new(0.5 * least, 3.0 * rolling).unwrap();
@@ -246,12 +178,15 @@ mod tests {
     fn too_small_a_speed_ends_at_rest() {
         let wheel = Wheel { slope: 0.02, half_angle: 0.3 };
         let start = Vector2::new(wheel.slope - wheel.half_angle, 0.999 * wheel.least_speed());
-        let arcs: Vec<_> =
-            Execution::new(&wheel, Mode::OnOneSpoke, start, Limits::new(200.0, 10_000))
-                .collect::<Result<_, _>>()
-                .unwrap();
+        let arcs: Vec<_> = wheel
+            .model()
+            .unwrap()
+            .start("rolls", start, 200.0)
+            .unwrap()
+            .collect::<Result<_, _>>()
+            .unwrap();
         let last = arcs.last().unwrap();
         assert!(matches!(last.end, ArcEnd::TimeLimit { .. }));
-        assert_eq!(last.mode, Mode::Standing);
+        assert_eq!(last.mode, "stands");
     }
 }

@@ -56,6 +56,9 @@ pub struct Equations {
     pub(super) wrong: Option<Error>,
 }
 
+/// The model of some [`Equations`], without closures.
+pub type EquationsModel<X> = Model<Label, Label, X, TaylorMotion, FormulaPart>;
+
 /// A mode by its equations.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ModeEquations {
@@ -176,10 +179,7 @@ impl Equations {
     ///
     /// # Errors
     /// As [`check`](Self::check); [`Error::Formula`] for a function with a kink or a jump in a field or a guard.
-    #[allow(clippy::type_complexity)] // the type of a model names its parts
-    pub fn model<X: StateVector>(
-        &self,
-    ) -> Result<Model<Label, Label, X, TaylorMotion, FormulaPart>, Error> {
+    pub fn model<X: StateVector>(&self) -> Result<EquationsModel<X>, Error> {
         self.check()?;
         let programs = Arc::new(Programs::new(self)?);
         let guards = self.everywhere.iter().map(|guard| (None, guard.guard));

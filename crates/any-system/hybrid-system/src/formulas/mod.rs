@@ -19,7 +19,7 @@ mod part;
 mod programs;
 mod quasi_values;
 
-pub use self::equations::Equations;
+pub use self::equations::{Equations, EquationsModel};
 pub use jets::{Along, ExecutionJet};
 pub use label::Label;
 pub use motion::TaylorMotion;
