@@ -14,14 +14,6 @@ use nalgebra::{SMatrix, SVector, Vector2, Vector3};
 use return_map::{ReturnMap, Section, SmoothSection};
 use std::f64::consts::TAU;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Surface {
-    /// The wall, x = σ.
-    Wall,
-    /// A period of the force ends, φ = 2π.
-    Period,
-}
-
 /// State: x, v, φ.
 #[derive(Debug, Clone, Copy)]
 struct Oscillator {
@@ -39,122 +31,38 @@ impl Oscillator {
         1.0 / (1.0 - self.frequency * self.frequency)
     }
 
-    /// The free motion x − a cos φ, and its velocity.
-    fn free(&self, x: &State<3>) -> (f64, f64) {
-        let (sin, cos) = x[2].sin_cos();
-        (x[0] - self.driven() * cos, x[1] + self.driven() * self.frequency * sin)
+    /// The free motion, its wall x = σ, and the end of a period of the force, φ = 2π.
+    fn model(self) -> Result<EquationsModel<State<3>>, hybrid_system::Error> {
+        let Oscillator { frequency, wall, restitution } = self;
+        Equations::new(&["x", "v", "phase"], &[])
+            .mode("free", move |_, x, _| [x[1], x[2].cos() - x[0], x[0].number(frequency)])
+            .rising("wall", move |_, x, _| x[0] - wall)
+            .resets(move |_, x, _| [x[0].number(wall), -restitution * x[1], x[2]])
+            .rising("period", |_, x, _| x[2] - TAU)
+            .resets(|_, x, _| [x[0], x[1], x[2].number(0.0)])
+            .crossing()
+            .model()
     }
 }
 
-impl HybridSystem for Oscillator {
-    type State = State<3>;
-    type Mode = ();
-    type Surface = Surface;
+/// The section φ = 0, with coordinates x and v, and the mode.
+struct OnceAPeriod(Label);
 
-    fn flow(&self, _: (), x: &State<3>, t: f64) -> State<3> {
-        let (offset, rate) = self.free(x);
-        let (sin, cos) = t.sin_cos();
-        let phase = x[2] + self.frequency * t;
-        let push = self.driven() * phase.cos();
-        let push_rate = -self.driven() * self.frequency * phase.sin();
-        Vector3::new(offset * cos + rate * sin + push, rate * cos - offset * sin + push_rate, phase)
+impl Section<EquationsModel<State<3>>, 3, 2> for OnceAPeriod {
+    fn point(&self, x: &SVector<f64, 2>) -> (Label, State<3>) {
+        (self.0, Vector3::new(x[0], x[1], 0.0))
     }
-
-    fn guards(&self, _: ()) -> &[Guard<Surface>] {
-        const { &[Guard::rising(Surface::Wall), Guard::rising(Surface::Period).crossing()] }
-    }
-
-    fn guard_value(&self, surface: Surface, x: &State<3>) -> f64 {
-        match surface {
-            Surface::Wall => x[0] - self.wall,
-            Surface::Period => x[2] - TAU,
-        }
-    }
-
-    fn guard_quasi_polynomial(
-        &self,
-        _: (),
-        surface: Surface,
-        x: &State<3>,
-    ) -> Option<QuasiPolynomial> {
-        Some(match surface {
-            Surface::Wall => {
-                let (offset, rate) = self.free(x);
-                let (sin, cos) = x[2].sin_cos();
-                let push = QuasiPolynomial::cosine(cos, self.frequency)
-                    - QuasiPolynomial::sine(sin, self.frequency);
-                QuasiPolynomial::cosine(offset, 1.0)
-                    + QuasiPolynomial::sine(rate, 1.0)
-                    + push.scaled(self.driven())
-                    + QuasiPolynomial::polynomial(&[-self.wall])
-            }
-            Surface::Period => QuasiPolynomial::polynomial(&[x[2] - TAU, self.frequency]),
-        })
-    }
-
-    fn reset(&self, _: (), surface: Surface, x: &State<3>) -> Reset<(), State<3>> {
-        let state = match surface {
-            Surface::Wall => Vector3::new(self.wall, -self.restitution * x[1], x[2]),
-            Surface::Period => Vector3::new(x[0], x[1], 0.0),
-        };
-        Reset::Jump { mode: (), state }
-    }
-    fn vector_field(&self, _: (), x: &State<3>) -> Option<State<3>> {
-        Some(Vector3::new(x[1], x[2].cos() - x[0], self.frequency))
-    }
-}
-
-impl Differentiable<3> for Oscillator {
-    fn flow_jacobian(&self, _: (), x: &State<3>, t: f64) -> SMatrix<f64, 3, 3> {
-        let (sin, cos) = t.sin_cos();
-        let (a, w) = (self.driven(), self.frequency);
-        let phase = x[2] + w * t;
-        // The derivative by φ₀ of the free motion; that of the forced motion is added below.
-        let (offset, rate) = (a * x[2].sin(), a * w * x[2].cos());
-        SMatrix::<f64, 3, 3>::new(
-            cos,
-            sin,
-            offset * cos + rate * sin - a * phase.sin(),
-            -sin,
-            cos,
-            rate * cos - offset * sin - a * w * phase.cos(),
-            0.0,
-            0.0,
-            1.0,
-        )
-    }
-    fn guard_gradient(&self, surface: Surface, _: &State<3>) -> State<3> {
-        match surface {
-            Surface::Wall => Vector3::new(1.0, 0.0, 0.0),
-            Surface::Period => Vector3::new(0.0, 0.0, 1.0),
-        }
-    }
-    fn reset_jacobian(&self, _: (), surface: Surface, _: &State<3>) -> SMatrix<f64, 3, 3> {
-        SMatrix::from_diagonal(&match surface {
-            Surface::Wall => Vector3::new(0.0, -self.restitution, 1.0),
-            Surface::Period => Vector3::new(1.0, 1.0, 0.0),
-        })
-    }
-}
-
-/// The section φ = 0, with coordinates x and v.
-struct OnceAPeriod;
-
-impl Section<Oscillator, 3, 2> for OnceAPeriod {
-    fn point(&self, x: &SVector<f64, 2>) -> ((), State<3>) {
-        ((), Vector3::new(x[0], x[1], 0.0))
-    }
-    fn coordinates(&self, event: &Event<(), Surface, State<3>>) -> Option<SVector<f64, 2>> {
-        let (_, state) = event.after.filter(|_| event.surface == Surface::Period)?;
+    fn coordinates(&self, event: &Event<Label, Label, State<3>>) -> Option<SVector<f64, 2>> {
+        let (_, state) = event.after.filter(|_| event.surface == "period")?;
         Some(Vector2::new(state[0], state[1]))
     }
 }
 
-impl SmoothSection<Oscillator, 3, 2> for OnceAPeriod {
+impl SmoothSection<EquationsModel<State<3>>, 3, 2> for OnceAPeriod {
     fn point_jacobian(&self, _: &SVector<f64, 2>) -> SMatrix<f64, 3, 2> {
         SMatrix::<f64, 3, 2>::identity()
     }
-    fn coordinates_jacobian(&self, _: &Event<(), Surface, State<3>>) -> SMatrix<f64, 2, 3> {
+    fn coordinates_jacobian(&self, _: &Event<Label, Label, State<3>>) -> SMatrix<f64, 2, 3> {
         SMatrix::<f64, 2, 3>::identity()
     }
 }
@@ -164,7 +72,8 @@ fn one_period(beyond: f64) -> Result<return_map::SmoothReturn<2>, return_map::Er
     let free = Oscillator { frequency: 2.5, wall: 0.0, restitution: 0.8 };
     let amplitude = free.driven().abs();
     let oscillator = Oscillator { wall: amplitude - beyond, ..free };
-    let map = ReturnMap::new(&oscillator, &OnceAPeriod, Limits::new(100.0, 100));
+    let (model, section) = (oscillator.model()?, OnceAPeriod(Label::new("free")?));
+    let map = ReturnMap::new(&model, &section, Limits::new(100.0, 100));
     map.next_with_derivative(&Vector2::new(free.driven(), 0.0))
 }
 
@@ -224,7 +133,9 @@ mod tests {
     #[test]
     fn derivatives_agree_with_finite_differences() {
         let oscillator = Oscillator { frequency: 2.5, wall: 0.1, restitution: 0.8 };
-        let map = ReturnMap::new(&oscillator, &OnceAPeriod, Limits::new(100.0, 100));
+        let section = OnceAPeriod(Label::new("free").unwrap());
+        let model = oscillator.model().unwrap();
+        let map = ReturnMap::new(&model, &section, Limits::new(100.0, 100));
         for x in [Vector2::new(-0.2, 0.3), Vector2::new(0.05, -1.0), Vector2::new(0.0, 0.5)] {
             let back = map.next_with_derivative(&x).unwrap();
             for axis in 0..2 {
@@ -243,7 +154,9 @@ mod tests {
     #[test]
     fn a_line_of_starts_has_several_monotone_branches() {
         let oscillator = Oscillator { frequency: 2.5, wall: 0.25, restitution: 0.8 };
-        let map = ReturnMap::new(&oscillator, &OnceAPeriod, Limits::new(100.0, 100));
+        let section = OnceAPeriod(Label::new("free").unwrap());
+        let model = oscillator.model().unwrap();
+        let map = ReturnMap::new(&model, &section, Limits::new(100.0, 100));
         let image = |x: f64| map.next(&Vector2::new(x, 0.0)).ok().map(|back| back.coordinates[1]);
         let window = basin_of_attraction::Interval { left: -0.6, right: 0.2 };
         let branches = basin_of_attraction::monotone_branches(&image, window, 200).unwrap();
