@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::jet::Jet;
 use crate::jet_series::JetSeries;
 use crate::series::Coefficients;
-use crate::taylor_flow::{order_of, root, safety, shortened};
+use crate::step_length::{order_of, root, safety, shortened};
 
 /// The most steps of one motion.
 const MOST_STEPS: usize = 1_000_000;

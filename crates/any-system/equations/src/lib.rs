@@ -48,6 +48,7 @@ mod node;
 mod print;
 mod rules;
 mod series;
+mod step_length;
 mod taylor_flow;
 mod text;
 
@@ -64,4 +65,5 @@ pub use json::bounded_value;
 pub use lanes::Columns;
 pub use node::{Binary, Node, Unary};
 pub use series::{Coefficients, Series};
-pub use taylor_flow::{Step, TaylorFlow, horner};
+pub use step_length::horner;
+pub use taylor_flow::{Step, TaylorFlow};
