@@ -4,7 +4,7 @@
 //! on a feature that its own manifest does not name. This command checks
 //!
 //! - each crate alone: its library as another project gets it, and all its targets; with and without its features;
-//! - the code of the fuzz target, which is a workspace of its own;
+//! - the code of the fuzz targets, each of which is a workspace of its own;
 //! - the whole workspace with the oldest Rust that `Cargo.toml` promises.
 //!
 //! The last two need a package and a toolchain that may be missing. The command then prints a line that begins with
@@ -18,8 +18,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::time::Instant;
 
-/// The fuzz target's package.
-const FUZZ: &str = "crates/hopper/hopper-basin/fuzz";
+/// The packages of the fuzz targets.
+const FUZZ: [&str; 2] = ["crates/any-system/hybrid-system/fuzz", "crates/hopper/hopper-basin/fuzz"];
 
 /// A build to try.
 struct Build {
@@ -40,7 +40,9 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
         let package = read(root.join(&folder).join("Cargo.toml"))?;
         builds.extend(builds_alone(folder.rsplit('/').next().unwrap_or(&folder), &package));
     }
-    builds.extend(fuzz_target(&root)?);
+    for folder in FUZZ {
+        builds.extend(fuzz_target(&root, folder)?);
+    }
     builds.extend(oldest_rust(&root, &manifest)?);
     let failed = builds.iter().map(try_build).collect::<Result<Vec<_>, _>>()?;
     match failed.iter().filter(|failed| **failed).count() {
@@ -90,21 +92,22 @@ fn members(manifest: &str) -> Vec<String> {
     list.split('"').skip(1).step_by(2).map(str::to_owned).collect()
 }
 
-/// The check of the fuzz target's code; `None` if its packages are not here and cannot be had.
-fn fuzz_target(root: &Path) -> Result<Option<Build>, Error> {
-    let folder = root.join(FUZZ);
+/// The check of a fuzz target's code; `None` if its packages are not here and cannot be had.
+fn fuzz_target(root: &Path, folder: &str) -> Result<Option<Build>, Error> {
+    let name = format!("the fuzz target of {folder}");
+    let folder = root.join(folder);
     // The fuzz crate has no committed lock file. With the workspace's own, it gets the versions that the tests use.
     let (from, to) = (root.join("Cargo.lock"), folder.join("Cargo.lock"));
     std::fs::copy(&from, &to).map_err(Error::at(to))?;
     let manifest = folder.join("Cargo.toml");
     let mut fetch = Command::new(cargo());
     if !succeeds(fetch.args(["fetch", "--quiet", "--manifest-path"]).arg(&manifest)) {
-        skip("the fuzz target", "its packages cannot be had (cargo fetch fails in its folder)")?;
+        skip(&name, "its packages cannot be had (cargo fetch fails in its folder)")?;
         return Ok(None);
     }
     let arguments = ["check", "--quiet", "--manifest-path"].map(OsString::from);
     Ok(Some(Build {
-        name: "the fuzz target".into(),
+        name,
         arguments: arguments.into_iter().chain([manifest.into()]).collect(),
         // A check links nothing. With this variable the package does not build the fuzzer itself, which needs a C++
         // compiler.
