@@ -147,3 +147,47 @@ fn other_guards_are_searched_on_steps() {
     assert!(found.len() > 4);
     assert!(found.iter().all(|(_, certainty)| *certainty == Certainty::Interpolated));
 }
+
+/// The fields and guards of random linear models.
+const RATES: [&str; 6] = ["0", "-0.5", "-1", "-0.1", "0.2", "-2"];
+const FORCING: [&str; 8] =
+    ["0", "1", "cos(t)", "sin(1.3*t)", "0.3*t", "exp(-0.5*t)", "t*exp(-t)", "cos(t)^2"];
+const GUARDS: [&str; 6] = ["x - 0.3", "x*y - 0.1", "y", "x - cos(t)", "z - 0.2*x", "x*x - 0.5"];
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(64))]
+
+    /// A chain of three components, or an oscillator that the third one drives: in closed form and integrated.
+    #[test]
+    fn random_linear_models_have_the_events_of_their_integration(
+        own in proptest::array::uniform3(proptest::sample::select(&RATES[..])),
+        forcing in proptest::array::uniform3(proptest::sample::select(&FORCING[..])),
+        guard in proptest::sample::select(&GUARDS[..]),
+        oscillates: bool,
+        start in proptest::array::uniform3(-1.0..1.0f64),
+        time in proptest::sample::select(vec![0.0, 3.7]),
+    ) {
+        let [first, second] = match oscillates {
+            true => ["y".to_owned(), format!("-1.69*x + ({})*y + 0.1*z + {}", own[1], forcing[1])],
+            false => [
+                format!("({})*x + y + {}", own[0], forcing[0]),
+                format!("({})*y + z + {}", own[1], forcing[1]),
+            ],
+        };
+        // The time is a component, also where no forcing needs it.
+        let third = format!("({})*z + {} + 0*t", own[2], forcing[2]);
+        let closed = Equations::new(&["x", "y", "z"], &[])
+            .mode_text("m", &[&first, &second, &third])
+            .either_text("g", guard);
+        let integrated = Equations::new(&["x", "y", "z", "w"], &[])
+            .mode_text("m", &[&first, &second, &third, "w^2"])
+            .either_text("g", guard);
+        let [x, y, z] = start;
+        let a = events(&closed, ("m", [x, y, z, time], 12.0));
+        let b = events(&integrated, ("m", [x, y, z, 0.0, time], 12.0));
+        proptest::prop_assert_eq!(a.len(), b.len(), "{:?} {:?}", a, b);
+        for ((a, _), (b, _)) in a.iter().zip(&b) {
+            proptest::prop_assert!((a - b).abs() < 1e-7, "{} {}", a, b);
+        }
+    }
+}
