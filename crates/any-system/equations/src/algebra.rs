@@ -22,13 +22,17 @@ pub trait Arithmetic: Clone {
     fn quotient(x: &Self, y: &Self) -> Self;
     /// The square of a number: an enclosure of it is never below zero.
     fn square(x: &Self) -> Self;
-    /// Σ x_k y_k of two lists of the same length, in an order that vectors of any width have: four sums, of k = 0, 4, 8, …,
-    /// of k = 1, 5, … and so on, and then what is left at the end.
-    fn sum_of_products(x: &[Self], y: &[Self]) -> Self;
+    /// Whether the coefficients of a series are kept in reverse as well, so that a [convolution](Self::convolution) is one of
+    /// two lists that are read forward: neighbours then fill a vector.
+    const REVERSED: bool = false;
+    /// Σ x_k y_{n−1−k} of two lists of the same length n; `y` is given from its last number to its first where
+    /// [`REVERSED`](Self::REVERSED) is true. Of `f64` in an order that vectors of any width have: four sums, of k = 0, 4, 8,
+    /// …, of k = 1, 5, … and so on, and then what is left at the end.
+    fn convolution(x: &[Self], y: &[Self]) -> Self;
     /// x · k, of a whole number k.
     fn times(x: &Self, k: f64) -> Self;
-    /// x / k, of a whole number k above zero.
-    fn over(x: &Self, k: f64) -> Self;
+    /// x / k, of a whole number k above zero; `inverse` is the `f64` next to 1/k.
+    fn over(x: &Self, k: f64, inverse: f64) -> Self;
     /// True if there is a value, and it is finite.
     fn is_valid(&self) -> bool;
 }
@@ -71,6 +75,24 @@ pub(crate) fn of_number(function: Unary) -> fn(f64) -> f64 {
     }
 }
 
+/// x^y for x ≥ 0. The powers of forces over distances are products of a root, to two units in the last place and in a
+/// tenth of the time.
+#[inline(always)]
+fn power(x: f64, y: f64) -> f64 {
+    if y == -1.5 {
+        let inverse = 1.0 / x;
+        inverse * inverse.sqrt()
+    } else if y == 1.5 {
+        x * x.sqrt()
+    } else if y == -0.5 {
+        1.0 / x.sqrt()
+    } else if y == 0.5 {
+        x.sqrt()
+    } else {
+        interval_arithmetic::pow(x, y)
+    }
+}
+
 impl Arithmetic for f64 {
     fn one() -> Self {
         1.0
@@ -106,8 +128,10 @@ impl Arithmetic for f64 {
         x * x
     }
 
+    const REVERSED: bool = true;
+
     #[inline(always)]
-    fn sum_of_products(x: &[Self], y: &[Self]) -> Self {
+    fn convolution(x: &[Self], y: &[Self]) -> Self {
         let ((x, x_left), (y, y_left)) = (x.as_chunks::<4>(), y.as_chunks::<4>());
         let mut sums = [0.0; 4];
         for (x, y) in x.iter().zip(y) {
@@ -125,8 +149,9 @@ impl Arithmetic for f64 {
     }
 
     #[inline]
-    fn over(x: &Self, k: f64) -> Self {
-        x / k
+    // A product takes a fourth of the time of a quotient, and has one more rounding.
+    fn over(x: &Self, _: f64, inverse: f64) -> Self {
+        x * inverse
     }
 
     fn zero() -> Self {
@@ -144,7 +169,7 @@ impl Algebra for f64 {
         constant.value()
     }
 
-    #[inline]
+    #[inline(always)]
     fn unary(function: Unary, x: &Self) -> Self {
         of_number(function)(*x)
     }
@@ -159,7 +184,7 @@ impl Algebra for f64 {
             Binary::Quotient => x / y,
             // A base below zero has integer powers only, which are products.
             Binary::Power if x < 0.0 => f64::NAN,
-            Binary::Power => interval_arithmetic::pow(x, y),
+            Binary::Power => power(x, y),
             // −0 is zero.
             Binary::ArcTangent2 if x == 0.0 && y == 0.0 => f64::NAN,
             Binary::ArcTangent2 => pxfm::f_atan2(x + 0.0, y + 0.0),
@@ -205,8 +230,8 @@ impl Arithmetic for Enclosure {
         if x.is_valid() { x.squared() } else { NO_VALUE }
     }
 
-    fn sum_of_products(x: &[Self], y: &[Self]) -> Self {
-        x.iter().zip(y).fold(Enclosure::ZERO, |sum, (x, y)| {
+    fn convolution(x: &[Self], y: &[Self]) -> Self {
+        x.iter().zip(y.iter().rev()).fold(Enclosure::ZERO, |sum, (x, y)| {
             match sum.is_valid() && x.is_valid() && y.is_valid() {
                 true => sum + *x * *y,
                 false => NO_VALUE,
@@ -218,7 +243,7 @@ impl Arithmetic for Enclosure {
         if x.is_valid() { *x * k } else { NO_VALUE }
     }
 
-    fn over(x: &Self, k: f64) -> Self {
+    fn over(x: &Self, k: f64, _: f64) -> Self {
         if x.is_valid() { *x / Enclosure::from(k) } else { NO_VALUE }
     }
 

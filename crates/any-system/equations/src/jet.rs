@@ -78,16 +78,16 @@ impl<const T: usize> Arithmetic for Jet<T> {
         Self::product(x, x)
     }
 
-    fn sum_of_products(x: &[Self], y: &[Self]) -> Self {
-        x.iter().zip(y).fold(Self::zero(), |sum, (x, y)| Self::sum(&sum, &Self::product(x, y)))
+    fn convolution(x: &[Self], y: &[Self]) -> Self {
+        x.iter().zip(y.iter().rev()).fold(Self::zero(), |sum, (x, y)| Self::sum(&sum, &Self::product(x, y)))
     }
 
     fn times(x: &Self, k: f64) -> Self {
         x.each(|x| x * k)
     }
 
-    fn over(x: &Self, k: f64) -> Self {
-        x.each(|x| x / k)
+    fn over(x: &Self, _: f64, inverse: f64) -> Self {
+        x.each(|x| x * inverse)
     }
 
     fn is_valid(&self) -> bool {

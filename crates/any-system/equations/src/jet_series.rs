@@ -6,7 +6,7 @@ use crate::evaluate::compute;
 use crate::formulas::{Formulas, length as check_length};
 use crate::jet::Jet;
 use crate::node::Node;
-use crate::series::{Coefficients, Series, coefficient, length};
+use crate::series::{Coefficients, Series, coefficient, keep, length};
 
 /// Taylor series in time of a motion, and of formulas along it, whose coefficients are [`Jet`]s: with the derivatives by
 /// start, time and parameters.
@@ -70,13 +70,15 @@ impl JetSeries {
         order: usize,
     ) -> Result<Coefficients<Jet<T>>, Error> {
         let mut found = self.series.empty(order)?;
-        let row = length(found.terms);
+        let row = length::<Jet<T>>(found.terms);
         for (part, value) in self.values_of_parts(state)?.into_iter().enumerate() {
             found.all[part * row] = value;
         }
         let values = || state.iter().map(Jet::value).collect::<Vec<f64>>();
-        let finished = self.series.finish(&mut found);
-        finished.map_err(|part| self.series.field.no_value(part, &0.0, &values()))?;
+        if !self.series.finish(&mut found).is_valid() {
+            let part = self.series.without_value(&found);
+            return Err(self.series.field.no_value(part, &0.0, &values()));
+        }
         Ok(found)
     }
 
@@ -85,19 +87,19 @@ impl JetSeries {
         let Series { field, .. } = &self.series;
         check_length("components of the state", self.series.dimension(), state.len())?;
         let mut memory = self.series.memory::<f64>(T.max(1) - 1)?;
-        let row = length(memory.terms);
+        let row = length::<f64>(memory.terms);
         let values: Vec<f64> = state.iter().map(Jet::value).collect();
         field.check_start(&0.0, &values)?;
         let Coefficients { all, rules, .. } = &mut memory;
         compute(&field.nodes, &0.0, &values, all, row);
         for k in 1..T {
+            let inverse = 1.0 / k as f64;
             for rule in rules.iter() {
                 let found = match field.nodes.get(rule.row as usize / row) {
                     Some(Node::State(component)) => state[*component].0[k],
-                    _ => coefficient(all, row, rule, k),
+                    _ => coefficient(all, row, rule, (k, inverse)),
                 };
-                all[rule.row as usize + k] = found;
-                all[rule.row as usize + row - 1 - k] = found;
+                keep(&mut all[rule.row as usize..][..row], k, found);
             }
         }
         let parts = field.nodes.len();

@@ -32,8 +32,10 @@
 //! every machine.
 
 mod algebra;
+mod columns;
 mod constant;
 mod derivative;
+mod elementwise;
 mod error;
 mod evaluate;
 mod expression;
@@ -44,15 +46,19 @@ mod jet_flow;
 mod jet_series;
 mod json;
 mod lanes;
+mod many_starts;
 mod node;
 mod print;
 mod rules;
 mod series;
+mod simd;
+mod step;
 mod step_length;
 mod taylor_flow;
 mod text;
 
 pub use algebra::{Algebra, Arithmetic};
+pub use columns::Columns;
 pub use constant::{Constant, Decimal};
 pub use error::Error;
 pub use evaluate::Evaluator;
@@ -62,8 +68,9 @@ pub use jet::Jet;
 pub use jet_flow::jet_horner;
 pub use jet_series::JetSeries;
 pub use json::bounded_value;
-pub use lanes::Columns;
+
 pub use node::{Binary, Node, Unary};
 pub use series::{Coefficients, Series};
+pub use step::Step;
 pub use step_length::horner;
-pub use taylor_flow::{Step, TaylorFlow};
+pub use taylor_flow::TaylorFlow;

@@ -15,8 +15,8 @@ const MOST_TERMS: usize = 10_000;
 /// The coefficients of series in time, x(t + s) = Σ x_k s^k, from k = 0 on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coefficients<A> {
-    /// Row after row. A row has the coefficients of a part side by side, and then the same ones from the last to the first: a
-    /// sum Σ a_j b_{k−j} is one over two lists then.
+    /// Row after row. A row has the coefficients of a part side by side, and then, of numbers that want it, the same ones from
+    /// the last to the first.
     pub(crate) all: Vec<A>,
     pub(crate) terms: usize,
     /// The rows of the state's components, and of the watched formulas.
@@ -28,13 +28,24 @@ pub struct Coefficients<A> {
 
 /// The length of a row.
 #[inline(always)]
-pub(crate) const fn length(terms: usize) -> usize {
-    2 * terms
+pub(crate) const fn length<A: Arithmetic>(terms: usize) -> usize {
+    if A::REVERSED { 2 * terms } else { terms }
 }
 
-impl<A> Coefficients<A> {
+/// Keeps the coefficient k of a row.
+#[inline(always)]
+pub(crate) fn keep<A: Arithmetic>(row: &mut [A], k: usize, found: A) {
+    if A::REVERSED {
+        let last = row.len() - 1;
+        row[last - k] = found.clone();
+    }
+    row[k] = found;
+}
+
+impl<A: Arithmetic> Coefficients<A> {
+    #[inline(always)]
     fn row(&self, row: usize) -> &[A] {
-        &self.all[row * length(self.terms)..][..self.terms]
+        &self.all[row * length::<A>(self.terms)..][..self.terms]
     }
 
     /// Of a component of the state; none beyond the last one.
@@ -48,11 +59,13 @@ impl<A> Coefficients<A> {
     }
 
     /// Of all components, one after the other.
+    #[inline(always)]
     pub fn states(&self) -> impl ExactSizeIterator<Item = &[A]> {
         self.states.iter().map(|&row| self.row(row))
     }
 
     /// Of all watched formulas, one after the other.
+    #[inline(always)]
     pub fn all_watched(&self) -> impl ExactSizeIterator<Item = &[A]> {
         self.watched.iter().map(|&row| self.row(row))
     }
@@ -147,7 +160,7 @@ impl Series {
     ) -> Result<Coefficients<A>, Error> {
         let mut found = self.memory(order)?;
         self.expand(&time, state, &mut found)?;
-        let length = length(found.terms);
+        let length = length::<A>(found.terms);
         let wrong = |row: &usize| !found.all[row * length..][..found.terms].iter().all(A::is_valid);
         match (0..self.field.nodes.len()).find(wrong) {
             Some(part) => Err(self.field.no_value(part, &time, state)),
@@ -158,7 +171,7 @@ impl Series {
     /// Memory for coefficients up to an order, to be used again and again.
     pub(crate) fn memory<A: Algebra>(&self, order: usize) -> Result<Coefficients<A>, Error> {
         let mut memory = self.empty(order)?;
-        let length = length(memory.terms);
+        let length = length::<A>(memory.terms);
         for (row, value) in self.field.numbers().into_iter().enumerate() {
             memory.all[row * length] = value;
         }
@@ -171,12 +184,12 @@ impl Series {
             return Err(Error::Order { order, most: MOST_TERMS });
         }
         let terms = order + 1;
-        if self.rules.rows() * length(terms) > u32::MAX as usize {
-            return Err(Error::TooLarge { limit: u32::MAX as usize / length(terms) });
+        if self.rules.rows() * length::<A>(terms) > u32::MAX as usize {
+            return Err(Error::TooLarge { limit: u32::MAX as usize / length::<A>(terms) });
         }
-        let all = vec![A::zero(); self.rules.rows() * length(terms)];
+        let all = vec![A::zero(); self.rules.rows() * length::<A>(terms)];
         let (states, watched) = (self.states.clone(), self.watched.clone());
-        let rules = self.rules.of_length(length(terms));
+        let rules = self.rules.of_length(length::<A>(terms));
         Ok(Coefficients { all, terms, states, watched, rules })
     }
 
@@ -194,52 +207,78 @@ impl Series {
     ) -> Result<(), Error> {
         check_length("components of the state", self.states.len(), state.len())?;
         self.field.check_start(time, state)?;
-        let length = length(into.terms);
-        compute(&self.field.nodes, time, state, &mut into.all, length);
-        match self.finish(into) {
-            Err(part) if self.in_field[part] => Err(self.field.no_value(part, time, state)),
+        if self.compute(time, state, into).is_valid() {
+            return Ok(());
+        }
+        match self.without_value(into) {
+            part if self.in_field[part] => Err(self.field.no_value(part, time, state)),
             _ => Ok(()),
         }
     }
 
-    /// Computes the coefficients from those of order 0; the first part without a value of the lowest order if there is
-    /// one.
-    pub(crate) fn finish<A: Arithmetic>(&self, into: &mut Coefficients<A>) -> Result<(), usize> {
-        let (terms, length) = (into.terms, length(into.terms));
+    /// The same without a test of time and state: zero, or no value if a coefficient has none.
+    #[inline(always)]
+    pub(crate) fn compute<A: Algebra>(
+        &self,
+        time: &A,
+        state: &[A],
+        into: &mut Coefficients<A>,
+    ) -> A {
+        let length = length::<A>(into.terms);
+        compute(&self.field.nodes, time, state, &mut into.all, length);
+        self.finish(into)
+    }
+
+    /// Computes the coefficients from those of order 0: zero, or no value if one of them has none.
+    #[inline(always)]
+    pub(crate) fn finish<A: Arithmetic>(&self, into: &mut Coefficients<A>) -> A {
+        let (terms, length) = (into.terms, length::<A>(into.terms));
         let Coefficients { all, rules, .. } = into;
-        let mut are_valid = all.iter().step_by(length).all(A::is_valid);
+        let nothing_of = |x: &A| A::times(x, 0.0);
+        let mut zero = A::zero();
+        for x in all.iter().step_by(length) {
+            zero = A::sum(&zero, &nothing_of(x));
+        }
         let (polynomials, longest) = self.rules.polynomials;
         for k in 1..terms {
+            let inverse = 1.0 / k as f64;
             // Behind their last terms the coefficients are zero, and stay so.
             for rule in &rules[if k < longest { 0 } else { polynomials }..] {
-                let found = coefficient(all, length, rule, k);
-                are_valid &= found.is_valid();
-                all[rule.row as usize + k] = found.clone();
-                all[rule.row as usize + length - 1 - k] = found;
+                let found = coefficient(all, length, rule, (k, inverse));
+                zero = A::sum(&zero, &nothing_of(&found));
+                keep(&mut all[rule.row as usize..][..length], k, found);
             }
         }
-        if are_valid {
-            return Ok(());
-        }
-        // Of the lowest order without a value, the first part, and one that the field needs if there is one.
+        zero
+    }
+
+    /// Of the lowest order without a value, the first part, and one that the field needs if there is one.
+    #[cold]
+    pub(crate) fn without_value<A: Arithmetic>(&self, into: &Coefficients<A>) -> usize {
+        let (terms, length) = (into.terms, length::<A>(into.terms));
         let parts = self.field.nodes.len();
         let order = |k: usize| (0..parts).map(move |row| row * length + k);
         let wrong = || (0..terms).flat_map(order).filter(|&at| !into.all[at].is_valid());
         let in_field = wrong().find(|&at| self.in_field[at / length]);
-        Err(in_field.or_else(|| wrong().next()).map_or(0, |at| at / length))
+        in_field.or_else(|| wrong().next()).map_or(0, |at| at / length)
     }
 }
 
-/// The coefficient k of a row, from those of all rows.
+/// The coefficient k of a row, from those of all rows, with the `f64` next to 1/k.
 #[inline(always)]
-pub(crate) fn coefficient<A: Arithmetic>(all: &[A], length: usize, rule: &Rule, k: usize) -> A {
+pub(crate) fn coefficient<A: Arithmetic>(
+    all: &[A],
+    length: usize,
+    rule: &Rule,
+    (k, inverse): (usize, f64),
+) -> A {
     let [a, b, c, d] = rule.of.map(|row| row as usize);
     let row = rule.row as usize;
     let of = |row: usize, k: usize| &all[row + k];
     match rule.kind {
         Kind::Time if k == 1 => A::one(),
         Kind::Time => A::zero(),
-        Kind::State => A::over(of(a, k - 1), k as f64),
+        Kind::State => A::over(of(a, k - 1), k as f64, inverse),
         Kind::Negative => A::negative(of(a, k)),
         Kind::Sum => A::sum(of(a, k), of(b, k)),
         Kind::Difference => A::difference(of(a, k), of(b, k)),
@@ -270,14 +309,14 @@ pub(crate) fn coefficient<A: Arithmetic>(all: &[A], length: usize, rule: &Rule, 
             let grows = product_of_slopes(all, length, (row, c), k, u32::MAX);
             let known = inner(all, length, (d, a), k, u32::MAX);
             let rest = A::difference(&A::product(of(b, 0), &grows), &known);
-            A::over(&A::quotient(&rest, of(a, 0)), k as f64)
+            A::over(&A::quotient(&rest, of(a, 0)), k as f64, inverse)
         }
-        Kind::Chain => A::over(&product_of_slopes(all, length, (a, b), k, rule.most), k as f64),
-        Kind::LinearChain => A::over(&A::product(of(b, 1), of(a, k - 1)), k as f64),
+        Kind::Chain => A::over(&product_of_slopes(all, length, (a, b), k, rule.most), k as f64, inverse),
+        Kind::LinearChain => A::over(&A::product(of(b, 1), of(a, k - 1)), k as f64, inverse),
         Kind::Chains => {
             let first = product_of_slopes(all, length, (a, b), k, u32::MAX);
             let second = product_of_slopes(all, length, (c, d), k, u32::MAX);
-            A::over(&A::sum(&first, &second), k as f64)
+            A::over(&A::sum(&first, &second), k as f64, inverse)
         }
     }
 }
@@ -293,7 +332,8 @@ fn inner<A: Arithmetic>(
     most: u32,
 ) -> A {
     let count = (most as usize).min(k) - 1;
-    A::sum_of_products(&all[a + 1..][..count], &all[b + length - k..][..count])
+    let second = if A::REVERSED { b + length - k } else { b + k - count };
+    A::convolution(&all[a + 1..][..count], &all[second..][..count])
 }
 
 /// The same of a row with itself: each product of two different coefficients occurs twice.

@@ -1,0 +1,114 @@
+//! The values of formulas at many states at once, with the bits of one.
+
+use crate::algebra::Arithmetic;
+use crate::error::Error;
+use crate::evaluate::Evaluator;
+use crate::formulas::{Formulas, length};
+use crate::lanes::{Lanes, WIDTH};
+use std::array::from_fn;
+
+/// The values of formulas at many states.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Columns {
+    /// For each formula its values, state by state. They are NaN at the states in `failed`.
+    pub values: Vec<Vec<f64>>,
+    /// The places of states at which a formula has no value, with the errors.
+    pub failed: Vec<(usize, Error)>,
+}
+
+impl Columns {
+    pub(crate) fn of(formulas: usize, count: usize) -> Columns {
+        Columns { values: vec![vec![f64::NAN; count]; formulas], failed: Vec::new() }
+    }
+
+    /// Writes the values at a state.
+    pub(crate) fn keep(&mut self, state: usize, values: impl Iterator<Item = f64>) {
+        self.values.iter_mut().zip(values).for_each(|(column, value)| column[state] = value);
+    }
+}
+
+/// States by columns, with times of each or of all.
+pub(crate) struct Table<'a, const N: usize> {
+    pub(crate) columns: &'a [&'a [f64]],
+    times: [&'a [f64]; N],
+    pub(crate) count: usize,
+}
+
+impl<'a, const N: usize> Table<'a, N> {
+    pub(crate) fn new(
+        components: usize,
+        columns: &'a [&'a [f64]],
+        times: [&'a [f64]; N],
+    ) -> Result<Self, Error> {
+        length("columns", components, columns.len())?;
+        let of_times = times.iter().map(|times| times.len()).max().unwrap_or(0);
+        let count = columns.first().map_or(of_times, |column| column.len());
+        for column in columns {
+            length("states in a column", count, column.len())?;
+        }
+        for times in times.iter().filter(|times| times.len() != 1) {
+            length("times", count, times.len())?;
+        }
+        Ok(Table { columns, times, count })
+    }
+
+    /// One of the times of a state.
+    pub(crate) fn time(&self, list: usize, state: usize) -> f64 {
+        let times = self.times[list];
+        if times.len() == 1 { times[0] } else { times[state] }
+    }
+
+    pub(crate) fn state(&self, state: usize) -> Vec<f64> {
+        self.columns.iter().map(|column| column[state]).collect()
+    }
+}
+
+impl Formulas {
+    /// The values at many states, with the bits of [`values`](Self::values). `states` has a column for each component of
+    /// the state, and `times` the time of each state, or one time of all.
+    ///
+    /// ```
+    /// use equations::{Formulas, Names};
+    /// let formulas = Formulas::from_text(Names::new(&["x", "y"], &[])?, &["sqrt(x)", "y - x"])?;
+    /// let found = formulas.columns(&[0.0], &[&[4.0, 9.0, -1.0], &[1.0, 2.0, 3.0]])?;
+    /// assert_eq!(found.values[0][..2], [2.0, 3.0]);
+    /// assert_eq!(found.values[1][..2], [-3.0, -7.0]);
+    /// assert_eq!(found.failed[0].0, 2); // the root of −1
+    /// # Ok::<(), equations::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Length`] for another number of columns, and for columns or times of different lengths.
+    pub fn columns(&self, times: &[f64], states: &[&[f64]]) -> Result<Columns, Error> {
+        let table = Table::new(self.names().states.len(), states, [times])?;
+        let count = table.count;
+        let Columns { mut values, mut failed } = Columns::of(self.count(), count);
+        let mut evaluator = Evaluator::new(self);
+        let mut state = vec![Lanes::zero(); states.len()];
+        for first in (0..count).step_by(WIDTH) {
+            let width = WIDTH.min(count - first);
+            // The last block is filled with its last state.
+            let lanes = |column: &[f64]| Lanes(from_fn(|lane| column[first + lane.min(width - 1)]));
+            let time = Lanes(from_fn(|lane| table.time(0, first + lane.min(width - 1))));
+            state.iter_mut().zip(states).for_each(|(state, column)| *state = lanes(column));
+            evaluator.compute(&time, &state);
+            let found = || self.outputs.iter().map(|&at| evaluator.parts[at]);
+            for (column, found) in values.iter_mut().zip(found()) {
+                column[first..first + width].copy_from_slice(&found.0[..width]);
+            }
+            let starts = state.iter().chain([&time]);
+            if evaluator.parts.iter().chain(starts).all(Lanes::is_valid) {
+                continue;
+            }
+            for lane in 0..width {
+                // The same computation of one state has the same bits, and names the part.
+                let state: Vec<f64> = state.iter().map(|component| component.0[lane]).collect();
+                if let Err(error) = self.values(time.0[lane], &state) {
+                    values.iter_mut().for_each(|column| column[first + lane] = f64::NAN);
+                    failed.push((first + lane, error));
+                }
+            }
+        }
+        Ok(Columns { values, failed })
+    }
+}
