@@ -7,16 +7,17 @@ use crate::formulas::{Formulas, length};
 use crate::lanes::{Lanes, WIDTH};
 use std::array::from_fn;
 
-/// The values of formulas at many states.
+/// The values of formulas at many states, or the states at the ends of many motions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Columns {
-    /// For each formula its values, state by state. They are NaN at the states in `failed`.
+    /// For each formula, or component, its values, state by state. They are NaN at the states in `failed`.
     pub values: Vec<Vec<f64>>,
-    /// The places of states at which a formula has no value, with the errors.
+    /// The places of states at which a formula has no value, or whose motions fail, with the errors.
     pub failed: Vec<(usize, Error)>,
 }
 
 impl Columns {
+    /// Without values.
     pub(crate) fn of(formulas: usize, count: usize) -> Columns {
         Columns { values: vec![vec![f64::NAN; count]; formulas], failed: Vec::new() }
     }

@@ -79,7 +79,9 @@ impl<const T: usize> Arithmetic for Jet<T> {
     }
 
     fn convolution(x: &[Self], y: &[Self]) -> Self {
-        x.iter().zip(y.iter().rev()).fold(Self::zero(), |sum, (x, y)| Self::sum(&sum, &Self::product(x, y)))
+        x.iter()
+            .zip(y.iter().rev())
+            .fold(Self::zero(), |sum, (x, y)| Self::sum(&sum, &Self::product(x, y)))
     }
 
     fn times(x: &Self, k: f64) -> Self {

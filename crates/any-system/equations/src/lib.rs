@@ -12,6 +12,7 @@
 //! | [`Formulas::derivative`], [`Formulas::jacobian`], [`Formulas::parameter_jacobian`] | exact derivatives, as formulas again |
 //! | [`Series`], [`Coefficients`] | Taylor series along the motion, to any order, in `f64` or in enclosures |
 //! | [`TaylorFlow`], [`Step`] | the motion by Taylor's method: a polynomial for each step |
+//! | [`TaylorFlow::states_at`] | the motions of many starts side by side, with the same bits |
 //! | [`Formulas::texts`], [`Formulas::latex`] | the formulas, written |
 //! | [`Formulas::to_json`], [`Formulas::from_json`] | the formulas as data, with exact numbers |
 //! | [`Expression`], [`Term`], [`Parameters`] | what a closure computes with |

@@ -311,7 +311,9 @@ pub(crate) fn coefficient<A: Arithmetic>(
             let rest = A::difference(&A::product(of(b, 0), &grows), &known);
             A::over(&A::quotient(&rest, of(a, 0)), k as f64, inverse)
         }
-        Kind::Chain => A::over(&product_of_slopes(all, length, (a, b), k, rule.most), k as f64, inverse),
+        Kind::Chain => {
+            A::over(&product_of_slopes(all, length, (a, b), k, rule.most), k as f64, inverse)
+        }
         Kind::LinearChain => A::over(&A::product(of(b, 1), of(a, k - 1)), k as f64, inverse),
         Kind::Chains => {
             let first = product_of_slopes(all, length, (a, b), k, u32::MAX);

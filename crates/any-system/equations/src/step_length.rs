@@ -55,11 +55,7 @@ pub(crate) fn shortened(
 /// The error of a component of this size, where the largest one is `largest`, that a step may make. Without an absolute
 /// tolerance a component may pass through zero: the largest one gives the scale.
 #[inline(always)]
-pub(crate) fn allowed<A: Elementwise>(
-    (absolute, relative): (f64, f64),
-    size: A,
-    largest: A,
-) -> A {
+pub(crate) fn allowed<A: Elementwise>((absolute, relative): (f64, f64), size: A, largest: A) -> A {
     match absolute > 0.0 {
         true => size.each(|size| absolute + relative * size),
         false => A::times(&largest, relative),
@@ -91,8 +87,7 @@ pub(crate) fn value_and_slope<A: Elementwise>(series: &[A], x: A) -> (A, A) {
 pub(crate) fn value_and_size<A: Elementwise>(series: &[A], x: A) -> (A, A) {
     let size_of_x = x.size();
     let add = |sum: A, x: A, c: A| A::sum(&A::product(&sum, &x), &c);
-    let step =
-        |(value, size): (A, A), c: &A| (add(value, x, *c), add(size, size_of_x, c.size()));
+    let step = |(value, size): (A, A), c: &A| (add(value, x, *c), add(size, size_of_x, c.size()));
     series.iter().rev().fold((A::zero(), A::zero()), step)
 }
 

@@ -71,7 +71,8 @@ fn the_series_of_van_der_pol_is_that_of_its_recurrence() {
     let series = Series::new(&field, None).unwrap();
     let found = series.coefficients(0.0, &[2.0, 0.0], 4).unwrap();
     // x″ = −2, x‴ = 5(1 − 4)(−2) = 30, x⁗ = −15·30 + 2 − 5·2·2·0·… = −450 + 2.
-    assert_eq!(found.state(0), [2.0, 0.0, -1.0, 5.0, -448.0 / 24.0]);
+    assert_eq!(found.state(0)[..4], [2.0, 0.0, -1.0, 5.0]);
+    assert!((found.state(0)[4] + 448.0 / 24.0).abs() < 1e-14);
 }
 
 /// A model at other parameters is the same formulas.

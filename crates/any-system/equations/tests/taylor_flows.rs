@@ -138,3 +138,75 @@ fn steps_are_capped_and_can_be_left() {
     });
     assert_eq!((state.unwrap(), steps), (vec![1.0], 4));
 }
+
+/// Many motions have the bits of single ones: with times and ends of their own, forward and backward, where steps are halved
+/// or end with an error, with fewer and more starts than lanes.
+#[test]
+fn motions_side_by_side_have_the_bits_of_single_ones() {
+    let fields = [
+        field(&["x", "v"], &["v", "-sin(x) + 0.1*cos(1.3*t)"]),
+        field(&["x", "y", "z"], &["10*(y - x)", "x*(28 - z) - y", "x*y - 8/3*z"]),
+        kepler(),
+        // A pole at t = 1/x, the end of the domain at x = 0, and flat places.
+        field(&["x"], &["x^2"]),
+        field(&["x", "y"], &["-sqrt(x)", "ln(x + y) + tanh(x*y)"]),
+        field(&["x"], &["sin(x + t)^40"]),
+    ];
+    for (at, series) in fields.iter().enumerate() {
+        for (relative, count) in [(1e-3, 3), (1e-8, 21), (1e-15, 64)] {
+            let flow = TaylorFlow::new(series, relative, 1e-9).unwrap();
+            let part = |k: usize, step: f64| ((k + 1) as f64 * step).fract();
+            let columns: Vec<Vec<f64>> = (0..series.dimension())
+                .map(|axis| {
+                    (0..count).map(|k| 3.0 * part(k, 0.618 + 0.1 * axis as f64) - 0.2).collect()
+                })
+                .collect();
+            let columns: Vec<&[f64]> = columns.iter().map(|column| &column[..]).collect();
+            let times: Vec<f64> = (0..count).map(|k| part(k, 0.31)).collect();
+            let mut ends: Vec<f64> = (0..count).map(|k| 4.0 * part(k, 0.7548)).collect();
+            ends[1] = times[1];
+            ends[2] = f64::NAN;
+            let found = flow.states_at(&times, &columns, &ends).unwrap();
+            for k in 0..count {
+                let start: Vec<f64> = columns.iter().map(|column| column[k]).collect();
+                let failed = found.failed.iter().find(|(place, _)| *place == k);
+                match flow.state_at(times[k], &start, ends[k]) {
+                    Ok(state) => {
+                        let bits = |x: &f64| x.to_bits();
+                        let together = found.values.iter().map(|column| bits(&column[k]));
+                        assert!(together.eq(state.iter().map(bits)), "{at} {relative:e} {k}");
+                        assert_eq!(failed, None);
+                    }
+                    Err(error) => {
+                        assert_eq!(
+                            failed.map(|(_, error)| format!("{error}")),
+                            Some(format!("{error}"))
+                        );
+                        assert!(found.values.iter().all(|column| column[k].is_nan()));
+                    }
+                }
+            }
+        }
+    }
+    let flow = TaylorFlow::new(&fields[0], 1e-12, 1e-12).unwrap();
+    assert_eq!(
+        flow.states_at(&[0.0], &[&[], &[]], &[1.0]).unwrap().values,
+        [Vec::<f64>::new(), Vec::new()]
+    );
+    assert!(flow.states_at(&[0.0], &[&[1.0]], &[1.0]).is_err());
+    assert!(flow.states_at(&[0.0], &[&[1.0], &[1.0, 2.0]], &[1.0]).is_err());
+    assert!(flow.states_at(&[0.0, 1.0], &[&[1.0], &[1.0]], &[1.0]).is_err());
+}
+
+/// With a watched formula steps may be shorter: those of single motions.
+#[test]
+fn watched_motions_have_the_bits_of_single_ones() {
+    let names = Names::new(&["x", "v"], &[]).unwrap();
+    let field = Formulas::from_text(names.clone(), &["v", "-x"]).unwrap();
+    let guard = Formulas::from_text(names, &["sin(30*x)"]).unwrap();
+    let series = Series::new(&field, Some(&guard)).unwrap();
+    let flow = TaylorFlow::new(&series, 1e-12, 1e-12).unwrap();
+    let found = flow.states_at(&[0.0], &[&[1.0, 0.5], &[0.0, 0.1]], &[7.0]).unwrap();
+    let single = flow.state_at(0.0, &[0.5, 0.1], 7.0).unwrap();
+    assert_eq!([found.values[0][1], found.values[1][1]], single[..]);
+}
