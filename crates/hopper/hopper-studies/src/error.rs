@@ -81,6 +81,9 @@ pub enum Error {
     /// An expansion could not be evaluated.
     #[error(transparent)]
     Asymptotics(#[from] hopper_asymptotics::Error),
+    /// Formulas were refused, or have no value.
+    #[error(transparent)]
+    Equations(#[from] equations::Error),
     /// An execution of a hybrid system failed.
     #[error(transparent)]
     Execution(#[from] hybrid_system::Error),

@@ -16,7 +16,7 @@
 //! | `work_precision` | how much time and error does each way to compute a hop have? |
 //! | `speed` | how fast are hops and rasters, with their output checked first? |
 //! | `scale` | what do rasters of growing size cost, and what do many workers gain? |
-//! | `peers`, `events` | how do heyoka, SciPy, numba and diffsol compare on the same hops and scenes? |
+//! | `peers`, `events`, `motions` | how do heyoka, SciPy, numba and diffsol compare on the same hops, scenes and motions? |
 //! | `repository` | where are the repository's files, and how do commands print? |
 
 mod beyond;
@@ -34,6 +34,7 @@ mod figures;
 mod independent;
 mod job;
 mod models;
+mod motions;
 mod peers;
 mod proved_figure;
 mod reference;

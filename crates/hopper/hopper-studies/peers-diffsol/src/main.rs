@@ -1,11 +1,13 @@
 //! Events of six scenes by diffsol: times of the events, state at the end, time of a run.
 //!
-//! Run with `cargo run --release -- results.json`. Each scene is a function that builds its model and returns a
+//! Run with `cargo run --release -- results.json`; with a file of motions behind it, see `motions`. Each scene is a function that builds its model and returns a
 //! function that runs it. That function returns the times of the events and the first component of the state at the
 //! end. The lines between `begin` and `end` are the lines of the model. A run ends at the limit on time or after
 //! `MOST` events.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::disallowed_methods)]
+
+mod motions;
 
 use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason};
 use std::time::{Duration, Instant};
@@ -201,6 +203,13 @@ fn measure(scene: &str, run: Run) -> serde_json::Value {
 }
 
 fn main() {
+    let [output, motions] = [1, 2].map(|at| std::env::args().nth(at));
+    let write = |results: &[serde_json::Value]| {
+        std::fs::write(output.unwrap(), serde_json::to_string(results).unwrap()).unwrap();
+    };
+    if let Some(motions) = motions {
+        return write(&motions::measure(&std::fs::read_to_string(motions).unwrap()));
+    }
     let results = [
         measure("ball", ball()),
         measure("pendulum", pendulum()),
@@ -209,6 +218,5 @@ fn main() {
         measure("relay with hysteresis", hysteresis()),
         measure("relay", relay()),
     ];
-    let output = std::env::args().nth(1).unwrap();
-    std::fs::write(output, serde_json::to_string(&results).unwrap()).unwrap();
+    write(&results);
 }

@@ -1,7 +1,8 @@
-//! `compare-events`: the events of the same scenes by SciPy, heyoka, diffsol and this repository.
+//! `compare-events`: the events of the same scenes, and motions at equal errors, by SciPy, heyoka, diffsol and this repository.
 
 use crate::error::Error;
 use crate::events::{answers, by_diffsol, by_python, by_us, csv, markdown, verdict};
+use crate::motions;
 use crate::peers::Python;
 use crate::repository::{Folder, read, repository, results_folder, say};
 use crate::text::replace_block;
@@ -17,7 +18,7 @@ pub(crate) struct Options {
     /// Folder for the environment and the results [default: target/peers in the repository]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Renew the table of docs/performance.md and docs/events.csv with the measured values
+    /// Renew the tables of docs/performance.md, docs/events.csv and docs/motions.csv with the measured values
     #[arg(long)]
     bless: bool,
 }
@@ -28,13 +29,20 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let folder = results_folder(options.out.as_deref(), "peers")?;
     let _lock = Lock::take(folder.path(), "compare-peers")?;
     let mut found = by_us()?;
+    let mut points = motions::by_us()?;
     let mut skipped = 0;
-    let by_python = Python::with_packages(&options.python, folder.path())
-        .and_then(|python| by_python(&python, folder.path()));
-    for (name, theirs) in [("SciPy and heyoka", by_python), ("diffsol", by_diffsol(folder.path()))]
-    {
+    let python = Python::with_packages(&options.python, folder.path());
+    let by_python = python.and_then(|python| {
+        Ok((by_python(&python, folder.path())?, motions::by_python(&python, folder.path())?))
+    });
+    let by_diffsol = by_diffsol(folder.path())
+        .and_then(|events| Ok((events, motions::by_diffsol(folder.path())?)));
+    for (name, theirs) in [("SciPy and heyoka", by_python), ("diffsol", by_diffsol)] {
         match theirs {
-            Ok(theirs) => found.extend(theirs),
+            Ok((events, motions)) => {
+                found.extend(events);
+                points.extend(motions);
+            }
             Err(error) => {
                 skipped += 1;
                 say(format_args!("SKIPPED {name}: {error}"))?;
@@ -47,8 +55,10 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
         verdicts.extend(scene.map(|found| verdict(found, &answer)));
     }
     let (table, data) = (markdown(&verdicts), csv(&verdicts)?);
+    let (motions_table, motions_data) = (motions::markdown(&points), motions::csv(&points)?);
     folder.write("events.csv", &data.bytes)?;
-    say(format_args!("{table}\n{}", folder.path().display()))?;
+    folder.write("motions.csv", &motions_data.bytes)?;
+    say(format_args!("{table}\n{motions_table}\n{}", folder.path().display()))?;
     if !options.bless {
         return Ok(());
     }
@@ -58,7 +68,10 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
     }
     let docs = Folder::open(&repository().join("docs"))?;
     let text = read(&docs.path().join("performance.md"))?;
-    docs.write("performance.md", replace_block(&text, "events", &table)?.as_bytes())?;
+    let text = replace_block(&text, "events", &table)?;
+    let text = replace_block(&text, "motions", &motions_table)?;
+    docs.write("performance.md", text.as_bytes())?;
     docs.write("events.csv", &data.bytes)?;
+    docs.write("motions.csv", &motions_data.bytes)?;
     Ok(())
 }

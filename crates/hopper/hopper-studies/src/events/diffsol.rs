@@ -8,11 +8,11 @@ use std::path::Path;
 /// The package.
 const PACKAGE: &str = "crates/hopper/hopper-studies/peers-diffsol";
 
-/// Builds the program in `folder` and runs it. It writes its results to `output`.
+/// Builds the program in `folder` and runs it with these files. It writes its results to the first one.
 ///
 /// # Errors
 /// [`Error::Peers`] if its packages cannot be had, or if it fails.
-pub(super) fn run_diffsol(folder: &Path, output: &Path) -> Result<(), Error> {
+pub(crate) fn run_diffsol(folder: &Path, files: &[&Path]) -> Result<(), Error> {
     let manifest = repository().join(PACKAGE).join("Cargo.toml");
     let target = folder.join("diffsol");
     let text = |path: &Path| path.to_string_lossy().into_owned();
@@ -23,5 +23,6 @@ pub(super) fn run_diffsol(folder: &Path, output: &Path) -> Result<(), Error> {
     call(Path::new(&cargo), &build, "the program with diffsol could not be built")?;
     let program =
         target.join("release").join(format!("peers-diffsol{}", std::env::consts::EXE_SUFFIX));
-    call(&program, &[text(output)], "the program with diffsol failed")
+    let files: Vec<_> = files.iter().map(|file| text(file)).collect();
+    call(&program, &files, "the program with diffsol failed")
 }

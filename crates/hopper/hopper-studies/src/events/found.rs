@@ -56,7 +56,7 @@ pub(crate) fn by_python(python: &Python, folder: &Path) -> Result<Vec<FoundEvent
 /// By diffsol.
 pub(crate) fn by_diffsol(folder: &Path) -> Result<Vec<FoundEvents>, Error> {
     let output = folder.join("events-diffsol.json");
-    run_diffsol(folder, &output)?;
+    run_diffsol(folder, &[&output])?;
     let mut found = read(&output)?;
     for found in &mut found {
         found.lines = model_lines(DIFFSOL, &found.scene);

@@ -9,6 +9,7 @@ mod table;
 mod verdict;
 
 pub(crate) use answers::answers;
+pub(crate) use diffsol::run_diffsol;
 pub(crate) use found::{by_diffsol, by_python, by_us};
 pub(crate) use table::{csv, markdown};
 pub(crate) use verdict::verdict;

@@ -1,0 +1,132 @@
+//! Time and error of each program on each motion, at many tolerances.
+
+use super::ours;
+use super::scene::{SCENES, Scene, scenes};
+use crate::error::Error;
+use crate::events::run_diffsol;
+use crate::peers::Python;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// The tolerances are powers of ten with these exponents, relative and absolute.
+const EXPONENTS: std::ops::RangeInclusive<i32> = 3..=15;
+
+/// Time for the runs of one scene at one tolerance; the scripts of the other programs have the same. The smallest time of a
+/// run counts: other processes only make a run longer.
+const SHARE: Duration = Duration::from_millis(100);
+
+/// The script of SciPy and heyoka.
+const PYTHON: &str = include_str!("motions.py");
+
+/// A program's answer to a scene at a tolerance, and the seconds of a start.
+#[derive(Debug, Clone, serde::Deserialize)]
+struct Found {
+    scene: String,
+    program: String,
+    tolerance: f64,
+    seconds: f64,
+    answer: Vec<f64>,
+}
+
+/// Time and error of a program on a motion at a tolerance.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Point {
+    pub(super) scene: String,
+    pub(super) program: String,
+    pub(super) tolerance: f64,
+    pub(super) error: f64,
+    /// Of one start.
+    pub(super) seconds: f64,
+}
+
+/// By this repository.
+pub(crate) fn by_us() -> Result<Vec<Point>, Error> {
+    let mut found = Vec::new();
+    for scene in scenes()? {
+        for exponent in EXPONENTS {
+            let tolerance = 10f64.powi(-exponent);
+            for (program, starts, run) in ours::runs(&scene, tolerance)? {
+                // A tolerance that a program refuses has no point.
+                let Ok(answer) = run() else { continue };
+                let seconds = smallest(&run)? / starts as f64;
+                let (name, program) = (scene.name.clone(), program.to_owned());
+                found.push(Found { scene: name, program, tolerance, seconds, answer });
+            }
+        }
+    }
+    compared(found)
+}
+
+/// The smallest time of some runs.
+fn smallest(run: &ours::Run) -> Result<f64, Error> {
+    let (begin, mut smallest) = (Instant::now(), f64::INFINITY);
+    while begin.elapsed() < SHARE {
+        let start = Instant::now();
+        std::hint::black_box(run()?);
+        smallest = smallest.min(start.elapsed().as_secs_f64());
+    }
+    Ok(smallest)
+}
+
+/// By SciPy and heyoka.
+pub(crate) fn by_python(python: &Python, folder: &Path) -> Result<Vec<Point>, Error> {
+    let (input, output) = inputs(folder, "motions-python.json")?;
+    python.run(PYTHON, &[&input, &output])?;
+    compared(read(&output)?)
+}
+
+/// By diffsol.
+pub(crate) fn by_diffsol(folder: &Path) -> Result<Vec<Point>, Error> {
+    let (input, output) = inputs(folder, "motions-diffsol.json")?;
+    run_diffsol(folder, &[&output, &input])?;
+    compared(read(&output)?)
+}
+
+fn inputs(folder: &Path, output: &str) -> Result<(std::path::PathBuf, std::path::PathBuf), Error> {
+    let input = folder.join("motions.jsonl");
+    std::fs::write(&input, SCENES).map_err(|source| Error::File { path: input.clone(), source })?;
+    Ok((input, folder.join(output)))
+}
+
+fn read(path: &Path) -> Result<Vec<Found>, Error> {
+    serde_json::from_str(&crate::repository::read(path)?)
+        .map_err(|error| Error::Peers { reason: error.to_string() })
+}
+
+/// The errors.
+fn compared(found: Vec<Found>) -> Result<Vec<Point>, Error> {
+    let scenes = scenes()?;
+    let of = |name: &str| scenes.iter().find(|scene| scene.name == name);
+    let point = |Found { scene, program, tolerance, seconds, answer }| {
+        let error = of(&scene).map_or(Ok(f64::INFINITY), |known: &Scene| known.error(&answer))?;
+        Ok(Point { scene, program, tolerance, error, seconds })
+    };
+    found.into_iter().map(point).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every way has every answer, to what its tolerance lets expect.
+    #[test]
+    fn our_motions_have_their_answers() {
+        for scene in scenes().unwrap() {
+            for (program, _, run) in ours::runs(&scene, 1e-11).unwrap() {
+                let starts_many = program.contains("1000") && scene.states.len() > 4;
+                if starts_many {
+                    continue;
+                }
+                let error = scene.error(&run().unwrap()).unwrap();
+                // Errors add up along the motion; those of the impacts and next to the pericentre grow most.
+                assert!(error < 1e-8, "{}, {program}: {error:e}", scene.name);
+            }
+        }
+    }
+
+    #[test]
+    fn the_script_has_the_same_tolerances_and_starts() {
+        assert!(PYTHON.contains("range(3, 16)") && PYTHON.contains("STARTS = 1000"));
+        assert_eq!((EXPONENTS, ours::STARTS), (3..=15, 1000));
+    }
+}

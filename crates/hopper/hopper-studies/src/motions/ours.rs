@@ -1,0 +1,173 @@
+//! The motions by this repository: by Taylor's method on the formulas, of one start and of a thousand, and by the
+//! Runge–Kutta pairs on plain functions.
+
+use super::scene::Scene;
+use crate::error::Error;
+use equations::{Formulas, Names, Series, TaylorFlow};
+use hybrid_system::{
+    Equations, EquationsModel, Execution, HybridSystem, Integration, Model, State, Tolerances,
+};
+use nalgebra::DVector;
+use pxfm::{f_cos, f_sin};
+
+/// Starts that are followed at once.
+pub(super) const STARTS: usize = 1000;
+
+/// The starts are as far apart, relative to their size: they have orbits, and steps, of their own.
+const APART: f64 = 1e-6;
+
+/// A way to compute a motion: the answer of a scene at a tolerance.
+pub(super) type Run = Box<dyn Fn() -> Result<Vec<f64>, Error>>;
+
+/// The ways that a scene has, with their names and the number of starts of a run.
+pub(super) fn runs(
+    scene: &Scene,
+    tolerance: f64,
+) -> Result<Vec<(&'static str, usize, Run)>, Error> {
+    let runge_kutta = ("ours, Runge–Kutta", 1, runge_kutta(scene, tolerance)?);
+    Ok(match scene.guard {
+        Some(_) => vec![("ours, equations", 1, events(scene, tolerance)?), runge_kutta],
+        None => {
+            let (one, all) = taylor(scene, tolerance)?;
+            vec![
+                ("ours, equations", 1, one),
+                ("ours, equations, 1000 starts at once", STARTS, all),
+                runge_kutta,
+            ]
+        }
+    })
+}
+
+fn texts(words: &[String]) -> Vec<&str> {
+    words.iter().map(String::as_str).collect()
+}
+
+/// The state at the end, of one start and of many.
+fn taylor(scene: &Scene, tolerance: f64) -> Result<(Run, Run), Error> {
+    let names = Names::new(&texts(&scene.states), &[])?;
+    let field = Formulas::from_text(names, &texts(&scene.field))?;
+    let (start, end) = (scene.start()?, scene.end()?);
+    let column = |x: &f64| (0..STARTS).map(|k| x * (1.0 + k as f64 * APART)).collect();
+    let columns: Vec<Vec<f64>> = start.iter().map(column).collect();
+    let one = Series::new(&field, None)?;
+    let all = Series::new(&field, None)?;
+    Ok((
+        Box::new(move || {
+            Ok(TaylorFlow::new(&one, tolerance, tolerance)?.state_at(0.0, &start, end)?)
+        }),
+        Box::new(move || {
+            let columns: Vec<&[f64]> = columns.iter().map(|column| &column[..]).collect();
+            let flow = TaylorFlow::new(&all, tolerance, tolerance)?;
+            let found = flow.states_at(&[0.0], &columns, &[end])?;
+            Ok(found.values.iter().filter_map(|column| column.first().copied()).collect())
+        }),
+    ))
+}
+
+/// The time of the last event of a model of equations.
+fn events(scene: &Scene, tolerance: f64) -> Result<Run, Error> {
+    let equations = Equations::new(&texts(&scene.states), &[]).mode_text("m", &texts(&scene.field));
+    let guard = scene.guard.as_deref().unwrap_or_default();
+    let equations = match &scene.reset {
+        Some(reset) => equations.rising_text("guard", guard).resets_text(&texts(reset)),
+        None => equations.either_text("guard", guard),
+    };
+    let model: EquationsModel<DVector<f64>> = equations.model()?;
+    let model = model.tolerance(tolerance);
+    let (mut start, end) = (scene.start()?, scene.end()?);
+    if model.series("m").is_some_and(|series| series.dimension() > start.len()) {
+        // The time, which the field needs.
+        start.push(0.0);
+    }
+    let start = DVector::from(start);
+    Ok(Box::new(move || last_event(model.start("m", start.clone(), end)?)))
+}
+
+fn last_event<T: HybridSystem>(run: Execution<'_, T>) -> Result<Vec<f64>, Error> {
+    let mut last = None;
+    for arc in run {
+        last = arc?.event().map(|event| event.time).or(last);
+    }
+    Ok(last.into_iter().collect())
+}
+
+/// By plain functions: the state at the end, or the time of the last event.
+fn runge_kutta(scene: &Scene, tolerance: f64) -> Result<Run, Error> {
+    let (start, end) = (scene.start()?, scene.end()?);
+    let time = (end, tolerance);
+    Ok(match scene.name.as_str() {
+        "pendulum section" => {
+            let model = Model::integrated(|(), x: &State<2>| [x[1], -f_sin(x[0])])
+                .either((), |x| x[0], |x| ((), *x))
+                .tolerance(tolerance);
+            Box::new(move || last_event(model.run((), [start[0], start[1]], end)))
+        }
+        "impact oscillator" => {
+            let field = |(), x: &State<3>| [x[1], f_cos(1.3 * x[2]) - 0.1 * x[1] - x[0], 1.0];
+            let model = Model::integrated(field)
+                .rising((), |x| x[0] - 0.5, |x| ((), [x[0], -0.8 * x[1], x[2]]))
+                .tolerance(tolerance);
+            Box::new(move || last_event(model.run((), [start[0], start[1], 0.0], end)))
+        }
+        "van der Pol" => {
+            flow(&start, time, |x: &State<2>| [x[1], 5.0 * (1.0 - x[0] * x[0]) * x[1] - x[0]])
+        }
+        "Lorenz" => flow(&start, time, |x: &State<3>| {
+            let [x, y, z] = [x[0], x[1], x[2]];
+            [10.0 * (y - x), x * (28.0 - z) - y, x * y - 2.666_666_666_666_666_5 * z]
+        }),
+        "outer planets" => flow(&start, time, planets),
+        _ => flow(&start, time, |x: &State<4>| {
+            let square = x[0] * x[0] + x[1] * x[1];
+            let force = 1.0 / (square * square.sqrt());
+            [x[2], x[3], -force * x[0], -force * x[1]]
+        }),
+    })
+}
+
+/// The state at the end.
+fn flow<const N: usize, F>(start: &[f64], (end, tolerance): (f64, f64), field: F) -> Run
+where
+    F: Fn(&State<N>) -> [f64; N] + 'static,
+{
+    let start = State::from_column_slice(start);
+    Box::new(move || {
+        let field = |_: f64, x: &State<N>| State::from(field(x));
+        let motion = Integration::new(field, &start, Tolerances::both(tolerance))?;
+        let mut motion = motion.until(end)?;
+        while !motion.ended() {
+            motion.step()?;
+        }
+        Ok(motion.state().as_slice().to_vec())
+    })
+}
+
+/// The masses of the sun and the outer planets, in that of the sun.
+const MASSES: [f64; 6] = [
+    1.000_005_976_82,
+    0.000_954_786_104_043,
+    0.000_285_583_733_151,
+    0.000_043_727_316_454_6,
+    0.000_051_775_913_844_9,
+    0.000_000_007_692_307_692_3,
+];
+
+/// The constant of gravity, in astronomical units, days and masses of the sun.
+const GRAVITY: f64 = 2.959_122_082_86e-4;
+
+fn planets(x: &State<36>) -> [f64; 36] {
+    let mut rates = [0.0; 36];
+    rates[..18].copy_from_slice(&x.as_slice()[18..]);
+    for i in 0..6 {
+        for j in 0..i {
+            let away: [f64; 3] = std::array::from_fn(|axis| x[3 * i + axis] - x[3 * j + axis]);
+            let square = away.iter().map(|part| part * part).sum::<f64>();
+            let force = GRAVITY / (square * square.sqrt());
+            for (axis, part) in away.iter().enumerate() {
+                rates[18 + 3 * i + axis] -= MASSES[j] * force * part;
+                rates[18 + 3 * j + axis] += MASSES[i] * force * part;
+            }
+        }
+    }
+    rates
+}
