@@ -193,6 +193,11 @@ pub struct Parameters<'g> {
 }
 
 impl<'g> Parameters<'g> {
+    /// A number, for formulas without a symbol: its `f64`, exactly.
+    pub fn number(&self, value: f64) -> Expression<'g> {
+        self.zero.number(value)
+    }
+
     /// The sum of symbols, such as of forces over bodies; 0 of no symbols.
     pub fn sum(&self, terms: impl IntoIterator<Item = Expression<'g>>) -> Expression<'g> {
         terms.into_iter().reduce(|sum, term| sum + term).unwrap_or(self.zero)

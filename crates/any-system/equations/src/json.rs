@@ -14,6 +14,7 @@ use crate::formulas::{Formulas, MOST_PARTS, Names};
 use crate::graph::Graph;
 use crate::node::{BINARY, Binary, Node, UNARY, Unary, name_in, named};
 use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
 
 /// The version of the format. A reader refuses others.
 const VERSION: u64 = 1;
@@ -49,6 +50,11 @@ impl Formulas {
             }
         }
         file.to_string()
+    }
+
+    /// The [`content_hash`] of [`to_json`](Self::to_json): equal for the same formulas with the same names and values.
+    pub fn content_hash(&self) -> String {
+        content_hash(&self.to_json())
     }
 
     /// Their parts and outputs as a value of JSON, without the names: for files of several formulas.
@@ -101,6 +107,17 @@ impl Formulas {
         let outputs = outputs.collect::<Result<Vec<_>, Error>>()?;
         Formulas::of_parts(names, graph.into_nodes(), outputs)
     }
+}
+
+/// The SHA-256 of the bytes of a file, as 64 hexadecimal digits: a short name of its contents for stores and certificates,
+/// which any other program can compute.
+///
+/// ```
+/// let empty = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
+/// assert_eq!(equations::content_hash(""), empty);
+/// ```
+pub fn content_hash(text: &str) -> String {
+    Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// A value of JSON, if its memory is bounded: of at most 30 million bytes, with at most two million lists.

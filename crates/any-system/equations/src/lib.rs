@@ -14,7 +14,7 @@
 //! | [`TaylorFlow`], [`Step`] | the motion by Taylor's method: a polynomial for each step |
 //! | [`TaylorFlow::states_at`] | the motions of many starts side by side, with the same bits |
 //! | [`Formulas::texts`], [`Formulas::latex`] | the formulas, written |
-//! | [`Formulas::to_json`], [`Formulas::from_json`] | the formulas as data, with exact numbers |
+//! | [`Formulas::to_json`], [`Formulas::from_json`], [`Formulas::content_hash`] | the formulas as data, with exact numbers |
 //! | [`Expression`], [`Term`], [`Parameters`] | what a closure computes with |
 //!
 //! ```
@@ -68,7 +68,7 @@ pub use formulas::{Formulas, Names};
 pub use jet::Jet;
 pub use jet_flow::jet_horner;
 pub use jet_series::JetSeries;
-pub use json::bounded_value;
+pub use json::{bounded_value, content_hash};
 
 pub use node::{Binary, Node, Unary};
 pub use series::{Coefficients, Series};

@@ -140,6 +140,8 @@ pub use error::Error;
 pub use execution::Execution;
 #[cfg(feature = "ode")]
 pub use formulas::{Along, Equations, EquationsModel, ExecutionJet, Label};
+#[cfg(all(feature = "ode", feature = "serde"))]
+pub use formulas::SavedRun;
 pub use guard::{Direction, Guard, Role, Touch};
 pub use interval_arithmetic::Enclosure;
 pub use lands_beyond::LandsBeyond;

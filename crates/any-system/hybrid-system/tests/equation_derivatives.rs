@@ -138,3 +138,73 @@ fn derivatives_are_refused_at_a_grazing() {
     let refused = model.jet::<2>(&[arc], &Along::start(&[0.0, 1.0]));
     assert!(matches!(refused, Err(Error::GrazingSensitivity { .. })), "{refused:?}");
 }
+
+/// A rotor that is kicked by K sin θ after each period is the standard map. By start, kick and period: the derivatives of
+/// the map, by hand.
+#[test]
+fn derivatives_through_ticks_are_those_of_the_standard_map() {
+    let (kick, period) = (0.9, 0.75);
+    let rotor = Equations::new(&["angle", "speed"], &[("kick", "0.9"), ("period", "0.75")])
+        .mode("turns", |_, x, _| [x[1], 0.0 * x[1]])
+        .clock_text("kick", "period", "period")
+        .resets(|_, x, p| [x[0], x[1] + p["kick"] * x[0].sin()]);
+    let again = Equations::from_json(&rotor.to_json().unwrap()).unwrap();
+    assert_eq!(again, rotor);
+    let rotor = again.model::<State<2>>().unwrap();
+    let arcs: Vec<_> = rotor.start("turns", [1.0, 0.3], 2.3).unwrap().map(Result::unwrap).collect();
+    assert_eq!(arcs.len(), 4);
+    for (start, by_kick, by_period) in
+        [([1.0, 0.0], 0.0, 0.0), ([0.0, 1.0], 0.0, 0.0), ([0.0, 0.0], 1.0, 0.0), ([0.3, -2.0], 0.5, 2.0)]
+    {
+        let along = Along::start(&start).and_parameter("kick", by_kick);
+        let along = along.and_parameter("period", by_period);
+        let jet = rotor.jet::<2>(&arcs[..3], &along).unwrap();
+        let (mut x, mut v, mut dx, mut dv) = (1.0f64, 0.3, start[0], start[1]);
+        for _ in 0..3 {
+            (x, dx) = (x + period * v, dx + period * dv + by_period * v);
+            (v, dv) = (v + kick * x.sin(), dv + by_kick * x.sin() + kick * x.cos() * dx);
+        }
+        for (jet, (value, change)) in jet.state.iter().zip([(x, dx), (v, dv)]) {
+            assert!((jet.0[0] - value).abs() < 1e-14, "{jet:?} {value}");
+            assert!((jet.0[1] - change).abs() < 1e-13 * (1.0 + change.abs()), "{jet:?} {change}");
+        }
+        assert!((jet.time.0[1] - 3.0 * by_period).abs() < 1e-14);
+    }
+    // Up to a limit on time the ticks come earlier or later, and the end does not.
+    let jet = rotor.jet::<2>(&arcs, &Along::parameter("period")).unwrap();
+    assert_eq!(jet.time.0[1], 0.0);
+}
+
+/// The error of derivatives is no larger than ten times that of the state, or the tolerance: over twelve impacts of a nonlinear oscillator, in
+/// which errors grow, against the run at the smallest tolerance.
+#[test]
+fn derivatives_have_the_error_of_the_state() {
+    let oscillator = Equations::new(&["x", "v", "phase"], &[("damping", "0.1"), ("stop", "0.5")])
+        .mode("free", |_, x, p| {
+            [x[1], x[2].cos() - p["damping"] * x[1] - x[0] - x[0].powi(3), x[0].number(1.3)]
+        })
+        .rising("stop", |_, x, p| x[0] - p["stop"])
+        .resets(|_, x, _| [x[0], -0.8 * x[1], x[2]])
+        .model::<State<3>>()
+        .unwrap();
+    let along = Along::start(&[0.0, 1.0, 0.0]).and_parameter("stop", 0.3);
+    let run = |tolerance: f64| {
+        let model = oscillator.clone().tolerance(tolerance);
+        let arcs = model.start("free", [0.0, 1.0, 0.0], 80.0).unwrap().take(12);
+        let arcs: Vec<_> = arcs.map(Result::unwrap).collect();
+        model.jet::<4>(&arcs, &along).unwrap()
+    };
+    let exact = run(1e-16);
+    for tolerance in [1e-6, 1e-8, 1e-10, 1e-12, 1e-14] {
+        let found = run(tolerance);
+        // Relative to the largest component of each order.
+        let errors: [f64; 4] = std::array::from_fn(|order| {
+            let pairs = || found.state.iter().zip(&exact.state).take(3);
+            let off = pairs().map(|(a, b)| (a.0[order] - b.0[order]).abs()).fold(0.0, f64::max);
+            off / pairs().map(|(_, b)| b.0[order].abs()).fold(0.0, f64::max)
+        });
+        // Below 2e-14 rounding adds up, over a hundred steps and twelve quotients by the rate of the guard.
+        let of_state = errors[0].max(tolerance).max(2e-14);
+        assert!(errors[1..].iter().all(|error| *error <= 10.0 * of_state), "{tolerance:e}: {errors:?}");
+    }
+}

@@ -263,6 +263,13 @@ fn wrong_equations_are_refused() {
             .resets(|_, x, _| [x[0], x[0]]),
         "the state after an event",
     );
+    let ticks = |first: &str, period: &str| {
+        names().mode("m", |_, x, _| [x[0]]).clock_text("tick", first, period)
+    };
+    refused(ticks("x", "1"), "numbers and parameters alone");
+    refused(ticks("t", "1"), "numbers and parameters alone");
+    refused(ticks("1", "a - 2"), "the period of a clock");
+    refused(ticks("1/(a - 2)", "1"), "1/(a - 2)");
     let kink = names().mode("m", |_, x, _| [x[0].abs()]).model::<State<1>>().unwrap_err();
     assert!(kink.to_string().contains("make it a guard"), "{kink}");
     // The wrong mode, the wrong number of components.

@@ -114,6 +114,49 @@ impl Equations {
         either either_text Either;
     }
 
+    /// Adds a clock: events at a first time and after each period, which follow from the parameters.
+    ///
+    /// ```
+    /// use hybrid_system::{Equations, State};
+    /// // A sampled controller: every half second the force is set anew.
+    /// let cart = Equations::new(&["place", "speed", "force"], &[("gain", "1")])
+    ///     .mode("rolls", |_, x, _| [x[1], x[2], x[2].number(0.0)])
+    ///     .clock("sample", |p| [p.number(0.5), p.number(0.5)])
+    ///     .resets(|_, x, p| [x[0], x[1], -p["gain"] * (x[0] + x[1])])
+    ///     .model::<State<3>>()?;
+    /// let mut times = Vec::new();
+    /// for arc in cart.start("rolls", [1.0, 0.0, 0.0], 2.1)? {
+    ///     times.extend(arc?.event().map(|event| event.time));
+    /// }
+    /// assert_eq!(times, [0.5, 1.0, 1.5, 2.0]);
+    /// # Ok::<(), hybrid_system::Error>(())
+    /// ```
+    #[must_use]
+    pub fn clock(
+        self,
+        surface: &str,
+        times: impl for<'g> Fn(&Parameters<'g>) -> [Expression<'g>; 2],
+    ) -> Self {
+        if self.wrong.is_some() {
+            return self;
+        }
+        let times = Formulas::new(self.names.clone(), |_, _, p| times(p));
+        self.add_clock(surface, times)
+    }
+
+    /// The same, from texts: the first time and the period.
+    #[must_use]
+    pub fn clock_text(self, surface: &str, first: &str, period: &str) -> Self {
+        let times = Formulas::from_text(self.names.clone(), &[first, period]);
+        self.add_clock(surface, times)
+    }
+
+    fn add_clock(self, surface: &str, times: Result<Formulas, equations::Error>) -> Self {
+        self.guard(surface, Direction::Either, times).with_last(|guard| {
+            guard.guard.role = Role::Clock;
+        })
+    }
+
     fn guard(
         mut self,
         surface: &str,
@@ -224,14 +267,23 @@ impl Equations {
     /// The last guard is a contact that holds, such as a floor: see [`Role::Contact`].
     #[must_use]
     pub fn contact(self) -> Self {
-        self.with_last(|guard| guard.guard.role = Role::Contact)
+        self.with_role(Role::Contact)
     }
 
     /// The last guard is crossed in flight alone: see [`Role::Crossing`].
     #[must_use]
     pub fn crossing(self) -> Self {
         // An observer is one already; the event of another one may still be declared.
-        self.with_jump(|_| ()).with_last(|guard| guard.guard.role = Role::Crossing)
+        self.with_jump(|_| ()).with_role(Role::Crossing)
+    }
+
+    /// A clock stays one.
+    fn with_role(self, role: Role) -> Self {
+        self.with_last(|guard| {
+            if guard.guard.role != Role::Clock {
+                guard.guard.role = role;
+            }
+        })
     }
 
     /// What a touch of the last guard is.

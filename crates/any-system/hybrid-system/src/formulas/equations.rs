@@ -4,11 +4,12 @@ use super::label::Label;
 use super::motion::TaylorMotion;
 use super::part::FormulaPart;
 use super::programs::Programs;
+use crate::clock::PeriodicTimes;
 use crate::error::Error;
-use crate::guard::Guard;
+use crate::guard::{Guard, Role};
 use crate::model::Model;
 use crate::state::StateVector;
-use equations::{Formulas, Names};
+use equations::{Formulas, Names, Node};
 use std::sync::Arc;
 
 /// A hybrid system by its equations, written once, with the names of its variables, parameters, modes and surfaces.
@@ -85,6 +86,23 @@ pub(super) struct Jump {
     pub(super) mode: Option<Label>,
     /// The next state, if it is another one.
     pub(super) state: Option<Formulas>,
+}
+
+impl GuardEquations {
+    /// The times of a clock.
+    pub(super) fn times(&self) -> Result<PeriodicTimes, Error> {
+        let bad = |reason| Error::BadEquations { what: self.guard.surface.to_string(), reason };
+        let function = &self.function;
+        if function.count() != 2 {
+            return Err(bad("a clock has two formulas, its first time and its period"));
+        }
+        let moves = |node: &Node| matches!(node, Node::Time | Node::State(_));
+        if function.nodes().0.iter().any(moves) {
+            return Err(bad("the times of a clock follow from numbers and parameters alone"));
+        }
+        let found = function.values(0.0, &vec![0.0; function.names().states.len()])?;
+        PeriodicTimes::new(found[0], found[1])
+    }
 }
 
 pub(super) const NO_MODE: &str = "the equations have no such mode";
@@ -169,10 +187,12 @@ impl Equations {
             mode.after_limit.as_ref().map_or(Ok(()), check_jump)?;
         }
         let of_modes = self.modes.iter().flat_map(|mode| &mode.guards);
-        of_modes
-            .chain(&self.everywhere)
-            .filter_map(|guard| guard.jump.as_ref())
-            .try_for_each(check_jump)
+        of_modes.chain(&self.everywhere).try_for_each(|guard| {
+            if guard.guard.role == Role::Clock {
+                guard.times()?;
+            }
+            guard.jump.as_ref().map_or(Ok(()), check_jump)
+        })
     }
 
     /// The model of these equations, whose state has this type: [`State<N>`](crate::State), or `DVector<f64>`.

@@ -21,8 +21,12 @@ const VERSION: u64 = 1;
 
 const DIRECTIONS: [(&str, Direction); 3] =
     [("rising", Direction::Rising), ("falling", Direction::Falling), ("either", Direction::Either)];
-const ROLES: [(&str, Role); 3] =
-    [("switch", Role::Switch), ("contact", Role::Contact), ("crossing", Role::Crossing)];
+const ROLES: [(&str, Role); 4] = [
+    ("switch", Role::Switch),
+    ("contact", Role::Contact),
+    ("crossing", Role::Crossing),
+    ("clock", Role::Clock),
+];
 const TOUCHES: [(&str, Touch); 3] =
     [("error", Touch::Error), ("event", Touch::Event), ("ignore", Touch::Ignore)];
 
@@ -60,6 +64,15 @@ impl Equations {
             file.extend(names);
         }
         Ok(file.to_string())
+    }
+
+    /// The SHA-256 of [`to_json`](Self::to_json), as 64 hexadecimal digits: a short name of the model for stores and
+    /// certificates.
+    ///
+    /// # Errors
+    /// As [`to_json`](Self::to_json).
+    pub fn content_hash(&self) -> Result<String, Error> {
+        Ok(equations::content_hash(&self.to_json()?))
     }
 
     /// The equations of a file. Any bytes are safe: what is no such file is an error with its place.
@@ -109,7 +122,8 @@ fn guards(value: &Value, names: &Names) -> Result<Vec<GuardEquations>, Error> {
         };
         let function = Formulas::from_value(names.clone(), &value["function"])?;
         match function.count() {
-            1 => Ok(GuardEquations { guard, function, jump: jump(&value["jump"], names)? }),
+            // What a clock has is looked at with all other equations.
+            count if count == 1 || guard.role == Role::Clock => Ok(GuardEquations { guard, function, jump: jump(&value["jump"], names)? }),
             _ => bad(guard.surface.as_str(), "a guard has one formula"),
         }
     };

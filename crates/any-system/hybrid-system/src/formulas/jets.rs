@@ -168,6 +168,9 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         time: &Jet<T>,
     ) -> Result<(Vec<Jet<T>>, Jet<T>), Error> {
         let changes = event.after.as_ref() != Some(&(arc.mode, event.before.clone()));
+        if event.kind == EventKind::Clock {
+            return self.after_tick(program, (arc, event), start, time);
+        }
         let place = program.guards.iter().position(|guard| guard.surface == event.surface);
         let at_once = event.kind == EventKind::AtStart
             || event.kind == EventKind::Crossing && arc.duration <= SAME_INSTANT * event.time.abs();
@@ -197,12 +200,46 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         let since = zero(guard);
         state = at(&motion, &since);
         let time = Jet::sum(time, &Jet::sum(&since, &Jet::number(arc.duration)));
-        if let Some(jump) = program.guards[place].reset_jets()? {
-            let after = jump.values(&state)?;
-            state[..after.len()].copy_from_slice(&after);
-        }
-        Ok((state, time))
+        Ok((after_jump(&program.guards[place], state)?, time))
     }
+
+    /// State and time after a tick of a clock, whose times are first + k·period.
+    fn after_tick<const T: usize>(
+        &self,
+        program: &ModeProgram,
+        (arc, event): (&Arc<Label, Label, X>, &Event<Label, Label, X>),
+        start: &[Jet<T>],
+        time: &Jet<T>,
+    ) -> Result<(Vec<Jet<T>>, Jet<T>), Error> {
+        let clock = program.clocks.iter().find(|(clock, _)| clock.surface == event.surface);
+        let Some((clock, _)) = clock else { return Err(Error::NoSensitivity { time: arc.time }) };
+        if arc.jump > 0 && arc.duration <= SAME_INSTANT * event.time.abs() {
+            let surface = format!("{:?}", event.surface);
+            return Err(Error::CornerSensitivity { time: event.time, surface });
+        }
+        let times = clock.value_jets()?.values(start)?;
+        let [first, period] = [0, 1].map(|k| times.get(k).copied().unwrap_or(Jet::zero()));
+        let ticks = ((event.time - first.value()) / period.value()).round();
+        let tick = Jet::sum(&first, &Jet::times(&period, ticks));
+        let flown = self.jet_flow(program, start, arc.duration)?;
+        let motion = program.jets()?.coefficients(&flown, T)?;
+        let mut since = Jet::difference(&tick, time);
+        since.0.iter_mut().take(1).for_each(|value| *value = 0.0);
+        let time = Jet::sum(time, &Jet::sum(&since, &Jet::number(arc.duration)));
+        Ok((after_jump(clock, at(&motion, &since))?, time))
+    }
+}
+
+/// The state after the jump of a guard or a clock.
+fn after_jump<const T: usize>(
+    guard: &GuardProgram,
+    mut state: Vec<Jet<T>>,
+) -> Result<Vec<Jet<T>>, Error> {
+    if let Some(jump) = guard.reset_jets()? {
+        let after = jump.values(&state)?;
+        state[..after.len()].copy_from_slice(&after);
+    }
+    Ok(state)
 }
 
 /// The values are those of an execution.

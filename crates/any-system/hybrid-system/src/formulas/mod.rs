@@ -4,7 +4,8 @@
 //! is evaluated of them: a Taylor series for each mode, with its guards as watched formulas. `closed_form`
 //! solves linear fields, in functions of time that `quasi_values` computes with. `motion` and `part` are the
 //! motion and the part of a [`Model`](crate::Model). `jets` has the derivatives of whole executions, `derivatives` those of
-//! [`Differentiable`](crate::Differentiable). `file` is the JSON of equations.
+//! [`Differentiable`](crate::Differentiable). `file` is the JSON of equations,
+//! `saved_run` that of an execution.
 
 mod builder;
 mod closed_form;
@@ -18,9 +19,13 @@ mod motion;
 mod part;
 mod programs;
 mod quasi_values;
+#[cfg(feature = "serde")]
+mod saved_run;
 
 pub use self::equations::{Equations, EquationsModel};
 pub use jets::{Along, ExecutionJet};
 pub use label::Label;
 pub use motion::TaylorMotion;
 pub use part::FormulaPart;
+#[cfg(feature = "serde")]
+pub use saved_run::SavedRun;

@@ -85,8 +85,7 @@ impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
     }
 
     fn reset_column(&self, mode: Label, surface: Label, before: &X, column: usize) -> Option<X> {
-        let program = self.0.mode(mode)?;
-        let guard = program.guards.iter().find(|guard| guard.surface == surface)?;
+        let guard = self.0.mode(mode)?.of_surface(surface)?;
         guard.jump.as_ref()?;
         match guard.reset_jets().ok()? {
             Some(jets) => {
@@ -98,12 +97,17 @@ impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
     }
 
     fn reset(&self, mode: Label, surface: Label, before: &X) -> Option<Reset<Label, X>> {
-        let program = self.0.mode(mode)?;
-        let guard = program.guards.iter().find(|guard| guard.surface == surface)?;
+        let guard = self.0.mode(mode)?.of_surface(surface)?;
         Some(guard.jump.as_ref().map_or(Reset::Stop, |jump| {
             let (mode, state) = after(jump, mode, before);
             Reset::Jump { mode, state }
         }))
+    }
+
+    fn next_time(&self, mode: Label, surface: Label, after: f64) -> Option<Option<f64>> {
+        let clocks = &self.0.mode(mode)?.clocks;
+        let (_, times) = clocks.iter().find(|(clock, _)| clock.surface == surface)?;
+        Some(times.next_after(after))
     }
 
     fn rest(&self, mode: Label, limit: &X) -> Option<(Label, X)> {

@@ -5,6 +5,7 @@ use super::equations::{Equations, GuardEquations, Jump, ModeEquations};
 use super::label::Label;
 use super::quasi_values::quasi_value;
 use crate::crossing::QuasiPolynomial;
+use crate::clock::PeriodicTimes;
 use crate::error::Error;
 use crate::guard::Role;
 use equations::{Constant, Formulas, JetSeries, Node, Series};
@@ -27,6 +28,8 @@ pub(super) struct ModeProgram {
     /// The field with the guards as watched formulas, in their order.
     pub(super) series: Series,
     pub(super) guards: Vec<GuardProgram>,
+    /// The clocks: their first time and their period, and the times these are.
+    pub(super) clocks: Vec<(GuardProgram, PeriodicTimes)>,
     pub(super) after_limit: Option<Jump>,
     /// The closed form of the motion, if it has one.
     closed_form: Option<ClosedForm>,
@@ -79,6 +82,12 @@ impl ModeProgram {
         let known: Vec<_> = components.iter().cloned().map(Some).collect();
         let guards = self.guards.iter().map(|guard| quasi_value(&guard.function, 0, &known));
         Some(Arc::new(ClosedMotion { guards: guards.collect::<Option<_>>()?, components }))
+    }
+
+    /// The guard or the clock of a surface.
+    pub(super) fn of_surface(&self, surface: Label) -> Option<&GuardProgram> {
+        let clocks = self.clocks.iter().map(|(clock, _)| clock);
+        self.guards.iter().chain(clocks).find(|guard| guard.surface == surface)
     }
 
     /// The series with derivatives.
@@ -169,11 +178,13 @@ impl ModeEquations {
     ) -> Result<ModeProgram, Error> {
         let field = with_time(&self.field, uses_time, Node::Constant(Constant::from(1.0)));
         // In the order in which the model lists them.
-        let guards = everywhere.iter().chain(&self.guards);
-        let guards: Vec<GuardProgram> = guards
-            .filter(|guard| guard.guard.role != Role::Clock)
-            .map(|guard| guard.program(uses_time))
-            .collect();
+        let all = everywhere.iter().chain(&self.guards);
+        let (clocks, guards): (Vec<_>, Vec<_>) =
+            all.partition(|guard| guard.guard.role == Role::Clock);
+        let guards: Vec<GuardProgram> =
+            guards.into_iter().map(|guard| guard.program(uses_time)).collect();
+        let clocks = clocks.into_iter().map(|clock| Ok((clock.program(uses_time), clock.times()?)));
+        let clocks = clocks.collect::<Result<_, Error>>()?;
         let mut watched: Option<Formulas> = None;
         for guard in &guards {
             watched = Some(match watched {
@@ -189,6 +200,7 @@ impl ModeEquations {
             field,
             series,
             guards,
+            clocks,
             after_limit,
             closed_form,
             last_closed: Mutex::new(None),

@@ -111,7 +111,7 @@ impl<M: Copy + Eq, S: Copy + Eq + Debug, X, F, P> Model<M, S, X, F, P> {
     /// A model with this motion, whose one part has these guards: of a mode, or of all modes.
     pub(crate) fn of_equations(motion: F, parts: P, watched: Vec<(Option<M>, Guard<S>)>) -> Self {
         let mut guards = GuardLists::new();
-        watched.into_iter().for_each(|(mode, guard)| guards.add_watched(mode, guard));
+        watched.into_iter().for_each(|(mode, guard)| guards.add(mode, guard));
         Model { motion, parts, guards, sampling_interval: None, state: PhantomData }
     }
 }

@@ -109,7 +109,7 @@ impl Tolerances {
     }
 
     /// An error unless these tolerances can be used for states of this dimension.
-    pub(super) fn check(&self, dimension: usize) -> Result<(), Error> {
+    pub(crate) fn check(&self, dimension: usize) -> Result<(), Error> {
         let lists = [
             ("the list of absolute tolerances", self.absolute_each),
             ("the list of relative tolerances", self.relative_each),
