@@ -1,6 +1,7 @@
 //! What formulas are computed in: numbers, or enclosures of numbers.
 
 use crate::constant::Constant;
+use crate::function::Function;
 use crate::node::{Binary, Unary};
 use interval_arithmetic::Enclosure;
 
@@ -45,6 +46,8 @@ pub trait Algebra: Arithmetic {
     fn unary(function: Unary, x: &Self) -> Self;
     /// A function of two numbers. Outside its domain the value is not [valid](Arithmetic::is_valid).
     fn binary(function: Binary, x: &Self, y: &Self) -> Self;
+    /// A user's function of one number. Outside its domain the value is not [valid](Arithmetic::is_valid).
+    fn call(function: &Function, x: &Self) -> Self;
 }
 
 /// Each function of one `f64`.
@@ -195,6 +198,10 @@ impl Algebra for f64 {
             Binary::Maximum => x.max(y),
         }
     }
+
+    fn call(function: &Function, x: &Self) -> Self {
+        function.value(*x)
+    }
 }
 
 /// Outside of a domain.
@@ -309,5 +316,9 @@ impl Algebra for Enclosure {
             Binary::Minimum => Enclosure::new(x.low.min(y.low), x.high.min(y.high)),
             Binary::Maximum => Enclosure::new(x.low.max(y.low), x.high.max(y.high)),
         }
+    }
+
+    fn call(function: &Function, x: &Self) -> Self {
+        if x.is_valid() { function.enclosure(*x).unwrap_or(NO_VALUE) } else { NO_VALUE }
     }
 }

@@ -13,9 +13,10 @@ pub(crate) fn partials(
     moves: impl Fn(usize) -> bool,
 ) -> Option<Vec<(usize, usize)>> {
     let mut found = Vec::new();
-    match graph.nodes()[place] {
+    match graph.nodes()[place].clone() {
         Node::Time | Node::State(_) | Node::Parameter(_) | Node::Constant(_) => {}
         Node::Unary(function, u) => found.push((of_unary(graph, function, u, place)?, u)),
+        Node::Call(function, u) => found.push((function.derivative(graph, u, place), u)),
         Node::Binary(function, a, b) => {
             if moves(a) {
                 found.push((by_first(graph, function, (a, b), place)?, a));

@@ -83,6 +83,7 @@ pub(crate) fn compute<A: Algebra>(
             Node::Unary(function, a) => A::unary(function, of(a)),
             Node::Binary(Binary::Product, a, b) if a == b => A::square(of(a)),
             Node::Binary(function, a, b) => A::binary(function, of(a), of(b)),
+            Node::Call(ref function, a) => A::call(function, of(a)),
         };
     }
 }

@@ -13,8 +13,8 @@ use std::ops::{Add, Div, Index, Mul, Neg, Sub};
 /// two modes, or write [`min`](Self::min), [`max`](Self::max) or [`abs`](Self::abs).
 #[derive(Clone, Copy)]
 pub struct Expression<'g> {
-    graph: &'g RefCell<Graph>,
-    place: usize,
+    pub(crate) graph: &'g RefCell<Graph>,
+    pub(crate) place: usize,
 }
 
 impl<'g> Expression<'g> {
@@ -22,7 +22,7 @@ impl<'g> Expression<'g> {
         Expression { graph, place: graph.borrow_mut().place(node) }
     }
 
-    fn with(self, add: impl FnOnce(&mut Graph) -> usize) -> Self {
+    pub(crate) fn with(self, add: impl FnOnce(&mut Graph) -> usize) -> Self {
         Expression { graph: self.graph, place: add(&mut self.graph.borrow_mut()) }
     }
 
@@ -201,6 +201,25 @@ impl<'g> Parameters<'g> {
     /// The sum of symbols, such as of forces over bodies; 0 of no symbols.
     pub fn sum(&self, terms: impl IntoIterator<Item = Expression<'g>>) -> Expression<'g> {
         terms.into_iter().reduce(|sum, term| sum + term).unwrap_or(self.zero)
+    }
+
+    /// Σ aₖ bₖ of two vectors, the first one of numbers or of symbols. Vectors of different lengths make the formulas an
+    /// error.
+    pub fn dot<T: Into<Term<'g>> + Copy>(&self, a: &[T], b: &[Expression<'g>]) -> Expression<'g> {
+        if a.len() != b.len() {
+            let (what, needed, given) = ("components of a vector", a.len(), b.len());
+            self.zero.graph.borrow_mut().refuse(Error::Length { what, needed, given });
+        }
+        self.sum(a.iter().zip(b).map(|(a, b)| *b * *a))
+    }
+
+    /// The product of a matrix, by its rows, and a vector.
+    pub fn product<T: Into<Term<'g>> + Copy, const M: usize, const N: usize>(
+        &self,
+        matrix: &[[T; N]; M],
+        vector: &[Expression<'g>],
+    ) -> [Expression<'g>; M] {
+        std::array::from_fn(|row| self.dot(&matrix[row], vector))
     }
 }
 

@@ -5,11 +5,12 @@ use crate::constant::{Constant, Decimal};
 use crate::derivative::partials;
 use crate::error::Error;
 use crate::expression::{Expression, Parameters, Term};
+use crate::function::Function;
 use crate::graph::Graph;
+use crate::names::{NO_VALUE, Names};
 use crate::node::{Node, uses};
 use interval_arithmetic::Enclosure;
 use std::cell::RefCell;
-use std::collections::HashSet;
 
 /// The largest number of parts of formulas. Ten times what 10 000 parts need for their second derivatives in one
 /// direction; a value of so many parts takes milliseconds.
@@ -25,61 +26,6 @@ pub struct Formulas {
     pub(crate) outputs: Vec<usize>,
     /// For each part its value if it is a number or a parameter, else 0: what an evaluation begins with.
     pub(crate) numbers: Vec<f64>,
-}
-
-/// The names of formulas, and the values of parameters.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Names {
-    /// The components of the state.
-    pub states: Vec<String>,
-    /// The parameters.
-    pub parameters: Vec<String>,
-    /// The values of the parameters.
-    pub values: Vec<Constant>,
-}
-
-const NO_VALUE: &str = "a parameter without a value: give a decimal, such as -0.25 or 1e-3";
-
-/// Names that have a meaning of their own.
-pub(crate) const RESERVED: [&str; 4] = ["t", "pi", "π", "e"];
-
-impl Names {
-    /// Names of the components of a state, and of parameters with their values: decimals as text.
-    ///
-    /// # Errors
-    /// [`Error::Name`] for a name that is used twice, that is no name, or that has a meaning, and for a value that is no
-    /// decimal.
-    pub fn new(states: &[&str], parameters: &[(&str, &str)]) -> Result<Names, Error> {
-        let values = parameters.iter().map(|(name, value)| {
-            let known = Decimal::new(value).map(Constant::Decimal);
-            known.ok_or(Error::Name { name: (*name).to_owned(), reason: NO_VALUE })
-        });
-        let names = Names {
-            states: states.iter().map(|name| (*name).to_owned()).collect(),
-            parameters: parameters.iter().map(|(name, _)| (*name).to_owned()).collect(),
-            values: values.collect::<Result<_, Error>>()?,
-        };
-        names.check()?;
-        Ok(names)
-    }
-
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        length("values of parameters", self.parameters.len(), self.values.len())?;
-        let mut known = HashSet::new();
-        for name in self.states.iter().chain(&self.parameters) {
-            let refused = |reason| Err(Error::Name { name: name.clone(), reason });
-            if RESERVED.contains(&name.as_str()) || crate::text::is_function(name) {
-                return refused("taken: it has a meaning in formulas");
-            }
-            if !crate::text::is_name(name) {
-                return refused("no name: a letter first, then letters, digits and _");
-            }
-            if !known.insert(name) {
-                return refused("used twice");
-            }
-        }
-        Ok(())
-    }
 }
 
 impl Formulas {
@@ -134,10 +80,8 @@ impl Formulas {
         let outputs: Vec<usize> =
             outputs.into_iter().map(|output| Term::Symbol(output).place(&graph)).collect();
         let mut graph = graph.take();
-        match graph.wrong.take() {
-            Some(error) => Err(error),
-            None => Formulas::of_parts(names, graph.into_nodes(), outputs),
-        }
+        graph.check()?;
+        Formulas::of_parts(names, graph.into_nodes(), outputs)
     }
 
     pub(crate) fn of(names: Names, nodes: Vec<Node>, outputs: Vec<usize>) -> Formulas {
@@ -155,6 +99,7 @@ impl Formulas {
         if nodes.len() > MOST_PARTS {
             return Err(Error::TooLarge { limit: MOST_PARTS });
         }
+        check_functions(&nodes)?;
         let uses = uses(&nodes, &outputs);
         let mut new_place = vec![0; nodes.len()];
         let mut kept = Vec::new();
@@ -300,6 +245,7 @@ impl Formulas {
                 Node::Parameter(at) => Some(Enclosure::constant(&self.names.values[at])),
                 Node::Constant(ref constant) => Some(Enclosure::constant(constant)),
                 Node::Unary(function, a) => values[a].map(|a| Enclosure::unary(function, &a)),
+                Node::Call(ref function, a) => values[a].map(|a| Enclosure::call(function, &a)),
                 Node::Binary(function, a, b) => {
                     values[a].zip(values[b]).map(|(a, b)| Enclosure::binary(function, &a, &b))
                 }
@@ -376,6 +322,7 @@ impl Formulas {
             } else {
                 let rates = partials(graph, place, |operand| changes[operand] != zero)
                     .ok_or_else(|| Error::Kink { part: self.part(place) })?;
+                graph.check()?;
                 let terms: Vec<usize> = rates
                     .into_iter()
                     .map(|(rate, operand)| graph.product(rate, changes[operand]))
@@ -389,6 +336,23 @@ impl Formulas {
         }
         Ok(self.outputs.iter().map(|&place| changes[place]).collect())
     }
+}
+
+/// An error for two functions with one name: a text or a file could not tell them apart.
+fn check_functions(nodes: &[Node]) -> Result<(), Error> {
+    let mut known: Vec<&Function> = Vec::new();
+    for node in nodes {
+        let Node::Call(function, _) = node else { continue };
+        match known.iter().find(|known| known.name() == function.name()) {
+            Some(same) if *same == function => {}
+            Some(_) => {
+                let name = function.name().to_owned();
+                return Err(Error::Name { name, reason: "the name of two functions" });
+            }
+            None => known.push(function),
+        }
+    }
+    Ok(())
 }
 
 /// An error unless the lengths are equal.

@@ -105,6 +105,11 @@ impl Graph {
         self.wrong.get_or_insert(error);
     }
 
+    /// The error of a closure.
+    pub(crate) fn check(&mut self) -> Result<(), Error> {
+        self.wrong.take().map_or(Ok(()), Err)
+    }
+
     /// The part with an integer exponent: by squaring, so that 0 and numbers below it have powers too.
     pub(crate) fn integer_power(&mut self, base: usize, exponent: i64) -> usize {
         let mut left = exponent.unsigned_abs();

@@ -10,8 +10,10 @@
 
 use crate::constant::{Constant, Decimal};
 use crate::error::Error;
-use crate::formulas::{Formulas, MOST_PARTS, Names};
+use crate::formulas::{Formulas, MOST_PARTS};
+use crate::function::Function;
 use crate::graph::Graph;
+use crate::names::Names;
 use crate::node::{BINARY, Binary, Node, UNARY, Unary, name_in, named};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -67,12 +69,16 @@ impl Formulas {
     /// # Errors
     /// [`Error::File`]; [`Error::Name`]; [`Error::TooLarge`].
     pub fn from_json(text: &str) -> Result<Formulas, Error> {
-        let file = bounded_value(text)?;
-        if file["format"] != "equations" || file["version"] != VERSION {
-            let reason = format!("\"format\" must be \"equations\", and \"version\" {VERSION}");
-            return Err(wrong("the file", reason));
-        }
-        Formulas::from_value(Names::from_value(&file)?, &file)
+        Formulas::from_json_with(text, &[])
+    }
+
+    /// The same of a file with calls of these functions, which it has by their names alone.
+    ///
+    /// # Errors
+    /// As [`from_json`](Self::from_json), and for a function that is not given.
+    pub fn from_json_with(text: &str, functions: &[Function]) -> Result<Formulas, Error> {
+        let file = header(text)?;
+        Formulas::from_value(Names::from_value(&file)?.with_functions(functions)?, &file)
     }
 
     /// The formulas of a value that [`to_value`](Self::to_value) made.
@@ -152,6 +158,15 @@ impl Names {
     }
 }
 
+fn header(text: &str) -> Result<Value, Error> {
+    let file = bounded_value(text)?;
+    if file["format"] != "equations" || file["version"] != VERSION {
+        let reason = format!("\"format\" must be \"equations\", and \"version\" {VERSION}");
+        return Err(wrong("the file", reason));
+    }
+    Ok(file)
+}
+
 fn wrong(place: &str, reason: String) -> Error {
     // A value of a file may be long.
     Error::File { place: place.to_owned(), reason: reason.chars().take(200).collect() }
@@ -213,6 +228,7 @@ fn part(node: &Node) -> Value {
             let name = name_in(&OPERATORS, function).or_else(|| name_in(&BINARY, function));
             json!([name, a, b])
         }
+        Node::Call(function, a) => json!(["call", function.name(), a]),
     }
 }
 
@@ -244,6 +260,13 @@ fn node(part: &Value, at: usize, names: &Names) -> Result<Node, String> {
             takes(1)?;
             let found = entries[1].as_str().and_then(constant);
             found.map(Node::Constant).ok_or_else(|| format!("{} is no number as text", entries[1]))
+        }
+        "call" => {
+            takes(2)?;
+            let known = names.functions.iter().find(|known| entries[1] == known.name());
+            let unknown =
+                || format!("the function {} is needed: give it with the names", entries[1]);
+            Ok(Node::Call(known.ok_or_else(unknown)?.clone(), operand(2)?))
         }
         "negative" => takes(1).and_then(|()| Ok(Node::Unary(Unary::Negative, operand(1)?))),
         _ => {

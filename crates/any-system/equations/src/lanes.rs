@@ -3,6 +3,7 @@
 use crate::algebra::{Algebra, Arithmetic, of_number};
 use crate::constant::Constant;
 use crate::elementwise::Elementwise;
+use crate::function::Function;
 use crate::node::{Binary, Unary};
 use std::array::from_fn;
 
@@ -139,5 +140,10 @@ impl Algebra for Lanes {
             Binary::Quotient => Self::quotient(x, y),
             _ => x.with(*y, |x, y| f64::binary(function, &x, &y)),
         }
+    }
+
+    #[inline(always)]
+    fn call(function: &Function, x: &Self) -> Self {
+        x.each(|x| function.value(x))
     }
 }

@@ -16,6 +16,7 @@
 //! | [`Formulas::texts`], [`Formulas::latex`] | the formulas, written |
 //! | [`Formulas::to_json`], [`Formulas::from_json`], [`Formulas::content_hash`] | the formulas as data, with exact numbers |
 //! | [`Expression`], [`Term`], [`Parameters`] | what a closure computes with |
+//! | [`Function`] | a function of the user's own, with its derivative and its enclosure |
 //!
 //! ```
 //! use equations::{Formulas, Names, Series};
@@ -41,6 +42,7 @@ mod error;
 mod evaluate;
 mod expression;
 mod formulas;
+mod function;
 mod graph;
 mod jet;
 mod jet_flow;
@@ -48,6 +50,7 @@ mod jet_series;
 mod json;
 mod lanes;
 mod many_starts;
+mod names;
 mod node;
 mod print;
 mod rules;
@@ -64,12 +67,15 @@ pub use constant::{Constant, Decimal};
 pub use error::Error;
 pub use evaluate::Evaluator;
 pub use expression::{Expression, Parameters, Term};
-pub use formulas::{Formulas, Names};
+pub use formulas::Formulas;
+pub use function::Function;
+pub use interval_arithmetic::Enclosure;
 pub use jet::Jet;
 pub use jet_flow::jet_horner;
 pub use jet_series::JetSeries;
 pub use json::{bounded_value, content_hash};
 
+pub use names::Names;
 pub use node::{Binary, Node, Unary};
 pub use series::{Coefficients, Series};
 pub use step::Step;

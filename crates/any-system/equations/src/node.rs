@@ -1,6 +1,7 @@
 //! The parts of which formulas consist.
 
 use crate::constant::Constant;
+use crate::function::Function;
 
 /// A part of a formula. Numbers of other parts are places in the list of all parts; they are always earlier ones.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -17,6 +18,8 @@ pub enum Node {
     Unary(Unary, usize),
     /// A function of two parts.
     Binary(Binary, usize, usize),
+    /// A user's function of one part.
+    Call(Function, usize),
 }
 
 /// Functions of one number. Angles are in radians.
@@ -114,7 +117,7 @@ impl Node {
     /// The parts of which this one is a function.
     pub fn operands(&self) -> impl Iterator<Item = usize> {
         let (first, second) = match *self {
-            Node::Unary(_, a) => (Some(a), None),
+            Node::Unary(_, a) | Node::Call(_, a) => (Some(a), None),
             Node::Binary(_, a, b) => (Some(a), Some(b)),
             _ => (None, None),
         };
@@ -126,6 +129,7 @@ impl Node {
         match self {
             Node::Unary(function, a) => Node::Unary(*function, places[*a]),
             Node::Binary(function, a, b) => Node::Binary(*function, places[*a], places[*b]),
+            Node::Call(function, a) => Node::Call(function.clone(), places[*a]),
             node => node.clone(),
         }
     }

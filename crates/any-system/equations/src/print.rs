@@ -89,6 +89,7 @@ impl Formulas {
                 (format!("-{}", held(*a, least)), Strength::Sign)
             }
             Node::Unary(function, a) => (unary(*function, &texts[*a].0, form), Strength::Name),
+            Node::Call(function, a) => (call(function.name(), &texts[*a].0, form), Strength::Name),
             Node::Binary(function, a, b) => match function {
                 Binary::Sum => {
                     let text =
@@ -172,14 +173,20 @@ fn number(constant: &Constant, form: Form) -> (String, Strength) {
 }
 
 fn unary(function: Unary, argument: &str, form: Form) -> String {
-    let name = name_in(&UNARY, &function).unwrap_or_default();
+    match (function, form) {
+        (Unary::SquareRoot, Form::Latex) => format!("\\sqrt{{{argument}}}"),
+        (Unary::Absolute, Form::Latex) => format!("\\left|{argument}\\right|"),
+        _ => call(name_in(&UNARY, &function).unwrap_or_default(), argument, form),
+    }
+}
+
+fn call(name: &str, argument: &str, form: Form) -> String {
     match form {
         Form::Plain => format!("{name}({argument})"),
-        Form::Latex => match function {
-            Unary::SquareRoot => format!("\\sqrt{{{argument}}}"),
-            Unary::Absolute => format!("\\left|{argument}\\right|"),
-            _ => format!("\\operatorname{{{name}}}\\left({argument}\\right)"),
-        },
+        Form::Latex => {
+            let name = name.replace('_', "\\_");
+            format!("\\operatorname{{{name}}}\\left({argument}\\right)")
+        }
     }
 }
 

@@ -242,6 +242,7 @@ impl Moving {
                 // Also where the function has no derivative.
                 false => Vec::new(),
             };
+            moving.graph.check()?;
             moving.moves.push(moves);
             moving.chains.push(chain);
             if moving.graph.nodes().len() > MOST_PARTS {

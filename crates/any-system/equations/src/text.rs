@@ -2,8 +2,10 @@
 
 use crate::constant::{Constant, Decimal};
 use crate::error::Error;
-use crate::formulas::{Formulas, Names};
+use crate::formulas::Formulas;
+use crate::function::Function;
 use crate::graph::Graph;
+use crate::names::{Names, check_name};
 use crate::node::{BINARY, Binary, Node, UNARY, Unary, named};
 
 /// The deepest nesting of a text. Each level takes some hundred bytes of the stack.
@@ -55,29 +57,53 @@ impl Formulas {
     /// # Ok::<(), equations::Error>(())
     /// ```
     ///
+    /// A text `name = …` gives a name to a value, which later texts use; it is no formula itself:
+    ///
+    /// ```
+    /// # use equations::{Formulas, Names};
+    /// let names = Names::new(&["x", "y", "u", "v"], &[])?;
+    /// let texts = ["pull = (x^2 + y^2)^(-1.5)", "u", "v", "-pull*x", "-pull*y"];
+    /// assert_eq!(Formulas::from_text(names, &texts)?.count(), 4);
+    /// # Ok::<(), equations::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::Text`] with the column of what is wrong; [`Error::Name`]; [`Error::TooLarge`].
     pub fn from_text(names: Names, texts: &[&str]) -> Result<Formulas, Error> {
         names.check()?;
-        let mut graph = Graph::default();
-        let outputs = texts.iter().map(|text| read(text, &names, &mut graph));
-        let outputs = outputs.collect::<Result<Vec<usize>, Error>>()?;
+        let (mut graph, mut defined) = (Graph::default(), Vec::new());
+        let outputs = texts.iter().map(|text| read(text, &names, &mut graph, &mut defined));
+        let outputs =
+            outputs.filter_map(Result::transpose).collect::<Result<Vec<usize>, Error>>()?;
         Formulas::of_parts(names, graph.into_nodes(), outputs)
     }
 }
 
-fn read(text: &str, names: &Names, graph: &mut Graph) -> Result<usize, Error> {
+/// The place of a text's formula. A text that gives a name to a value adds the name, and is no formula itself.
+fn read(
+    text: &str,
+    names: &Names,
+    graph: &mut Graph,
+    defined: &mut Vec<(String, usize)>,
+) -> Result<Option<usize>, Error> {
     let characters: Vec<char> = text.chars().take(LONGEST + 1).collect();
-    let mut reader = Reader { text, characters, at: 0, depth: 0, names, graph };
+    let mut reader = Reader { text, characters, at: 0, depth: 0, names, graph, defined };
     if text.len() > LONGEST {
         return Err(reader.wrong(format!("the text is longer than {LONGEST} bytes")));
     }
+    let name = reader.name_of_value()?;
     let place = reader.sum()?;
     reader.space();
-    match reader.peek() {
-        None => Ok(place),
-        Some(other) => Err(reader.wrong(format!("{other:?} is not expected here"))),
+    if let Some(other) = reader.peek() {
+        return Err(reader.wrong(format!("{other:?} is not expected here")));
     }
+    Ok(match name {
+        None => Some(place),
+        Some(name) => {
+            defined.push((name, place));
+            None
+        }
+    })
 }
 
 struct Reader<'a> {
@@ -87,9 +113,33 @@ struct Reader<'a> {
     depth: usize,
     names: &'a Names,
     graph: &'a mut Graph,
+    /// Values with names, of earlier texts.
+    defined: &'a [(String, usize)],
 }
 
 impl Reader<'_> {
+    /// Takes `name =`, which gives a name to the value behind it.
+    fn name_of_value(&mut self) -> Result<Option<String>, Error> {
+        self.space();
+        let begin = self.at;
+        while self.peek().is_some_and(continues_name) {
+            self.at += 1;
+        }
+        let name: String = self.characters[begin..self.at].iter().collect();
+        if self.take(&['=']).is_none() {
+            self.at = begin;
+            return Ok(None);
+        }
+        check_name(&name).map_err(|error| self.wrong_at(begin, error.to_string()))?;
+        let names = self.names.states.iter().chain(&self.names.parameters).map(String::as_str);
+        let others = self.names.functions.iter().map(Function::name);
+        let defined = self.defined.iter().map(|(name, _)| name.as_str());
+        match names.chain(others).chain(defined).any(|known| known == name) {
+            true => Err(self.wrong_at(begin, format!("{name} has a meaning already"))),
+            false => Ok(Some(name)),
+        }
+    }
+
     fn wrong(&self, reason: String) -> Error {
         self.wrong_at(self.at, reason)
     }
@@ -244,6 +294,15 @@ impl Reader<'_> {
         let name: String = self.characters[begin..self.at].iter().collect();
         if is_function(&name) {
             return self.function(&name);
+        }
+        if let Some(function) = self.names.functions.iter().find(|known| known.name() == name) {
+            self.demand('(')?;
+            let argument = self.sum()?;
+            self.demand(')')?;
+            return Ok(self.graph.place(Node::Call(function.clone(), argument)));
+        }
+        if let Some((_, place)) = self.defined.iter().find(|(known, _)| *known == name) {
+            return Ok(*place);
         }
         let place = |names: &[String]| names.iter().position(|known| *known == name);
         let node = match name.as_str() {

@@ -7,3 +7,4 @@ mod random_formulas;
 mod reading;
 mod refusals;
 mod taylor_flows;
+mod user_functions;

@@ -107,7 +107,8 @@ fn closures_with_foreign_symbols_or_numbers_are_refused() {
             Err(Error::Number { .. })
         ));
     }
-    let wrong = Names { states: vec!["x".into()], parameters: vec!["a".into()], values: vec![] };
+    let wrong =
+        Names { states: vec!["x".into()], parameters: vec!["a".into()], ..Names::default() };
     assert!(matches!(Formulas::from_text(wrong, &["x"]), Err(Error::Length { .. })));
     let series = Series::new(&formulas(&["v", "-x"]), None).unwrap();
     assert!(matches!(series.coefficients(0.0, &[1.0, 0.0], usize::MAX), Err(Error::Order { .. })));

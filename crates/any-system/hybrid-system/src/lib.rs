@@ -136,12 +136,14 @@ pub use crossing::{
     Certainty, Crossing, EventKind, FirstCrossing, Leaving, NextEvent, QuasiPolynomial,
     QuasiPolynomialPart, Search,
 };
+#[cfg(feature = "ode")]
+pub use equations::Function;
 pub use error::Error;
 pub use execution::Execution;
-#[cfg(feature = "ode")]
-pub use formulas::{Along, Equations, EquationsModel, ExecutionJet, Label};
 #[cfg(all(feature = "ode", feature = "serde"))]
 pub use formulas::SavedRun;
+#[cfg(feature = "ode")]
+pub use formulas::{Along, Equations, EquationsModel, ExecutionJet, Label};
 pub use guard::{Direction, Guard, Role, Touch};
 pub use interval_arithmetic::Enclosure;
 pub use lands_beyond::LandsBeyond;

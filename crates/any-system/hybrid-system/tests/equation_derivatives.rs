@@ -153,9 +153,12 @@ fn derivatives_through_ticks_are_those_of_the_standard_map() {
     let rotor = again.model::<State<2>>().unwrap();
     let arcs: Vec<_> = rotor.start("turns", [1.0, 0.3], 2.3).unwrap().map(Result::unwrap).collect();
     assert_eq!(arcs.len(), 4);
-    for (start, by_kick, by_period) in
-        [([1.0, 0.0], 0.0, 0.0), ([0.0, 1.0], 0.0, 0.0), ([0.0, 0.0], 1.0, 0.0), ([0.3, -2.0], 0.5, 2.0)]
-    {
+    for (start, by_kick, by_period) in [
+        ([1.0, 0.0], 0.0, 0.0),
+        ([0.0, 1.0], 0.0, 0.0),
+        ([0.0, 0.0], 1.0, 0.0),
+        ([0.3, -2.0], 0.5, 2.0),
+    ] {
         let along = Along::start(&start).and_parameter("kick", by_kick);
         let along = along.and_parameter("period", by_period);
         let jet = rotor.jet::<2>(&arcs[..3], &along).unwrap();
@@ -205,6 +208,9 @@ fn derivatives_have_the_error_of_the_state() {
         });
         // Below 2e-14 rounding adds up, over a hundred steps and twelve quotients by the rate of the guard.
         let of_state = errors[0].max(tolerance).max(2e-14);
-        assert!(errors[1..].iter().all(|error| *error <= 10.0 * of_state), "{tolerance:e}: {errors:?}");
+        assert!(
+            errors[1..].iter().all(|error| *error <= 10.0 * of_state),
+            "{tolerance:e}: {errors:?}"
+        );
     }
 }

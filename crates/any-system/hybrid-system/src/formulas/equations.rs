@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::guard::{Guard, Role};
 use crate::model::Model;
 use crate::state::StateVector;
-use equations::{Formulas, Names, Node};
+use equations::{Formulas, Function, Names, Node};
 use std::sync::Arc;
 
 /// A hybrid system by its equations, written once, with the names of its variables, parameters, modes and surfaces.
@@ -115,6 +115,18 @@ impl Equations {
         match Names::new(states, parameters) {
             Ok(names) => Equations::of_names(names),
             Err(error) => Equations::of_names(Names::default()).refused(error),
+        }
+    }
+
+    /// The same equations, which may call these functions in texts, and read them from files.
+    #[must_use]
+    pub fn functions(mut self, functions: &[Function]) -> Self {
+        match self.names.clone().with_functions(functions) {
+            Ok(names) => {
+                self.names = names;
+                self
+            }
+            Err(error) => self.refused(error),
         }
     }
 

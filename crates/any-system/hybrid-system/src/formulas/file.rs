@@ -11,7 +11,7 @@ use super::equations::{Equations, GuardEquations, Jump, ModeEquations};
 use super::label::Label;
 use crate::error::Error;
 use crate::guard::{Direction, Guard, Role, Touch};
-use equations::{Formulas, Names};
+use equations::{Formulas, Function, Names};
 use serde_json::{Map, Value, json};
 
 const FORMAT: &str = "hybrid equations";
@@ -80,11 +80,19 @@ impl Equations {
     /// # Errors
     /// [`Error::Formula`], [`Error::BadEquations`].
     pub fn from_json(text: &str) -> Result<Equations, Error> {
+        Equations::from_json_with(text, &[])
+    }
+
+    /// The same of a file with calls of these functions, which it has by their names alone.
+    ///
+    /// # Errors
+    /// As [`from_json`](Self::from_json), and for a function that is not given.
+    pub fn from_json_with(text: &str, functions: &[Function]) -> Result<Equations, Error> {
         let file = equations::bounded_value(text)?;
         if file["format"] != FORMAT || file["version"] != VERSION {
             return bad("format", "it is no file of hybrid equations, or one of another version");
         }
-        let names = Names::from_value(&file)?;
+        let names = Names::from_value(&file)?.with_functions(functions)?;
         let mut equations = Equations::of_names(names.clone());
         equations.everywhere = guards(&file["everywhere"], &names)?;
         for mode in list(&file["modes"], "modes")? {
@@ -123,7 +131,9 @@ fn guards(value: &Value, names: &Names) -> Result<Vec<GuardEquations>, Error> {
         let function = Formulas::from_value(names.clone(), &value["function"])?;
         match function.count() {
             // What a clock has is looked at with all other equations.
-            count if count == 1 || guard.role == Role::Clock => Ok(GuardEquations { guard, function, jump: jump(&value["jump"], names)? }),
+            count if count == 1 || guard.role == Role::Clock => {
+                Ok(GuardEquations { guard, function, jump: jump(&value["jump"], names)? })
+            }
             _ => bad(guard.surface.as_str(), "a guard has one formula"),
         }
     };

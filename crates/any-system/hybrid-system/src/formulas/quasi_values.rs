@@ -121,7 +121,7 @@ pub(super) fn quasi_value(
                 Some(constant(Enclosure::constant(&formulas.names().values[at])))
             }
             Node::State(at) => components.get(at).cloned().flatten(),
-            Node::Time => None,
+            Node::Time | Node::Call(..) => None,
             Node::Unary(function, a) => unary(function, of(a)?),
             Node::Binary(function, a, b) => binary(function, of(a)?, of(b)?),
         };

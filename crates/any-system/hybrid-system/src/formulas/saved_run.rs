@@ -78,7 +78,8 @@ impl<X: StateVector + Serialize + DeserializeOwned> SavedRun<X> {
         }
         let equations: Value = read(&self.model.equations().to_json()?)?;
         let checkpoint = serde_json::to_value(&self.checkpoint);
-        let checkpoint = checkpoint.or_else(|error| bad(&error.to_string(), "it is not written"))?;
+        let checkpoint =
+            checkpoint.or_else(|error| bad(&error.to_string(), "it is not written"))?;
         // JSON has no infinity: a length without a limit is null.
         let numbers = [
             json!(tolerances.relative),
@@ -112,7 +113,9 @@ impl<X: StateVector + Serialize + DeserializeOwned> SavedRun<X> {
         let tolerances = &file["tolerances"];
         let number = |at: usize| match tolerances[TOLERANCES[at]] {
             Value::Null if at > 1 => Ok(f64::INFINITY),
-            ref value => value.as_f64().map_or_else(|| bad(TOLERANCES[at], "a number is expected"), Ok),
+            ref value => {
+                value.as_f64().map_or_else(|| bad(TOLERANCES[at], "a number is expected"), Ok)
+            }
         };
         let steps = tolerances["steps"].as_u64().and_then(|steps| steps.try_into().ok());
         let tolerances = Tolerances {
