@@ -79,10 +79,25 @@ fn run(scene: &Value, tolerance: f64) -> Box<dyn Fn() -> Option<Vec<f64>>> {
             true,
             true
         ),
-        "van der Pol" => {
-            flow!(|x, _, _, dx| (dx[0], dx[1]) = (x[1], 5.0 * (1.0 - x[0] * x[0]) * x[1] - x[0]))
+        name @ ("van der Pol" | "van der Pol, μ = 100") => {
+            let mu = if name == "van der Pol" { 5.0 } else { 100.0 };
+            flow!(
+                move |x, _, _, dx| (dx[0], dx[1]) = (x[1], mu * (1.0 - x[0] * x[0]) * x[1] - x[0])
+            )
         }
-        "Lorenz" => flow!(|x, _, _, dx| {
+        "Arenstorf" => flow!(|x, _, _, dx| {
+            let moon: f64 = 0.012_277_471;
+            let (x, y, u, v) = (x[0], x[1], x[2], x[3]);
+            let pull = |mass: f64, place: f64| {
+                let square = (x - place) * (x - place) + y * y;
+                mass / (square * square.sqrt())
+            };
+            let (earth, by_moon) = (pull(1.0 - moon, -moon), pull(moon, 1.0 - moon));
+            (dx[0], dx[1]) = (u, v);
+            dx[2] = x + 2.0 * v - earth * (x + moon) - by_moon * (x - (1.0 - moon));
+            dx[3] = y - 2.0 * u - (earth + by_moon) * y;
+        }),
+        "Lorenz" | "Lorenz to t = 50" => flow!(|x, _, _, dx| {
             let [x, y, z] = [x[0], x[1], x[2]];
             (dx[0], dx[1]) = (10.0 * (y - x), x * (28.0 - z) - y);
             dx[2] = x * y - 2.666_666_666_666_666_5 * z;

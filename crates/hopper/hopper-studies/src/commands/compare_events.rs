@@ -58,7 +58,8 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let (motions_table, motions_data) = (motions::markdown(&points), motions::csv(&points)?);
     folder.write("events.csv", &data.bytes)?;
     folder.write("motions.csv", &motions_data.bytes)?;
-    say(format_args!("{table}\n{motions_table}\n{}", folder.path().display()))?;
+    let hard = motions::hard_motions();
+    say(format_args!("{table}\n{motions_table}\n{hard}\n{}", folder.path().display()))?;
     if !options.bless {
         return Ok(());
     }
@@ -71,6 +72,8 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let text = replace_block(&text, "events", &table)?;
     let text = replace_block(&text, "motions", &motions_table)?;
     docs.write("performance.md", text.as_bytes())?;
+    let text = read(&docs.path().join("accuracy.md"))?;
+    docs.write("accuracy.md", replace_block(&text, "hard motions", &hard)?.as_bytes())?;
     docs.write("events.csv", &data.bytes)?;
     docs.write("motions.csv", &motions_data.bytes)?;
     Ok(())

@@ -83,7 +83,7 @@ fn events(scene: &Scene, tolerance: f64) -> Result<Run, Error> {
     Ok(Box::new(move || last_event(model.start("m", start.clone(), end)?)))
 }
 
-fn last_event<T: HybridSystem>(run: Execution<'_, T>) -> Result<Vec<f64>, Error> {
+pub(super) fn last_event<T: HybridSystem>(run: Execution<'_, T>) -> Result<Vec<f64>, Error> {
     let mut last = None;
     for arc in run {
         last = arc?.event().map(|event| event.time).or(last);
@@ -109,10 +109,10 @@ fn runge_kutta(scene: &Scene, tolerance: f64) -> Result<Run, Error> {
                 .tolerance(tolerance);
             Box::new(move || last_event(model.run((), [start[0], start[1], 0.0], end)))
         }
-        "van der Pol" => {
-            flow(&start, time, |x: &State<2>| [x[1], 5.0 * (1.0 - x[0] * x[0]) * x[1] - x[0]])
-        }
-        "Lorenz" => flow(&start, time, |x: &State<3>| {
+        "van der Pol" => flow(&start, time, van_der_pol::<5>),
+        "van der Pol, μ = 100" => flow(&start, time, van_der_pol::<100>),
+        "Arenstorf" => flow(&start, time, arenstorf),
+        "Lorenz" | "Lorenz to t = 50" => flow(&start, time, |x: &State<3>| {
             let [x, y, z] = [x[0], x[1], x[2]];
             [10.0 * (y - x), x * (28.0 - z) - y, x * y - 2.666_666_666_666_666_5 * z]
         }),
@@ -123,6 +123,27 @@ fn runge_kutta(scene: &Scene, tolerance: f64) -> Result<Run, Error> {
             [x[2], x[3], -force * x[0], -force * x[1]]
         }),
     })
+}
+
+fn van_der_pol<const MU: u32>(x: &State<2>) -> [f64; 2] {
+    [x[1], f64::from(MU) * (1.0 - x[0] * x[0]) * x[1] - x[0]]
+}
+
+/// Mass of the moon, in that of earth and moon.
+const MOON: f64 = 0.012_277_471;
+
+fn arenstorf(x: &State<4>) -> [f64; 4] {
+    let pull = |mass: f64, place: f64| {
+        let square = (x[0] - place) * (x[0] - place) + x[1] * x[1];
+        mass / (square * square.sqrt())
+    };
+    let (earth, moon) = (pull(1.0 - MOON, -MOON), pull(MOON, 1.0 - MOON));
+    [
+        x[2],
+        x[3],
+        x[0] + 2.0 * x[3] - earth * (x[0] + MOON) - moon * (x[0] - (1.0 - MOON)),
+        x[1] - 2.0 * x[2] - (earth + moon) * x[1],
+    ]
 }
 
 /// The state at the end.

@@ -1,0 +1,179 @@
+//! Motions at the limits of numbers and of methods, with exact answers: what the equations and the Runge–Kutta pairs of this
+//! repository do.
+
+use super::ours::last_event;
+use crate::error::Error;
+use crate::text::{digit, duration, markdown_table};
+use equations::{Formulas, Names, Series, TaylorFlow};
+use hybrid_system::{Equations, Integration, Model, State, Tolerances};
+use pxfm::{f_cos, f_sin};
+use std::time::{Duration, Instant};
+
+/// The tolerance of all of them, relative; the absolute one is zero for the smallest states.
+const TOLERANCE: f64 = 1e-12;
+
+/// Periods of the oscillator whose events are counted: a million events.
+const TURNS: f64 = 500_000.0;
+
+/// A motion: what is hard about it, and the relative error by each of both.
+struct Hard {
+    what: &'static str,
+    taylor: fn() -> Result<f64, Error>,
+    runge_kutta: fn() -> Result<f64, Error>,
+}
+
+const ALL: [Hard; 8] = [
+    Hard {
+        what: "ẋ = √x from x = 0, where two motions begin",
+        taylor: || taylor("sqrt(x)", 0.0, (0.0, 1.0), 0.0),
+        runge_kutta: || runge_kutta(|_, x| x.sqrt(), 0.0, (0.0, 1.0), 0.0),
+    },
+    Hard {
+        what: "ẋ = √x from x = 1 backward, up to x = 10⁻¹²",
+        taylor: || taylor("sqrt(x)", 1.0, (0.0, -1.999_998), 1e-12),
+        runge_kutta: || runge_kutta(|_, x| x.sqrt(), 1.0, (0.0, -1.999_998), 1e-12),
+    },
+    Hard {
+        what: "ẋ = x² up to 10⁻⁶ before its pole",
+        taylor: || taylor("x^2", 1.0, (0.0, POLE), 1.0 / (1.0 - POLE)),
+        runge_kutta: || runge_kutta(|_, x| x * x, 1.0, (0.0, POLE), 1.0 / (1.0 - POLE)),
+    },
+    Hard {
+        what: "ẋ = −x from x = 10⁻³⁰⁰",
+        taylor: || taylor("-x", 1e-300, (0.0, 1.0), 1e-300 * DECAY),
+        runge_kutta: || runge_kutta(|_, x| -x, 1e-300, (0.0, 1.0), 1e-300 * DECAY),
+    },
+    Hard {
+        what: "ẋ = −x from x = 10³⁰⁰",
+        taylor: || taylor("-x", 1e300, (0.0, 1.0), 1e300 * DECAY),
+        runge_kutta: || runge_kutta(|_, x| -x, 1e300, (0.0, 1.0), 1e300 * DECAY),
+    },
+    Hard {
+        what: "ẋ = cos t from t = 10⁹",
+        taylor: || taylor("cos(t)", 0.0, (LATE, LATE + 10.0), f_sin(LATE + 10.0) - f_sin(LATE)),
+        runge_kutta: || {
+            let exact = f_sin(LATE + 10.0) - f_sin(LATE);
+            runge_kutta(|t, _| f_cos(t), 0.0, (LATE, LATE + 10.0), exact)
+        },
+    },
+    Hard {
+        what: "an event at the limit on time",
+        taylor: || event_at_limit(true),
+        runge_kutta: || event_at_limit(false),
+    },
+    Hard {
+        what: "a million events of an oscillator",
+        taylor: || million_events(true),
+        runge_kutta: || million_events(false),
+    },
+];
+
+/// 10⁻⁶ before 1.
+const POLE: f64 = 1.0 - 1e-6;
+
+/// e⁻¹.
+const DECAY: f64 = 0.367_879_441_171_442_33;
+
+const LATE: f64 = 1e9;
+
+/// The error, relative to the answer or to the start, if it is larger: the rounding of a start stays.
+fn relative(found: f64, exact: f64, start: f64) -> f64 {
+    let size = exact.abs().max(start.abs());
+    (found - exact).abs() / if size == 0.0 { 1.0 } else { size }
+}
+
+fn taylor(rate: &str, start: f64, (from, to): (f64, f64), exact: f64) -> Result<f64, Error> {
+    let field = Formulas::from_text(Names::new(&["x"], &[])?, &[rate])?;
+    let series = Series::new(&field, None)?;
+    let flow = TaylorFlow::new(&series, TOLERANCE, 0.0)?;
+    Ok(relative(flow.state_at(from, &[start], to)?[0], exact, start))
+}
+
+fn runge_kutta(
+    rate: fn(f64, f64) -> f64,
+    start: f64,
+    (from, to): (f64, f64),
+    exact: f64,
+) -> Result<f64, Error> {
+    let field = |t: f64, x: &State<1>| State::from([rate(t, x[0])]);
+    let tolerances = Tolerances { absolute: f64::MIN_POSITIVE, ..Tolerances::both(TOLERANCE) };
+    let motion = Integration::starting_at(from, field, &State::from([start]), tolerances)?;
+    let mut motion = motion.until(to)?;
+    while !motion.ended() {
+        motion.step()?;
+    }
+    Ok(relative(motion.state()[0], exact, start))
+}
+
+/// ẋ = 1 from 0 reaches 1 when the run ends. The error of a missed event is 1.
+fn event_at_limit(by_taylor: bool) -> Result<f64, Error> {
+    let found = if by_taylor {
+        // The term without effect keeps the field from having a closed form.
+        let model = Equations::new(&["x"], &[]).mode_text("m", &["1 + 0*x^2"]);
+        let model = model.rising_text("one", "x - 1").model::<State<1>>()?;
+        last_event(model.start("m", [0.0], 1.0)?)?
+    } else {
+        let model = Model::integrated(|(), _: &State<1>| [1.0]);
+        last_event(model.rising((), |x| x[0] - 1.0, |x| ((), *x)).run((), [0.0], 1.0))?
+    };
+    Ok(found.first().map_or(1.0, |time| relative(*time, 1.0, 0.0)))
+}
+
+/// ẍ = −x from (1, 0): the last of a million zeros of x.
+fn million_events(by_taylor: bool) -> Result<f64, Error> {
+    let end = TURNS * std::f64::consts::TAU;
+    let found = if by_taylor {
+        let model = Equations::new(&["x", "v"], &[]).mode_text("m", &["v", "-x"]);
+        let model = model.either_text("zero", "x").model::<State<2>>()?.tolerance(TOLERANCE);
+        last_event(model.start("m", [1.0, 0.0], end)?)?
+    } else {
+        let model = Model::integrated(|(), x: &State<2>| [x[1], -x[0]]).tolerance(TOLERANCE);
+        last_event(model.either((), |x| x[0], |x| ((), *x)).run((), [1.0, 0.0], end))?
+    };
+    let exact = (2.0 * TURNS - 0.5) * std::f64::consts::PI;
+    Ok(found.first().map_or(1.0, |time| relative(*time, exact, 0.0)))
+}
+
+/// Errors and times of all of them.
+pub(crate) fn markdown() -> String {
+    let cell = |run: fn() -> Result<f64, Error>| {
+        let begin = Instant::now();
+        let found = run();
+        let mut least = begin.elapsed();
+        // A motion of a second is followed once.
+        for _ in 0..if least < Duration::from_millis(100) { 20 } else { 0 } {
+            let begin = Instant::now();
+            let _ = std::hint::black_box(run());
+            least = least.min(begin.elapsed());
+        }
+        match found {
+            Ok(error) => format!("{} | {}", digit(error), duration(least)),
+            Err(_) => format!("refused | {}", duration(least)),
+        }
+    };
+    let rows = ALL
+        .iter()
+        .map(|hard| format!("{} | {} | {}", hard.what, cell(hard.taylor), cell(hard.runge_kutta)));
+    let columns = "motion | equations: error: | time: | Runge–Kutta: error: | time:";
+    markdown_table(columns, rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each is right, or refused.
+    #[test]
+    fn hard_motions_are_right_or_refused() {
+        for hard in &ALL[..7] {
+            for (run, least) in [(hard.taylor, 1e-5), (hard.runge_kutta, 1e-5)] {
+                let found = run();
+                assert!(
+                    found.as_ref().map_or(true, |error| *error < least),
+                    "{}: {found:?}",
+                    hard.what
+                );
+            }
+        }
+    }
+}
