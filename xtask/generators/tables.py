@@ -8,6 +8,7 @@ import basins
 import edge_fates
 import functions
 import hops
+import motions
 import phases
 import scenes
 
@@ -66,5 +67,6 @@ TABLES = (
     _table("phases.jsonl", phases.phase, 16),
     _table("slow_orbits.jsonl", phases.slow_orbit, 8),
     _table("events.jsonl", scenes.scene, 5),
+    _table("motions.jsonl", motions.scene, 4),
     _table("functions.jsonl", functions.function, 81),
 )

@@ -93,10 +93,6 @@ impl<T: HybridSystem> Execution<'_, T> {
         if kind != EventKind::Clock {
             self.at.history.event(surface, time.value());
         }
-        let by_division = match kind {
-            EventKind::Clock => 0.0,
-            _ => self.error_by_division(surface, &state, duration),
-        };
         let solved = certainty == Certainty::Exact;
         let since_event = self.at.history.since_event;
         let length =
@@ -117,15 +113,19 @@ impl<T: HybridSystem> Execution<'_, T> {
         self.at.jump += 1;
         self.at.initial = false;
         match after {
-            Some((mode, state)) => {
+            Some((mode, after)) => {
                 // An event that changes nothing, as that of an observer, divides one flow in two.
                 if changes_nothing {
                     self.at.history.pass(duration);
                 } else {
+                    let by_division = match kind {
+                        EventKind::Clock => 0.0,
+                        _ => self.error_by_division(surface, &state, duration),
+                    };
                     let error = time_error + by_division;
-                    self.at.history.push(duration, error, time, state.clone());
+                    self.at.history.push(duration, error, time, after.clone());
                 }
-                (self.at.mode, self.at.state) = (mode, state);
+                (self.at.mode, self.at.state) = (mode, after);
             }
             None => {
                 self.at.state = state;

@@ -128,8 +128,9 @@ def heyoka_batches(scene, tolerance):
 
 
 def measure(scene, program, tolerance, run, starts=1):
+    begin = time.perf_counter()
     answer = [float(x) for x in run()]
-    begin, smallest = time.perf_counter(), math.inf
+    smallest = time.perf_counter() - begin
     while time.perf_counter() - begin < SHARE:
         start = time.perf_counter()
         run()
