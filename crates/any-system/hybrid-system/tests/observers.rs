@@ -273,3 +273,23 @@ fn every_transversal_crossing_of_an_observer_is_found_once() {
     }
     assert!(all.is_empty(), "{all}");
 }
+
+/// The events of an observer cost as much late in a run as early: 2000 sections of an oscillator. (Once the error by a
+/// divided flight was computed at each of them, along a part of all flights before.)
+#[test]
+fn late_events_cost_as_much_as_early_ones() {
+    let calls = std::cell::Cell::new(0_u64);
+    let oscillator = Model::integrated(|(), x: &State<2>| {
+        calls.set(calls.get() + 1);
+        [x[1], -x[0]]
+    })
+    .either((), |x| x[0], |x| ((), *x));
+    let mut each = Vec::new();
+    for arc in oscillator.run((), [1.0, 0.0], 1000.0 * std::f64::consts::TAU) {
+        arc.unwrap();
+        each.push(calls.replace(0));
+    }
+    assert_eq!(each.len(), 2001);
+    let sum = |range: std::ops::Range<usize>| each[range].iter().sum::<u64>();
+    assert!(sum(1900..2000) <= 2 * sum(100..200), "{} {}", sum(100..200), sum(1900..2000));
+}
