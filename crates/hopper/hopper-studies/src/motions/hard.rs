@@ -169,10 +169,13 @@ mod tests {
     #[test]
     fn hard_motions_are_right_or_refused() {
         for hard in &ALL[..7] {
-            for (run, least) in [(hard.taylor, 1e-5), (hard.runge_kutta, 1e-5)] {
+            // The pairs take a million steps where the time is rounded.
+            let is_long = hard.what.contains("10⁹");
+            let runge_kutta = (!is_long).then_some(hard.runge_kutta);
+            for run in [Some(hard.taylor), runge_kutta].into_iter().flatten() {
                 let found = run();
                 assert!(
-                    found.as_ref().map_or(true, |error| *error < least),
+                    found.as_ref().map_or(true, |error| *error < 1e-6),
                     "{}: {found:?}",
                     hard.what
                 );
