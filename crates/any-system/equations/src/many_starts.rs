@@ -90,8 +90,8 @@ impl TaylorFlow<'_> {
         let mut single = self.memory()?;
         let mut own = vec![0.0; self.series.dimension()];
         loop {
-            for lane in 0..WIDTH {
-                while lanes[lane].is_none()
+            for (lane, followed) in lanes.iter_mut().enumerate() {
+                while followed.is_none()
                     && let Some(start) = waiting.next()
                 {
                     let (from, to) = (starts.time(0, start), starts.time(1, start));
@@ -100,10 +100,10 @@ impl TaylorFlow<'_> {
                         continue;
                     }
                     (time.0[lane], end.0[lane]) = (from, to);
-                    state.iter_mut().zip(starts.columns).for_each(|(x, column)| {
+                    for (x, column) in state.iter_mut().zip(starts.columns) {
                         x.0[lane] = column[start];
-                    });
-                    lanes[lane] = Some(Followed { start, steps: 0 });
+                    }
+                    *followed = Some(Followed { start, steps: 0 });
                 }
             }
             if lanes.iter().all(Option::is_none) {

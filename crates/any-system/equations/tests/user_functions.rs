@@ -12,7 +12,7 @@ fn own_sine() -> Function {
 fn a_brought_function_is_what_it_says_in_every_evaluator() {
     let own = own_sine();
     let names = Names::new(&["x", "v"], &[]).unwrap();
-    let with_own = names.clone().with_functions(&[own.clone()]).unwrap();
+    let with_own = names.clone().with_functions(std::slice::from_ref(&own)).unwrap();
     let field = Formulas::from_text(with_own, &["v", "-own(x)*own(x + v)"]).unwrap();
     let exact = Formulas::from_text(names.clone(), &["v", "-sin(x)*sin(x + v)"]).unwrap();
     let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-13 * (1.0 + b.abs()), "{a} {b}");
@@ -56,7 +56,7 @@ fn a_brought_function_is_what_it_says_in_every_evaluator() {
 fn names_of_functions_are_theirs_alone() {
     let [one, two] = [own_sine(), own_sine()];
     let names = Names::new(&["own"], &[]).unwrap();
-    assert!(matches!(names.with_functions(&[one.clone()]), Err(Error::Name { .. })));
+    assert!(matches!(names.with_functions(std::slice::from_ref(&one)), Err(Error::Name { .. })));
     let wrong = |name: &str| Function::new(name, |x| x, Some, |x, _| x.number(1.0));
     assert!(wrong("sin").is_err() && wrong("t").is_err() && wrong("2x").is_err());
     let names = Names::new(&["x"], &[]).unwrap();
@@ -66,7 +66,13 @@ fn names_of_functions_are_theirs_alone() {
     let bad = Function::new("bad", |x| x, Some, |x, _| x.number(f64::NAN)).unwrap();
     let of_bad = Formulas::new(names.clone(), |_, x, _| [bad.of(x[0])]).unwrap();
     assert!(of_bad.jacobian().is_err() && Series::new(&of_bad, None).is_err());
-    let half = Function::new("half", f64::ln, |x| x.ln(), |x, _| 1.0 / x).unwrap();
+    let half = Function::new(
+        "half",
+        |x| Enclosure::from(x).ln().map_or(f64::NAN, |ln| ln.middle()),
+        |x| x.ln(),
+        |x, _| 1.0 / x,
+    )
+    .unwrap();
     let of_half = Formulas::new(names, |_, x, _| [half.of(x[0])]).unwrap();
     let error = of_half.values(0.0, &[-1.0]).unwrap_err().to_string();
     assert!(error.contains("half(x)"), "{error}");
@@ -111,7 +117,7 @@ fn matrices_are_arrays() {
         p.product(&[[cos, -sin], [sin, cos]], x)
     });
     let found = turned.unwrap().values(0.0, &[3.0, 4.0]).unwrap();
-    assert!((found[0].hypot(found[1]) - 5.0).abs() < 1e-15);
+    assert!((found[0] * found[0] + found[1] * found[1] - 25.0).abs() < 1e-14);
     let empty = Formulas::new(names.clone(), |_, _, p| [p.dot::<f64>(&[], &[])]).unwrap();
     assert_eq!(empty.values(0.0, &[1.0, 1.0]).unwrap(), [0.0]);
     let short = Formulas::new(names, |_, x, p| [p.dot(&[1.0], x)]);
