@@ -324,3 +324,39 @@ fn a_damaged_checkpoint_does_not_panic() {
     let first = Execution::restore(&other, checkpoint, Limits::new(10.0, 100)).next().unwrap();
     assert!(matches!(first, Err(Error::Dimension { expected: 2, found: 3, .. })), "{first:?}");
 }
+
+/// A run of equations goes on from its file with the same bits: with a clock, the time as a component, a function of the
+/// user, and a dimension that is chosen at run time.
+#[test]
+fn a_run_of_equations_is_a_file() {
+    let own = Function::new("cube", |x| x * x * x, |x| Some(x * x * x), |x, _| 3.0 * x * x);
+    let own = own.unwrap();
+    let model = Equations::new(&["x", "v"], &[("kick", "0.1")])
+        .functions(std::slice::from_ref(&own))
+        .mode_text("m", &["v", "cos(1.3*t) - cube(x)"])
+        .rising_text("stop", "x - 0.5")
+        .resets_text(&["x", "-0.8*v"])
+        .clock_text("tick", "1", "1")
+        .resets_text(&["x", "v + kick"])
+        .model::<DVector<f64>>()
+        .unwrap()
+        .tolerance(1e-11);
+    let start = || DVector::from_vec(vec![0.0, 1.0, 0.0]);
+    let whole: Vec<_> =
+        model.start("m", start(), 20.0).unwrap().map(|arc| format!("{arc:?}")).collect();
+    let mut run = model.start("m", start(), 20.0).unwrap();
+    assert!(whole.len() > 20);
+    for done in 0..whole.len() {
+        let text = run.saved().to_json().unwrap();
+        let saved = SavedRun::<DVector<f64>>::from_json_with(&text, std::slice::from_ref(&own));
+        let saved = saved.unwrap();
+        let rest = saved.go_on(Limits::new(20.0, 1_000_000)).map(|arc| format!("{arc:?}"));
+        assert!(rest.eq(whole[done..].iter().cloned()), "after {done} arcs");
+        assert!(SavedRun::<DVector<f64>>::from_json(&text).is_err());
+        assert!(SavedRun::<State<2>>::from_json_with(&text, std::slice::from_ref(&own)).is_err());
+        run.next();
+    }
+    let each = Tolerances::both(1e-9).absolute_each(&[1e-9, 1e-9, 1e-9]);
+    let model = model.tolerances(each);
+    assert!(model.start("m", start(), 1.0).unwrap().saved().to_json().is_err());
+}

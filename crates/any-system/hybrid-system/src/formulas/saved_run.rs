@@ -12,6 +12,7 @@ use crate::execution::Execution;
 use crate::limits::Limits;
 use crate::ode::Tolerances;
 use crate::state::StateVector;
+use equations::Function;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
@@ -105,11 +106,19 @@ impl<X: StateVector + Serialize + DeserializeOwned> SavedRun<X> {
     /// As [`Equations::from_json`] and [`Equations::model`]; [`Error::BadEquations`] for what is no place in an execution
     /// of the model.
     pub fn from_json(text: &str) -> Result<Self, Error> {
+        Self::from_json_with(text, &[])
+    }
+
+    /// The same of a file whose equations call these functions, which it has by their names alone.
+    ///
+    /// # Errors
+    /// As [`from_json`](Self::from_json), and for a function that is not given.
+    pub fn from_json_with(text: &str, functions: &[Function]) -> Result<Self, Error> {
         let mut file = equations::bounded_value(text)?;
         if file["format"] != FORMAT || file["version"] != VERSION {
             return bad("format", "it is no file of a hybrid run, or one of another version");
         }
-        let equations = Equations::from_json(&file["equations"].to_string())?;
+        let equations = Equations::from_json_with(&file["equations"].to_string(), functions)?;
         let tolerances = &file["tolerances"];
         let number = |at: usize| match tolerances[TOLERANCES[at]] {
             Value::Null if at > 1 => Ok(f64::INFINITY),
