@@ -88,10 +88,6 @@ impl<const T: usize> Arithmetic for Jet<T> {
         x.each(|x| x * k)
     }
 
-    fn over(x: &Self, _: f64, inverse: f64) -> Self {
-        x.each(|x| x * inverse)
-    }
-
     fn is_valid(&self) -> bool {
         self.0.iter().all(|term| term.is_finite())
     }

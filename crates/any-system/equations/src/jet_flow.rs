@@ -5,20 +5,9 @@ use crate::error::Error;
 use crate::jet::Jet;
 use crate::jet_series::JetSeries;
 use crate::series::Coefficients;
+use crate::step::{INSIDE, RATE_ERROR};
 use crate::step_length::{order_of, root, safety, shortened};
-
-/// The most steps of one motion.
-const MOST_STEPS: usize = 1_000_000;
-
-/// How often a step is halved.
-const MOST_HALVINGS: usize = 60;
-
-/// How much larger than the tolerance times the order the error of a rate, times the step, may be: see `taylor_flow`. A
-/// derivative is compared with the largest one.
-const RATE_ERROR: f64 = 30.0;
-
-/// A step is tested against the field at its end, and at this part of it.
-const INSIDE: f64 = 0.381_966_011_250_105_1;
+use crate::taylor_flow::{MOST_HALVINGS, MOST_STEPS};
 
 /// The sum Σ c_k x^k of jets at a jet x.
 pub fn jet_horner<const T: usize>(series: &[Jet<T>], x: &Jet<T>) -> Jet<T> {
@@ -74,7 +63,8 @@ impl JetSeries {
         Err(Error::Stuck { time, end: duration })
     }
 
-    /// The field at the end of a step and inside it is that of the polynomials, with all derivatives.
+    /// The field at the end of a step and inside it is that of the polynomials, with all derivatives. A derivative is
+    /// compared with the largest one.
     fn goes_on<const T: usize>(
         &self,
         coefficients: &Coefficients<Jet<T>>,

@@ -77,7 +77,11 @@ impl Formulas {
     /// # Errors
     /// As [`from_json`](Self::from_json), and for a function that is not given.
     pub fn from_json_with(text: &str, functions: &[Function]) -> Result<Formulas, Error> {
-        let file = header(text)?;
+        let file = bounded_value(text)?;
+        if file["format"] != "equations" || file["version"] != VERSION {
+            let reason = format!("\"format\" must be \"equations\", and \"version\" {VERSION}");
+            return Err(wrong("the file", reason));
+        }
         Formulas::from_value(Names::from_value(&file)?.with_functions(functions)?, &file)
     }
 
@@ -156,15 +160,6 @@ impl Names {
     pub fn from_value(file: &Value) -> Result<Names, Error> {
         names(file)
     }
-}
-
-fn header(text: &str) -> Result<Value, Error> {
-    let file = bounded_value(text)?;
-    if file["format"] != "equations" || file["version"] != VERSION {
-        let reason = format!("\"format\" must be \"equations\", and \"version\" {VERSION}");
-        return Err(wrong("the file", reason));
-    }
-    Ok(file)
 }
 
 fn wrong(place: &str, reason: String) -> Error {

@@ -100,11 +100,6 @@ impl Arithmetic for Lanes {
     }
 
     #[inline(always)]
-    fn over(x: &Self, _: f64, inverse: f64) -> Self {
-        x.each(|x| x * inverse)
-    }
-
-    #[inline(always)]
     fn zero() -> Self {
         Lanes([0.0; WIDTH])
     }

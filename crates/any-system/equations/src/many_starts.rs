@@ -1,5 +1,6 @@
 //! The motions of many starts, side by side, with the bits of one.
 
+use crate::algebra::Arithmetic;
 use crate::columns::{Columns, Table};
 use crate::elementwise::Elementwise;
 use crate::error::Error;
@@ -7,13 +8,7 @@ use crate::lanes::{Lanes, WIDTH};
 use crate::simd;
 use crate::step::{Step, end_of, memory};
 use crate::taylor_flow::{MOST_STEPS, TaylorFlow};
-
-/// A motion that is followed in a lane.
-#[derive(Clone, Copy)]
-struct Followed {
-    start: usize,
-    steps: usize,
-}
+use std::ops::Range;
 
 /// One step of all lanes: where it is right. Elsewhere the step is to be done alone.
 #[inline(always)]
@@ -83,68 +78,117 @@ impl TaylorFlow<'_> {
 
     fn side_by_side(&self, starts: &Table<'_, 2>, found: &mut Columns) -> Result<(), Error> {
         let mut waiting = 0..starts.count;
-        let mut lanes: [Option<Followed>; WIDTH] = [None; WIDTH];
-        let (mut time, mut end) = (Lanes([0.0; WIDTH]), Lanes([0.0; WIDTH]));
-        let mut state = vec![Lanes([0.0; WIDTH]); self.series.dimension()];
-        let mut step = memory::<Lanes>(self.series, self.order)?;
-        let mut single = self.memory()?;
-        let mut own = vec![0.0; self.series.dimension()];
+        let mut motions = Motions::new(self)?;
         loop {
-            for (lane, followed) in lanes.iter_mut().enumerate() {
-                while followed.is_none()
-                    && let Some(start) = waiting.next()
-                {
-                    let (from, to) = (starts.time(0, start), starts.time(1, start));
-                    if !(from.is_finite() && to.is_finite()) {
-                        found.failed.push((start, Error::Time { time: from, end: to }));
-                        continue;
-                    }
-                    (time.0[lane], end.0[lane]) = (from, to);
-                    for (x, column) in state.iter_mut().zip(starts.columns) {
-                        x.0[lane] = column[start];
-                    }
-                    *followed = Some(Followed { start, steps: 0 });
-                }
+            for lane in 0..WIDTH {
+                motions.fill(lane, starts, &mut waiting, found);
             }
-            if lanes.iter().all(Option::is_none) {
+            if motions.followed.iter().all(Option::is_none) {
                 return Ok(());
             }
-            let right = simd::step_of_lanes(self, (time, end), &state, &mut step);
-            for (lane, followed) in lanes.iter_mut().enumerate() {
-                let Some(Followed { start, steps }) = followed else { continue };
-                let (from, to) = (time.0[lane], end.0[lane]);
-                let reached = if right.0[lane] == 1.0 {
-                    for (x, end) in state.iter_mut().zip(&step.state_at_end) {
-                        x.0[lane] = end.0[lane];
-                    }
-                    Ok(step.end.0[lane])
-                } else {
-                    own.iter_mut().zip(&state).for_each(|(own, x)| *own = x.0[lane]);
-                    let reached = self.one_step(from, &mut own, to, &mut single);
-                    state.iter_mut().zip(&own).for_each(|(x, own)| x.0[lane] = *own);
-                    reached
-                };
-                *steps += 1;
-                let reached = match reached {
-                    Ok(at) if at != to && *steps >= MOST_STEPS => {
-                        Err(Error::Stuck { time: at, end: to })
-                    }
-                    reached => reached,
-                };
-                match reached {
-                    Ok(at) => {
-                        time.0[lane] = at;
-                        if at == to {
-                            found.keep(*start, state.iter().map(|x| x.0[lane]));
-                            *followed = None;
-                        }
-                    }
-                    Err(error) => {
-                        found.failed.push((*start, error));
-                        *followed = None;
-                    }
-                }
+            let right = simd::step_of_lanes(self, motions.times, &motions.state, &mut motions.step);
+            for lane in 0..WIDTH {
+                motions.go_on(lane, right.0[lane] == 1.0, found);
             }
         }
+    }
+}
+
+/// A motion that is followed in a lane: its start, and its number of steps.
+#[derive(Clone, Copy)]
+struct Followed {
+    start: usize,
+    steps: usize,
+}
+
+/// Motions side by side.
+struct Motions<'f> {
+    flow: &'f TaylorFlow<'f>,
+    followed: [Option<Followed>; WIDTH],
+    /// Where each one is, and its end.
+    times: (Lanes, Lanes),
+    state: Vec<Lanes>,
+    step: Step<Lanes>,
+    /// Memory for a step that is done alone.
+    single: Step,
+    single_state: Vec<f64>,
+}
+
+impl<'f> Motions<'f> {
+    fn new(flow: &'f TaylorFlow<'f>) -> Result<Self, Error> {
+        let dimension = flow.series.dimension();
+        Ok(Motions {
+            flow,
+            followed: [None; WIDTH],
+            times: (Lanes::zero(), Lanes::zero()),
+            state: vec![Lanes::zero(); dimension],
+            step: memory(flow.series, flow.order)?,
+            single: flow.memory()?,
+            single_state: vec![0.0; dimension],
+        })
+    }
+
+    /// Gives a free lane the next start that has times.
+    fn fill(
+        &mut self,
+        lane: usize,
+        starts: &Table<'_, 2>,
+        waiting: &mut Range<usize>,
+        found: &mut Columns,
+    ) {
+        while self.followed[lane].is_none()
+            && let Some(start) = waiting.next()
+        {
+            let (time, end) = (starts.time(0, start), starts.time(1, start));
+            if !(time.is_finite() && end.is_finite()) {
+                found.failed.push((start, Error::Time { time, end }));
+                continue;
+            }
+            (self.times.0.0[lane], self.times.1.0[lane]) = (time, end);
+            for (x, column) in self.state.iter_mut().zip(starts.columns) {
+                x.0[lane] = column[start];
+            }
+            self.followed[lane] = Some(Followed { start, steps: 0 });
+        }
+    }
+
+    /// Moves a lane behind its step, and frees it at the end of its motion.
+    fn go_on(&mut self, lane: usize, is_right: bool, found: &mut Columns) {
+        let Some(Followed { start, steps }) = self.followed[lane] else { return };
+        let end = self.times.1.0[lane];
+        let steps = steps + 1;
+        self.followed[lane] = match self.moved(lane, is_right) {
+            Err(error) => {
+                found.failed.push((start, error));
+                None
+            }
+            Ok(time) if time == end => {
+                found.keep(start, self.state.iter().map(|x| x.0[lane]));
+                None
+            }
+            Ok(time) if steps >= MOST_STEPS => {
+                found.failed.push((start, Error::Stuck { time, end }));
+                None
+            }
+            Ok(time) => {
+                self.times.0.0[lane] = time;
+                Some(Followed { start, steps })
+            }
+        };
+    }
+
+    /// Puts the state of a lane behind its step, which is done alone unless it is right; the time there.
+    fn moved(&mut self, lane: usize, is_right: bool) -> Result<f64, Error> {
+        if is_right {
+            for (x, end) in self.state.iter_mut().zip(&self.step.state_at_end) {
+                x.0[lane] = end.0[lane];
+            }
+            return Ok(self.step.end.0[lane]);
+        }
+        let (time, end) = (self.times.0.0[lane], self.times.1.0[lane]);
+        self.single_state.iter_mut().zip(&self.state).for_each(|(own, x)| *own = x.0[lane]);
+        let reached = self.flow.one_step(time, &mut self.single_state, end, &mut self.single)?;
+        self.state.iter_mut().zip(&self.single_state).for_each(|(x, own)| x.0[lane] = *own);
+        Ok(reached)
     }
 }

@@ -22,8 +22,9 @@ pub struct Names {
 /// The functions that may be called do not count: a formula has those that it calls.
 impl PartialEq for Names {
     fn eq(&self, other: &Names) -> bool {
-        let own = |names: &Names| (names.states.clone(), names.parameters.clone());
-        own(self) == own(other) && self.values == other.values
+        self.states == other.states
+            && self.parameters == other.parameters
+            && self.values == other.values
     }
 }
 
@@ -59,15 +60,19 @@ impl Names {
     pub(crate) fn check(&self) -> Result<(), Error> {
         length("values of parameters", self.parameters.len(), self.values.len())?;
         let mut known = HashSet::new();
-        let functions = self.functions.iter().map(Function::name);
-        let names = self.states.iter().chain(&self.parameters).map(String::as_str);
-        for name in names.chain(functions) {
+        for name in self.all() {
             check_name(name)?;
             if !known.insert(name) {
                 return Err(Error::Name { name: name.to_owned(), reason: "used twice" });
             }
         }
         Ok(())
+    }
+
+    /// All names: of components, parameters and functions.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &str> {
+        let names = self.states.iter().chain(&self.parameters).map(String::as_str);
+        names.chain(self.functions.iter().map(Function::name))
     }
 
     /// The same names, and functions that texts and files may call.

@@ -9,7 +9,7 @@ use crate::taylor_flow::TaylorFlow;
 
 /// How much larger than the tolerance times the order the error of a rate may be, times the step. The terms that are left
 /// out give one of about 1/7. A smaller number shortens steps of fields that spread errors fast; a larger one sees less.
-const RATE_ERROR: f64 = 30.0;
+pub(crate) const RATE_ERROR: f64 = 30.0;
 
 /// How much larger than the tolerance times the order, of its largest term, the distance of a watched formula from its
 /// polynomial may be. It is only trusted to show where zeros are; the zeros themselves are those of the formula.
@@ -17,7 +17,7 @@ pub(crate) const WATCHED_ERROR: f64 = 1000.0;
 
 /// A step is tested against the field at its end, and at this part of it: no simple fraction, at which a field that
 /// repeats itself would look like its series.
-const INSIDE: f64 = 0.381_966_011_250_105_1;
+pub(crate) const INSIDE: f64 = 0.381_966_011_250_105_1;
 
 /// A step of a motion: the polynomials that are the motion on it.
 #[derive(Debug, Clone, PartialEq)]

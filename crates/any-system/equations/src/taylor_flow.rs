@@ -15,7 +15,7 @@ use crate::step_length::order_of;
 pub(crate) const MOST_STEPS: usize = 1_000_000;
 
 /// How often a step is halved, until it is some 10⁻¹⁸ of its first length: next to the end of a field's domain.
-const MOST_HALVINGS: usize = 60;
+pub(crate) const MOST_HALVINGS: usize = 60;
 
 /// The motion ẋ = f(t, x; p), by its Taylor series, step by step.
 ///

@@ -3,7 +3,6 @@
 use crate::constant::{Constant, Decimal};
 use crate::error::Error;
 use crate::formulas::Formulas;
-use crate::function::Function;
 use crate::graph::Graph;
 use crate::names::{Names, check_name};
 use crate::node::{BINARY, Binary, Node, UNARY, Unary, named};
@@ -131,10 +130,8 @@ impl Reader<'_> {
             return Ok(None);
         }
         check_name(&name).map_err(|error| self.wrong_at(begin, error.to_string()))?;
-        let names = self.names.states.iter().chain(&self.names.parameters).map(String::as_str);
-        let others = self.names.functions.iter().map(Function::name);
         let defined = self.defined.iter().map(|(name, _)| name.as_str());
-        match names.chain(others).chain(defined).any(|known| known == name) {
+        match self.names.all().chain(defined).any(|known| known == name) {
             true => Err(self.wrong_at(begin, format!("{name} has a meaning already"))),
             false => Ok(Some(name)),
         }

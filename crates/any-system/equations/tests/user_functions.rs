@@ -86,6 +86,7 @@ fn values_with_names_are_used_by_later_texts() {
     let found = read(&["r2 = x^2 + y^2", "s = a*r2", "s + r2", "s/r2"]).unwrap();
     assert_eq!(found.texts(), ["a*(x^2 + y^2) + (x^2 + y^2)", "a*(x^2 + y^2)/(x^2 + y^2)"]);
     assert_eq!(found.values(0.0, &[3.0, 4.0]).unwrap(), [75.0, 2.0]);
+    assert_eq!(read(&["a꩐=0"]).unwrap().count(), 0);
     for (texts, part) in [
         (&["x = 3", "x"][..], "column 1"),
         (&["r = 1", "r = 2", "r"], "r has a meaning already"),
