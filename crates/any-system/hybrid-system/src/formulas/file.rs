@@ -53,6 +53,11 @@ impl Equations {
     /// # Errors
     /// As [`check`](Self::check): wrong equations are not written.
     pub fn to_json(&self) -> Result<String, Error> {
+        Ok(self.to_value()?.to_string())
+    }
+
+    /// The same as a value of JSON: for files with more than equations.
+    pub(super) fn to_value(&self) -> Result<Value, Error> {
         self.check()?;
         let mut file = json!({
             "format": FORMAT,
@@ -63,7 +68,7 @@ impl Equations {
         if let (Some(file), Value::Object(names)) = (file.as_object_mut(), self.names.to_value()) {
             file.extend(names);
         }
-        Ok(file.to_string())
+        Ok(file)
     }
 
     /// The SHA-256 of [`to_json`](Self::to_json), as 64 hexadecimal digits: a short name of the model for stores and
@@ -88,11 +93,15 @@ impl Equations {
     /// # Errors
     /// As [`from_json`](Self::from_json), and for a function that is not given.
     pub fn from_json_with(text: &str, functions: &[Function]) -> Result<Equations, Error> {
-        let file = equations::bounded_value(text)?;
+        Equations::from_value(&equations::bounded_value(text)?, functions)
+    }
+
+    /// The equations of a value that [`to_value`](Self::to_value) made.
+    pub(super) fn from_value(file: &Value, functions: &[Function]) -> Result<Equations, Error> {
         if file["format"] != FORMAT || file["version"] != VERSION {
             return bad("format", "it is no file of hybrid equations, or one of another version");
         }
-        let names = Names::from_value(&file)?.with_functions(functions)?;
+        let names = Names::from_value(file)?.with_functions(functions)?;
         let mut equations = Equations::of_names(names.clone());
         equations.everywhere = guards(&file["everywhere"], &names)?;
         for mode in list(&file["modes"], "modes")? {

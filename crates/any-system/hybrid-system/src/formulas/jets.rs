@@ -104,7 +104,7 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
                         .jets()?
                         .coefficients(&self.jet_flow(program, &state, arc.duration)?, T)?;
                     let mut since = Jet::negative(&time);
-                    since.0.iter_mut().take(1).for_each(|first| *first = 0.0);
+                    put_value(&mut since, 0.0);
                     (at(&end, &since), Jet::number(time.value() + arc.duration))
                 }
                 _ => return Err(Error::NoSensitivity { time: arc.time }),
@@ -167,10 +167,10 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         start: &[Jet<T>],
         time: &Jet<T>,
     ) -> Result<(Vec<Jet<T>>, Jet<T>), Error> {
-        let changes = event.after.as_ref() != Some(&(arc.mode, event.before.clone()));
         if event.kind == EventKind::Clock {
             return self.after_tick(program, (arc, event), start, time);
         }
+        let changes = event.after.as_ref() != Some(&(arc.mode, event.before.clone()));
         let place = program.guards.iter().position(|guard| guard.surface == event.surface);
         let at_once = event.kind == EventKind::AtStart
             || event.kind == EventKind::Crossing && arc.duration <= SAME_INSTANT * event.time.abs();
@@ -197,10 +197,8 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         if !(rate.abs() > SMALLEST_RATE * size) {
             return Err(Error::GrazingSensitivity { time: event.time, rate });
         }
-        let since = zero(guard);
-        state = at(&motion, &since);
-        let time = Jet::sum(time, &Jet::sum(&since, &Jet::number(arc.duration)));
-        Ok((after_jump(&program.guards[place], state)?, time))
+        let ended = Jet::sum(time, &Jet::number(arc.duration));
+        after_jump(&program.guards[place], &motion, (&ended, &zero(guard)))
     }
 
     /// State and time after a tick of a clock, whose times are first + k·period.
@@ -224,29 +222,36 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         let flown = self.jet_flow(program, start, arc.duration)?;
         let motion = program.jets()?.coefficients(&flown, T)?;
         let mut since = Jet::difference(&tick, time);
-        since.0.iter_mut().take(1).for_each(|value| *value = 0.0);
-        let time = Jet::sum(time, &Jet::sum(&since, &Jet::number(arc.duration)));
-        Ok((after_jump(clock, at(&motion, &since))?, time))
+        put_value(&mut since, 0.0);
+        let ended = Jet::sum(time, &Jet::number(arc.duration));
+        after_jump(clock, &motion, (&ended, &since))
     }
 }
 
-/// The state after the jump of a guard or a clock.
+/// State and time after the jump of a guard or a clock, a small time behind the end of an arc.
 fn after_jump<const T: usize>(
     guard: &GuardProgram,
-    mut state: Vec<Jet<T>>,
-) -> Result<Vec<Jet<T>>, Error> {
+    motion: &Coefficients<Jet<T>>,
+    (ended, since): (&Jet<T>, &Jet<T>),
+) -> Result<(Vec<Jet<T>>, Jet<T>), Error> {
+    let mut state = at(motion, since);
     if let Some(jump) = guard.reset_jets()? {
         let after = jump.values(&state)?;
         state[..after.len()].copy_from_slice(&after);
     }
-    Ok(state)
+    Ok((state, Jet::sum(ended, since)))
 }
 
 /// The values are those of an execution.
 fn put_values<const T: usize, X: StateVector>(jets: &mut [Jet<T>], values: &X) {
     for (jet, value) in jets.iter_mut().zip(values.components()) {
-        jet.0.iter_mut().take(1).for_each(|first| *first = *value);
+        put_value(jet, *value);
     }
+}
+
+/// The derivatives stay.
+fn put_value<const T: usize>(jet: &mut Jet<T>, value: f64) {
+    jet.0.iter_mut().take(1).for_each(|first| *first = value);
 }
 
 /// The state at a small time of a motion.
@@ -289,7 +294,7 @@ fn zero<const T: usize>(guard: &[Jet<T>]) -> Jet<T> {
     for _ in 0..T {
         let mut value = jet_horner(guard, &found);
         // The execution has found the time: what is left of the value is rounding.
-        value.0.iter_mut().take(1).for_each(|first| *first = 0.0);
+        put_value(&mut value, 0.0);
         found = Jet::difference(&found, &Jet::quotient(&value, &slope(guard, &found)));
     }
     found

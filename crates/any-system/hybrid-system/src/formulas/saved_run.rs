@@ -77,7 +77,7 @@ impl<X: StateVector + Serialize + DeserializeOwned> SavedRun<X> {
         if tolerances.absolute_each.is_some() || tolerances.relative_each.is_some() {
             return bad("tolerances", "those of single components are not written: set them again");
         }
-        let equations: Value = read(&self.model.equations().to_json()?)?;
+        let equations = self.model.equations().to_value()?;
         let checkpoint = serde_json::to_value(&self.checkpoint);
         let checkpoint =
             checkpoint.or_else(|error| bad(&error.to_string(), "it is not written"))?;
@@ -118,7 +118,7 @@ impl<X: StateVector + Serialize + DeserializeOwned> SavedRun<X> {
         if file["format"] != FORMAT || file["version"] != VERSION {
             return bad("format", "it is no file of a hybrid run, or one of another version");
         }
-        let equations = Equations::from_json_with(&file["equations"].to_string(), functions)?;
+        let equations = Equations::from_value(&file["equations"], functions)?;
         let tolerances = &file["tolerances"];
         let number = |at: usize| match tolerances[TOLERANCES[at]] {
             Value::Null if at > 1 => Ok(f64::INFINITY),
@@ -142,10 +142,6 @@ impl<X: StateVector + Serialize + DeserializeOwned> SavedRun<X> {
         crate::HybridSystem::validate(&model, checkpoint.mode(), checkpoint.state())?;
         Ok(SavedRun { model, checkpoint })
     }
-}
-
-fn read(text: &str) -> Result<Value, Error> {
-    serde_json::from_str(text).or_else(|error| bad(&error.to_string(), "it is no JSON"))
 }
 
 fn bad<T>(what: &str, reason: &'static str) -> Result<T, Error> {
