@@ -193,6 +193,19 @@ def planets():
     return {"states": states, "field": rates, "start": places.split() + speeds.split(), "end": "20000"}
 
 
+def lorenz(end):
+    return {
+        "states": ["x", "y", "z"],
+        "field": ["10*(y - x)", "x*(28 - z) - y", "x*y - 2.6666666666666665*z"],
+        "start": ["1", "1", "1"],
+        "end": end,
+    }
+
+
+def van_der_pol(mu, end):
+    return {"states": ["x", "v"], "field": ["v", f"{mu}*(1 - x**2)*v - x"], "start": ["2", "0"], "end": end}
+
+
 def kepler(start, speed, end):
     """From the pericentre. All numbers are doubles: their rounding would be seen after ten turns."""
     force = "(x**2 + y**2)**(-1.5)"
@@ -218,12 +231,7 @@ SCENES = {
         "guard": "x",
         "either": True,
     },
-    "van der Pol": {
-        "states": ["x", "v"],
-        "field": ["v", "5*(1 - x**2)*v - x"],
-        "start": ["2", "0"],
-        "end": "30",
-    },
+    "van der Pol": van_der_pol("5", "30"),
     "impact oscillator": {
         "states": ["x", "v"],
         "field": ["v", "cos(1.3*t) - 0.1*v - x"],
@@ -235,25 +243,10 @@ SCENES = {
     },
     "Kepler, e = 0.595": kepler("0.375", "2.0625", "60"),
     "Kepler, e = 0.992": kepler("0.009765625", "14.28125", "90"),
-    "Lorenz": {
-        "states": ["x", "y", "z"],
-        "field": ["10*(y - x)", "x*(28 - z) - y", "x*y - 2.6666666666666665*z"],
-        "start": ["1", "1", "1"],
-        "end": "5",
-    },
+    "Lorenz": lorenz("5"),
     "outer planets": planets(),
-    "Lorenz to t = 50": {
-        "states": ["x", "y", "z"],
-        "field": ["10*(y - x)", "x*(28 - z) - y", "x*y - 2.6666666666666665*z"],
-        "start": ["1", "1", "1"],
-        "end": "50",
-    },
-    "van der Pol, μ = 100": {
-        "states": ["x", "v"],
-        "field": ["v", "100*(1 - x**2)*v - x"],
-        "start": ["2", "0"],
-        "end": "100",
-    },
+    "Lorenz to t = 50": lorenz("50"),
+    "van der Pol, μ = 100": van_der_pol("100", "100"),
     # The orbit of Arenstorf around earth and moon: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I (1993), II.0.
     "Arenstorf": {
         "states": ["x", "y", "u", "v"],

@@ -36,6 +36,23 @@ pub(crate) fn median_seconds<T>(count: usize, call: impl Fn(usize) -> T) -> f64 
     times[repeats / 2].as_secs_f64() / count.max(1) as f64
 }
 
+/// The result of `run`, and the smallest time of some runs in seconds, of one at least. Runs begin as long as `share` is
+/// not over. Other processes only make a run longer.
+pub(crate) fn least_seconds<T, E>(
+    share: Duration,
+    run: impl Fn() -> Result<T, E>,
+) -> Result<(T, f64), E> {
+    let begin = Instant::now();
+    let found = run()?;
+    let mut least = begin.elapsed();
+    while begin.elapsed() < share {
+        let start = Instant::now();
+        black_box(run()?);
+        least = least.min(start.elapsed());
+    }
+    Ok((found, least.as_secs_f64()))
+}
+
 /// The time of one `f64::sin_cos` on arguments in [0, 50], the range of the phases of a hop: the unit of speed.
 pub(crate) fn sin_cos_time() -> Duration {
     Duration::from_secs_f64(sin_cos_seconds())

@@ -4,9 +4,10 @@ use super::diffsol::run_diffsol;
 use super::model_lines::model_lines;
 use super::ours;
 use crate::error::Error;
-use crate::peers::Python;
+use crate::peers::{Python, results};
+use crate::timing::least_seconds;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Most events of a run, for the other programs: their scripts have the same number. A run with more has not come
 /// to its limit on time.
@@ -16,7 +17,7 @@ pub(super) const MOST: usize = 1000;
 const PYTHON: &str = include_str!("events.py");
 const DIFFSOL: &str = include_str!("../../peers-diffsol/src/main.rs");
 
-/// Time for the runs of one scene. The smallest time of a run counts: other processes only make a run longer.
+/// Time for the runs of one scene.
 const SHARE: Duration = Duration::from_secs(1);
 
 /// The events that one program finds in one scene.
@@ -45,7 +46,7 @@ impl FoundEvents {
 pub(crate) fn by_python(python: &Python, folder: &Path) -> Result<Vec<FoundEvents>, Error> {
     let output = folder.join("events-python.json");
     python.run(PYTHON, &[&output])?;
-    let mut found = read(&output)?;
+    let mut found: Vec<FoundEvents> = results(&output)?;
     for found in &mut found {
         let program = found.name.split(' ').next().unwrap_or_default().to_lowercase();
         found.lines = model_lines(PYTHON, &format!("{program} {}", found.scene));
@@ -57,7 +58,7 @@ pub(crate) fn by_python(python: &Python, folder: &Path) -> Result<Vec<FoundEvent
 pub(crate) fn by_diffsol(folder: &Path) -> Result<Vec<FoundEvents>, Error> {
     let output = folder.join("events-diffsol.json");
     run_diffsol(folder, &[&output])?;
-    let mut found = read(&output)?;
+    let mut found: Vec<FoundEvents> = results(&output)?;
     for found in &mut found {
         found.lines = model_lines(DIFFSOL, &found.scene);
     }
@@ -68,13 +69,7 @@ pub(crate) fn by_diffsol(folder: &Path) -> Result<Vec<FoundEvents>, Error> {
 pub(crate) fn by_us() -> Result<Vec<FoundEvents>, Error> {
     let name = "ours".to_owned();
     let found = |(scene, run): (&str, ours::Run)| {
-        let (times, end) = run()?;
-        let (begin, mut smallest) = (Instant::now(), f64::INFINITY);
-        while begin.elapsed() < SHARE {
-            let start = Instant::now();
-            std::hint::black_box(run()?);
-            smallest = smallest.min(start.elapsed().as_secs_f64());
-        }
+        let ((times, end), smallest) = least_seconds(SHARE, run)?;
         let lines = model_lines(ours::SOURCE, scene);
         Ok(FoundEvents {
             scene: scene.into(),
@@ -86,11 +81,6 @@ pub(crate) fn by_us() -> Result<Vec<FoundEvents>, Error> {
         })
     };
     ours::scenes()?.into_iter().map(found).collect()
-}
-
-fn read(path: &Path) -> Result<Vec<FoundEvents>, Error> {
-    serde_json::from_str(&crate::repository::read(path)?)
-        .map_err(|error| Error::Peers { reason: error.to_string() })
 }
 
 #[cfg(test)]

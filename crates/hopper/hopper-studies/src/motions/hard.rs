@@ -4,13 +4,18 @@
 use super::ours::last_event;
 use crate::error::Error;
 use crate::text::{digit, duration, markdown_table};
+use crate::timing::least_seconds;
 use equations::{Formulas, Names, Series, TaylorFlow};
 use hybrid_system::{Equations, Integration, Model, State, Tolerances};
 use pxfm::{f_cos, f_sin};
-use std::time::{Duration, Instant};
+use std::convert::Infallible;
+use std::time::Duration;
 
 /// The tolerance of all of them, relative; the absolute one is zero for the smallest states.
 const TOLERANCE: f64 = 1e-12;
+
+/// Time for the runs of one motion; one that takes longer is followed once.
+const SHARE: Duration = Duration::from_millis(100);
 
 /// Periods of the oscillator whose events are counted: a million events.
 const TURNS: f64 = 500_000.0;
@@ -140,19 +145,10 @@ fn million_events(by_taylor: bool) -> Result<f64, Error> {
 /// Errors and times of all of them.
 pub(crate) fn markdown() -> String {
     let cell = |run: fn() -> Result<f64, Error>| {
-        let begin = Instant::now();
-        let found = run();
-        let mut least = begin.elapsed();
-        // A motion of a second is followed once.
-        for _ in 0..if least < Duration::from_millis(100) { 20 } else { 0 } {
-            let begin = Instant::now();
-            let _ = std::hint::black_box(run());
-            least = least.min(begin.elapsed());
-        }
-        match found {
-            Ok(error) => format!("{} | {}", digit(error), duration(least)),
-            Err(_) => format!("refused | {}", duration(least)),
-        }
+        // A refusal is a result, and has a time.
+        let Ok((found, least)) = least_seconds(SHARE, || Ok::<_, Infallible>(run().ok()));
+        let error = found.map_or("refused".to_owned(), digit);
+        format!("{error} | {}", duration(Duration::from_secs_f64(least)))
     };
     let rows = ALL
         .iter()

@@ -4,16 +4,17 @@ use super::ours;
 use super::scene::{SCENES, Scene, scenes};
 use crate::error::Error;
 use crate::events::run_diffsol;
-use crate::peers::Python;
+use crate::peers::{Python, results};
 use crate::repository::say;
-use std::path::Path;
-use std::time::{Duration, Instant};
+use crate::timing::least_seconds;
+use resumable_job::write_atomically;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// The tolerances are powers of ten with these exponents, relative and absolute.
 const EXPONENTS: std::ops::RangeInclusive<i32> = 3..=15;
 
-/// Time for the runs of one scene at one tolerance; the scripts of the other programs have the same. The smallest time of a
-/// run counts: other processes only make a run longer.
+/// Time for the runs of one scene at one tolerance; the scripts of the other programs have the same.
 const SHARE: Duration = Duration::from_millis(100);
 
 /// The script of SciPy and heyoka.
@@ -49,7 +50,7 @@ pub(crate) fn by_us() -> Result<Vec<Point>, Error> {
             let tolerance = 10f64.powi(-exponent);
             for (program, starts, run) in ours::runs(&scene, tolerance)? {
                 // A tolerance that a program refuses has no point.
-                let Ok((answer, seconds)) = smallest(&run) else { continue };
+                let Ok((answer, seconds)) = least_seconds(SHARE, &run) else { continue };
                 let seconds = seconds / starts as f64;
                 let (name, program) = (scene.name.clone(), program.to_owned());
                 found.push(Found { scene: name, program, tolerance, seconds, answer });
@@ -59,42 +60,24 @@ pub(crate) fn by_us() -> Result<Vec<Point>, Error> {
     compared(found)
 }
 
-/// The answer, and the smallest time of some runs, of one at least.
-fn smallest(run: &ours::Run) -> Result<(Vec<f64>, f64), Error> {
-    let begin = Instant::now();
-    let answer = run()?;
-    let mut smallest = begin.elapsed().as_secs_f64();
-    while begin.elapsed() < SHARE {
-        let start = Instant::now();
-        std::hint::black_box(run()?);
-        smallest = smallest.min(start.elapsed().as_secs_f64());
-    }
-    Ok((answer, smallest))
-}
-
 /// By SciPy and heyoka.
 pub(crate) fn by_python(python: &Python, folder: &Path) -> Result<Vec<Point>, Error> {
     let (input, output) = inputs(folder, "motions-python.json")?;
     python.run(PYTHON, &[&input, &output])?;
-    compared(read(&output)?)
+    compared(results(&output)?)
 }
 
 /// By diffsol.
 pub(crate) fn by_diffsol(folder: &Path) -> Result<Vec<Point>, Error> {
     let (input, output) = inputs(folder, "motions-diffsol.json")?;
     run_diffsol(folder, &[&output, &input])?;
-    compared(read(&output)?)
+    compared(results(&output)?)
 }
 
-fn inputs(folder: &Path, output: &str) -> Result<(std::path::PathBuf, std::path::PathBuf), Error> {
+fn inputs(folder: &Path, output: &str) -> Result<(PathBuf, PathBuf), Error> {
     let input = folder.join("motions.jsonl");
-    std::fs::write(&input, SCENES).map_err(|source| Error::File { path: input.clone(), source })?;
+    write_atomically(&input, SCENES.as_bytes())?;
     Ok((input, folder.join(output)))
-}
-
-fn read(path: &Path) -> Result<Vec<Found>, Error> {
-    serde_json::from_str(&crate::repository::read(path)?)
-        .map_err(|error| Error::Peers { reason: error.to_string() })
 }
 
 /// The errors.

@@ -1,5 +1,6 @@
 //! Time against error of motions with known answers, by SciPy, heyoka, diffsol and this repository.
 
+mod fields;
 mod hard;
 mod measured;
 mod ours;

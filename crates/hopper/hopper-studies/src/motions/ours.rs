@@ -1,6 +1,7 @@
 //! The motions by this repository: by Taylor's method on the formulas, of one start and of a thousand, and by the
 //! Runge–Kutta pairs on plain functions.
 
+use super::fields;
 use super::scene::Scene;
 use crate::error::Error;
 use equations::{Formulas, Names, Series, TaylorFlow};
@@ -9,6 +10,7 @@ use hybrid_system::{
 };
 use nalgebra::DVector;
 use pxfm::{f_cos, f_sin};
+use std::rc::Rc;
 
 /// Starts that are followed at once.
 pub(super) const STARTS: usize = 1000;
@@ -49,8 +51,8 @@ fn taylor(scene: &Scene, tolerance: f64) -> Result<(Run, Run), Error> {
     let (start, end) = (scene.start()?, scene.end()?);
     let column = |x: &f64| (0..STARTS).map(|k| x * (1.0 + k as f64 * APART)).collect();
     let columns: Vec<Vec<f64>> = start.iter().map(column).collect();
-    let one = Series::new(&field, None)?;
-    let all = Series::new(&field, None)?;
+    let one = Rc::new(Series::new(&field, None)?);
+    let all = Rc::clone(&one);
     Ok((
         Box::new(move || {
             Ok(TaylorFlow::new(&one, tolerance, tolerance)?.state_at(0.0, &start, end)?)
@@ -109,51 +111,23 @@ fn runge_kutta(scene: &Scene, tolerance: f64) -> Result<Run, Error> {
                 .tolerance(tolerance);
             Box::new(move || last_event(model.run((), [start[0], start[1], 0.0], end)))
         }
-        "van der Pol" => flow(&start, time, van_der_pol::<5>),
-        "van der Pol, μ = 100" => flow(&start, time, van_der_pol::<100>),
-        "Arenstorf" => flow(&start, time, arenstorf),
-        "Lorenz" | "Lorenz to t = 50" => flow(&start, time, |x: &State<3>| {
-            let [x, y, z] = [x[0], x[1], x[2]];
-            [10.0 * (y - x), x * (28.0 - z) - y, x * y - 2.666_666_666_666_666_5 * z]
-        }),
-        "outer planets" => flow(&start, time, planets),
-        _ => flow(&start, time, |x: &State<4>| {
-            let square = x[0] * x[0] + x[1] * x[1];
-            let force = 1.0 / (square * square.sqrt());
-            [x[2], x[3], -force * x[0], -force * x[1]]
-        }),
+        "van der Pol" => flow(&start, time, fields::van_der_pol(5.0)),
+        "van der Pol, μ = 100" => flow(&start, time, fields::van_der_pol(100.0)),
+        "Arenstorf" => flow(&start, time, fields::arenstorf),
+        "Lorenz" | "Lorenz to t = 50" => flow(&start, time, fields::lorenz),
+        "outer planets" => flow(&start, time, fields::planets),
+        _ => flow(&start, time, fields::kepler),
     })
-}
-
-fn van_der_pol<const MU: u32>(x: &State<2>) -> [f64; 2] {
-    [x[1], f64::from(MU) * (1.0 - x[0] * x[0]) * x[1] - x[0]]
-}
-
-/// Mass of the moon, in that of earth and moon.
-const MOON: f64 = 0.012_277_471;
-
-fn arenstorf(x: &State<4>) -> [f64; 4] {
-    let pull = |mass: f64, place: f64| {
-        let square = (x[0] - place) * (x[0] - place) + x[1] * x[1];
-        mass / (square * square.sqrt())
-    };
-    let (earth, moon) = (pull(1.0 - MOON, -MOON), pull(MOON, 1.0 - MOON));
-    [
-        x[2],
-        x[3],
-        x[0] + 2.0 * x[3] - earth * (x[0] + MOON) - moon * (x[0] - (1.0 - MOON)),
-        x[1] - 2.0 * x[2] - (earth + moon) * x[1],
-    ]
 }
 
 /// The state at the end.
 fn flow<const N: usize, F>(start: &[f64], (end, tolerance): (f64, f64), field: F) -> Run
 where
-    F: Fn(&State<N>) -> [f64; N] + 'static,
+    F: Fn(&[f64; N]) -> [f64; N] + 'static,
 {
     let start = State::from_column_slice(start);
     Box::new(move || {
-        let field = |_: f64, x: &State<N>| State::from(field(x));
+        let field = |_: f64, x: &State<N>| State::from(field(&x.data.0[0]));
         let motion = Integration::new(field, &start, Tolerances::both(tolerance))?;
         let mut motion = motion.until(end)?;
         while !motion.ended() {
@@ -161,34 +135,4 @@ where
         }
         Ok(motion.state().as_slice().to_vec())
     })
-}
-
-/// The masses of the sun and the outer planets, in that of the sun.
-const MASSES: [f64; 6] = [
-    1.000_005_976_82,
-    0.000_954_786_104_043,
-    0.000_285_583_733_151,
-    0.000_043_727_316_454_6,
-    0.000_051_775_913_844_9,
-    0.000_000_007_692_307_692_3,
-];
-
-/// The constant of gravity, in astronomical units, days and masses of the sun.
-const GRAVITY: f64 = 2.959_122_082_86e-4;
-
-fn planets(x: &State<36>) -> [f64; 36] {
-    let mut rates = [0.0; 36];
-    rates[..18].copy_from_slice(&x.as_slice()[18..]);
-    for i in 0..6 {
-        for j in 0..i {
-            let away: [f64; 3] = std::array::from_fn(|axis| x[3 * i + axis] - x[3 * j + axis]);
-            let square = away.iter().map(|part| part * part).sum::<f64>();
-            let force = GRAVITY / (square * square.sqrt());
-            for (axis, part) in away.iter().enumerate() {
-                rates[18 + 3 * i + axis] -= MASSES[j] * force * part;
-                rates[18 + 3 * j + axis] += MASSES[i] * force * part;
-            }
-        }
-    }
-    rates
 }

@@ -1,8 +1,8 @@
 //! Arrays of a million speeds, from Python and in Rust, in turns.
 
-use super::python::Python;
+use super::python::{Python, results};
 use crate::error::Error;
-use crate::repository::{Progress, read};
+use crate::repository::Progress;
 use crate::text::markdown_table;
 use passive_hopper::{LiftOffMap, MassRatio};
 use resumable_job::write_atomically;
@@ -92,7 +92,6 @@ fn from_python(
     folder: &Path,
     speeds: &[f64],
 ) -> Result<(Vec<f64>, Vec<u8>), Error> {
-    let understood = |e: serde_json::Error| Error::Peers { reason: e.to_string() };
     let names = ["arrays.json", "speeds.bin", "arrays-seconds.json", "images.bin"];
     let [job, input, seconds, images] = names.map(|name| folder.join(name));
     let text = serde_json::json!({ "ratios": RATIOS, "repeats": REPEATS }).to_string();
@@ -101,7 +100,7 @@ fn from_python(
     python.run(include_str!("arrays.py"), &[&job, &input, &seconds, &images])?;
     let bytes = std::fs::read(&images)
         .map_err(|source| crate::error::Error::File { path: images.clone(), source })?;
-    Ok((serde_json::from_str(&read(&seconds)?).map_err(understood)?, bytes))
+    Ok((results(&seconds)?, bytes))
 }
 
 #[cfg(test)]

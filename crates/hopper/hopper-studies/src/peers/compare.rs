@@ -1,7 +1,7 @@
 //! The same hops by each program, in one run.
 
 use super::peer::Peer;
-use super::python::Python;
+use super::python::{Python, results};
 use crate::error::Error;
 use crate::reference::{ReferenceHop, window_hops};
 use crate::repository::Progress;
@@ -48,11 +48,11 @@ fn theirs(
 ) -> Result<Vec<ProgramResults>, Error> {
     let (input, output) = (folder.join("hops.json"), folder.join("results.json"));
     let pairs: Vec<_> = hops.iter().map(|hop| (hop.mass_ratio.value(), hop.alpha)).collect();
-    let understood = |e: serde_json::Error| Error::Peers { reason: e.to_string() };
+    let understood = |error: serde_json::Error| Error::Peers { reason: error.to_string() };
     let text = serde_json::to_string(&pairs).map_err(understood)?;
     resumable_job::write_atomically(&input, text.as_bytes())?;
     python.run(include_str!("peers.py"), &[&input, &output])?;
-    serde_json::from_str(&crate::repository::read(&output)?).map_err(understood)
+    results(&output)
 }
 
 /// The results of one of our methods.

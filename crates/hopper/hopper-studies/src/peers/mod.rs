@@ -10,5 +10,5 @@ mod table;
 pub(crate) use arrays::{array_times, arrays_markdown};
 pub(crate) use compare::measure;
 pub(crate) use figure::peers_figure;
-pub(crate) use python::{Python, call};
+pub(crate) use python::{Python, call, results};
 pub(crate) use table::{csv, markdown};

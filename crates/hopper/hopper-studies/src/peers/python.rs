@@ -61,6 +61,12 @@ impl Python {
     }
 }
 
+/// The results that a program has written as JSON.
+pub(crate) fn results<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, Error> {
+    serde_json::from_str(&crate::repository::read(path)?)
+        .map_err(|error| Error::Peers { reason: error.to_string() })
+}
+
 /// Runs a program to its end. The last lines of its messages are part of the error.
 pub(crate) fn call(program: &Path, arguments: &[String], what: &str) -> Result<(), Error> {
     finish(Command::new(program).args(arguments), what)
