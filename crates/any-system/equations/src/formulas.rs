@@ -5,7 +5,6 @@ use crate::constant::{Constant, Decimal};
 use crate::derivative::partials;
 use crate::error::Error;
 use crate::expression::{Expression, Parameters, Term};
-use crate::function::Function;
 use crate::graph::Graph;
 use crate::names::{NO_VALUE, Names};
 use crate::node::{Node, uses};
@@ -99,7 +98,11 @@ impl Formulas {
         if nodes.len() > MOST_PARTS {
             return Err(Error::TooLarge { limit: MOST_PARTS });
         }
-        check_functions(&nodes)?;
+        let called = nodes.iter().filter_map(|node| match node {
+            Node::Call(function, _) => Some(function),
+            _ => None,
+        });
+        let names = names.with_called(called)?;
         let uses = uses(&nodes, &outputs);
         let mut new_place = vec![0; nodes.len()];
         let mut kept = Vec::new();
@@ -336,23 +339,6 @@ impl Formulas {
         }
         Ok(self.outputs.iter().map(|&place| changes[place]).collect())
     }
-}
-
-/// An error for two functions with one name: a text or a file could not tell them apart.
-fn check_functions(nodes: &[Node]) -> Result<(), Error> {
-    let mut known: Vec<&Function> = Vec::new();
-    for node in nodes {
-        let Node::Call(function, _) = node else { continue };
-        match known.iter().find(|known| known.name() == function.name()) {
-            Some(same) if *same == function => {}
-            Some(_) => {
-                let name = function.name().to_owned();
-                return Err(Error::Name { name, reason: "the name of two functions" });
-            }
-            None => known.push(function),
-        }
-    }
-    Ok(())
 }
 
 /// An error unless the lengths are equal.

@@ -40,7 +40,8 @@ use std::sync::Arc;
 /// # Ok::<(), equations::Error>(())
 /// ```
 ///
-/// The value must depend on the number alone, so that all runs have the same bits. The enclosure must contain the values of
+/// The value must depend on the number alone, so that all runs have the same bits. It must return for every `f64`: a step
+/// that is refused later may ask for it outside the domain, or at NaN; answer NaN there. The enclosure must contain the values of
 /// the exact function at all numbers of an interval; `None` means that it may leave the domain. Nothing can test it: proofs
 /// take it as given.
 #[derive(Clone)]

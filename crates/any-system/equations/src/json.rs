@@ -54,7 +54,8 @@ impl Formulas {
         file.to_string()
     }
 
-    /// The [`content_hash`] of [`to_json`](Self::to_json): equal for the same formulas with the same names and values.
+    /// The [`content_hash`] of [`to_json`](Self::to_json): equal for the same formulas with the same names and values. Of a
+    /// user's [`Function`] it has the name alone.
     pub fn content_hash(&self) -> String {
         content_hash(&self.to_json())
     }

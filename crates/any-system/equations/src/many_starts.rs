@@ -83,9 +83,10 @@ impl TaylorFlow<'_> {
             for lane in 0..WIDTH {
                 motions.fill(lane, starts, &mut waiting, found);
             }
-            if motions.followed.iter().all(Option::is_none) {
+            let Some(followed) = motions.followed.iter().position(Option::is_some) else {
                 return Ok(());
-            }
+            };
+            motions.repeat(followed);
             let right = simd::step_of_lanes(self, motions.times, &motions.state, &mut motions.step);
             for lane in 0..WIDTH {
                 motions.go_on(lane, right.0[lane] == 1.0, found);
@@ -149,6 +150,16 @@ impl<'f> Motions<'f> {
                 x.0[lane] = column[start];
             }
             self.followed[lane] = Some(Followed { start, steps: 0 });
+        }
+    }
+
+    /// Lets free lanes repeat one that is followed: every number that is computed belongs to a motion that was asked for.
+    fn repeat(&mut self, lane: usize) {
+        let Motions { followed, times: (time, end), state, .. } = self;
+        for lanes in [time, end].into_iter().chain(state) {
+            let repeated = lanes.0[lane];
+            let free = (0..WIDTH).filter(|free| followed[*free].is_none());
+            free.for_each(|free| lanes.0[free] = repeated);
         }
     }
 

@@ -15,11 +15,11 @@ pub struct Names {
     pub parameters: Vec<String>,
     /// The values of the parameters.
     pub values: Vec<Constant>,
-    /// The functions that texts and files may call besides those that all formulas have.
+    /// The functions that texts and files may call besides those that all formulas have, and all that are called.
     pub functions: Vec<Function>,
 }
 
-/// The functions that may be called do not count: a formula has those that it calls.
+/// The functions do not count: formulas have those that they call.
 impl PartialEq for Names {
     fn eq(&self, other: &Names) -> bool {
         self.states == other.states
@@ -79,9 +79,24 @@ impl Names {
     ///
     /// # Errors
     /// [`Error::Name`] for a function with the name of a variable, a parameter or another function.
-    pub fn with_functions(mut self, functions: &[Function]) -> Result<Names, Error> {
-        self.functions.extend_from_slice(functions);
-        self.check()?;
+    pub fn with_functions(self, functions: &[Function]) -> Result<Names, Error> {
+        self.with_called(functions.iter())
+    }
+
+    /// The same names and these functions. A text or a file knows a function by its name, so that no name has two meanings.
+    pub(crate) fn with_called<'f>(
+        mut self,
+        called: impl Iterator<Item = &'f Function>,
+    ) -> Result<Names, Error> {
+        let known = self.functions.len();
+        for function in called {
+            if !self.functions.contains(function) {
+                self.functions.push(function.clone());
+            }
+        }
+        if self.functions.len() > known {
+            self.check()?;
+        }
         Ok(self)
     }
 }

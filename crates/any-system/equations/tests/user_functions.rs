@@ -61,7 +61,7 @@ fn names_of_functions_are_theirs_alone() {
     assert!(wrong("sin").is_err() && wrong("t").is_err() && wrong("2x").is_err());
     let names = Names::new(&["x"], &[]).unwrap();
     let both = Formulas::new(names.clone(), |_, x, _| [one.of(x[0]) + two.of(x[0])]);
-    assert!(both.unwrap_err().to_string().contains("two functions"));
+    assert!(both.unwrap_err().to_string().contains("used twice"));
     // A derivative that is no number, and a domain that ends.
     let bad = Function::new("bad", |x| x, Some, |x, _| x.number(f64::NAN)).unwrap();
     let of_bad = Formulas::new(names.clone(), |_, x, _| [bad.of(x[0])]).unwrap();

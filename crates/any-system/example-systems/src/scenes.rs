@@ -1,289 +1,269 @@
 //! The scenes of the page `hybrid_system::semantics`: small systems in which something happens at once, slides or
 //! touches. Tests and a figure share them.
 //!
-//! All flows have a constant second derivative, and all guards are affine. Therefore each scene can be run with
-//! signals, with samples and by integration, and its exact result is known.
+//! Each scene is written once, as equations. All flows have a constant second derivative, and all guards are affine.
+//! Therefore each scene can be run in five ways, and its exact result is known.
 
 use hybrid_system::{
-    Error, Guard, HybridSystem, NextEvent, QuasiPolynomial, Reset, Search, State, Tolerances,
-    Touch, default_search, integrated_crossing, integrated_flow,
+    Equations, EquationsModel, Error, Guard, HybridSystem, Label, NextEvent, QuasiPolynomial,
+    Reset, Search, State, Tolerances, Touch, default_search, integrated_crossing,
+    integrated_flow,
 };
-use nalgebra::SVector;
 
 /// Tolerances of the integrated runs. The flows are polynomials of degree two, which every step gives exactly.
 const TOLERANCES: Tolerances = Tolerances::both(1e-10);
 
-/// How the guards of a scene are searched.
+/// How a scene is run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum By {
-    /// Under bounds: the guards are quasi-polynomials.
+    /// As a model with a flow and signals: the guards are quasi-polynomials. It has no field.
     Signal,
-    /// At samples: the scene has a flow and no more.
+    /// As a model with a flow and no more, at samples.
     Samples,
-    /// Along the integrated flow.
+    /// As a model with a field, by a Runge–Kutta method.
     Integration,
+    /// As equations, whose closed form is found.
+    ClosedForm,
+    /// As equations, by Taylor series.
+    Series,
 }
 
-/// All ways to search.
-pub const WAYS: [By; 3] = [By::Signal, By::Samples, By::Integration];
+/// All ways.
+pub const WAYS: [By; 5] =
+    [By::Signal, By::Samples, By::Integration, By::ClosedForm, By::Series];
 
-/// A scene: modes and surfaces are numbers.
-#[derive(Debug, Clone, Copy)]
+/// All ways in which no event is missed.
+pub const SURE_WAYS: [By; 4] = [By::Signal, By::Integration, By::ClosedForm, By::Series];
+
+/// A scene, and how it is run.
+#[derive(Debug, Clone)]
 pub struct Scene<const N: usize> {
-    /// ẋ in a mode.
-    pub field: fn(u8, &State<N>) -> State<N>,
-    /// ẍ in a mode, constant.
-    pub second: fn(u8) -> State<N>,
-    /// The guards of each mode. A mode without an entry has no guards.
-    pub guards: &'static [&'static [Guard<u8>]],
-    /// Normal n and offset c of a surface: g = n·x − c.
-    pub plane: fn(u8) -> (State<N>, f64),
-    /// Mode and state after an event in a mode, at a surface.
-    pub reset: fn(u8, u8, &State<N>) -> (u8, State<N>),
-    /// How the guards are searched.
-    pub by: By,
+    model: EquationsModel<State<N>>,
+    by: By,
 }
 
 impl<const N: usize> Scene<N> {
-    /// The scene with its guards searched in another way.
-    #[must_use]
-    pub const fn by(mut self, by: By) -> Self {
-        self.by = by;
-        self
+    /// A scene with these components of the state, whose modes and guards are added to its equations.
+    pub fn new(
+        by: By,
+        states: &[&str],
+        add: impl FnOnce(Equations) -> Equations,
+    ) -> Result<Self, Error> {
+        let mut equations = Equations::new(states, &[]);
+        if by == By::Series {
+            // An observer that has no closed form, and no event.
+            equations = equations.rising_text("nothing", &format!("1 + exp(-{}^2)", states[0]));
+        }
+        Ok(Scene { model: add(equations).model()?, by })
     }
-}
 
-/// No second derivative: uniform motion.
-fn uniform<const N: usize>(_: u8) -> State<N> {
-    State::zeros()
+    fn has_equations(&self) -> bool {
+        matches!(self.by, By::ClosedForm | By::Series)
+    }
 }
 
 impl<const N: usize> HybridSystem for Scene<N> {
     type State = State<N>;
-    type Mode = u8;
-    type Surface = u8;
+    type Mode = Label;
+    type Surface = Label;
 
-    fn flow(&self, mode: u8, x: &State<N>, t: f64) -> State<N> {
+    fn flow(&self, mode: Label, x: &State<N>, t: f64) -> State<N> {
         match self.by {
-            By::Signal | By::Samples => {
-                x + ((self.field)(mode, x) + (self.second)(mode) * (0.5 * t)) * t
-            }
             By::Integration => integrated_flow(self, mode, x, t, TOLERANCES),
+            _ => self.model.flow(mode, x, t),
         }
     }
 
-    fn guards(&self, mode: u8) -> &[Guard<u8>] {
-        self.guards.get(usize::from(mode)).copied().unwrap_or(&[])
+    fn guards(&self, mode: Label) -> &[Guard<Label>] {
+        self.model.guards(mode)
     }
 
-    fn guard_value(&self, surface: u8, x: &State<N>) -> f64 {
-        let (normal, offset) = (self.plane)(surface);
-        normal.dot(x) - offset
+    fn guard_value(&self, surface: Label, x: &State<N>) -> f64 {
+        self.model.guard_value(surface, x)
     }
 
-    fn reset(&self, mode: u8, surface: u8, x: &State<N>) -> Reset<u8, State<N>> {
-        let (mode, state) = (self.reset)(mode, surface, x);
-        Reset::Jump { mode, state }
+    fn reset(&self, mode: Label, surface: Label, x: &State<N>) -> Reset<Label, State<N>> {
+        self.model.reset(mode, surface, x)
     }
 
-    fn vector_field(&self, mode: u8, x: &State<N>) -> Option<State<N>> {
-        (self.by == By::Integration).then(|| (self.field)(mode, x))
+    fn vector_field(&self, mode: Label, x: &State<N>) -> Option<State<N>> {
+        let has_field = self.has_equations() || self.by == By::Integration;
+        has_field.then(|| self.model.vector_field(mode, x))?
+    }
+
+    fn guard_error(&self, surface: Label, x: &State<N>) -> Option<f64> {
+        self.has_equations().then(|| self.model.guard_error(surface, x))?
     }
 
     fn guard_quasi_polynomial(
         &self,
-        mode: u8,
-        surface: u8,
+        mode: Label,
+        surface: Label,
         x: &State<N>,
     ) -> Option<QuasiPolynomial> {
-        let (normal, offset) = (self.plane)(surface);
-        let rate = normal.dot(&(self.field)(mode, x));
-        let half = 0.5 * normal.dot(&(self.second)(mode));
-        (self.by == By::Signal)
-            .then(|| QuasiPolynomial::polynomial(&[normal.dot(x) - offset, rate, half]))
+        let has_signal = self.has_equations() || self.by == By::Signal;
+        has_signal.then(|| self.model.guard_quasi_polynomial(mode, surface, x))?
     }
 
     fn first_crossing(
         &self,
-        mode: u8,
+        mode: Label,
         x: &State<N>,
-        search: &Search<u8>,
-    ) -> Result<NextEvent<u8, State<N>>, Error> {
+        search: &Search<Label>,
+    ) -> Result<NextEvent<Label, State<N>>, Error> {
         match self.by {
             By::Signal | By::Samples => default_search(self, mode, x, search),
             By::Integration => integrated_crossing(self, mode, x, search, TOLERANCES),
+            By::ClosedForm | By::Series => self.model.first_crossing(mode, x, search),
         }
     }
 }
 
-/// The surface between ball 1 and ball 2, and between ball 2 and ball 3.
-pub const FIRST_PAIR: u8 = 0;
-/// The surface between ball 2 and ball 3.
-pub const SECOND_PAIR: u8 = 1;
-
 /// Newton's cradle: three equal elastic balls on a line. Positions x₁ ≤ x₂ ≤ x₃, without the diameters; velocities.
 /// Balls that meet swap their velocities.
-pub const CRADLE: Scene<6> = Scene {
-    field: |_, x| State::from([x[3], x[4], x[5], 0.0, 0.0, 0.0]),
-    second: uniform,
-    guards: &[&[Guard::falling(FIRST_PAIR).contact(), Guard::falling(SECOND_PAIR).contact()]],
-    plane: |surface| {
-        let mut normal = SVector::zeros();
-        normal[usize::from(surface)] = -1.0;
-        normal[usize::from(surface) + 1] = 1.0;
-        (normal, 0.0)
-    },
-    reset: |_, surface, x| {
-        let mut after = *x;
-        after.swap_rows(3 + usize::from(surface), 4 + usize::from(surface));
-        (0, after)
-    },
-    by: By::Signal,
-};
+pub fn cradle(by: By) -> Result<Scene<6>, Error> {
+    Scene::new(by, &["x1", "x2", "x3", "v1", "v2", "v3"], |equations| {
+        equations
+            .mode_text("cradle", &["v1", "v2", "v3", "0", "0", "0"])
+            .falling_text("first pair", "x2 - x1")
+            .resets_text(&["x1", "x2", "x3", "v2", "v1", "v3"])
+            .contact()
+            .falling_text("second pair", "x3 - x2")
+            .resets_text(&["x1", "x2", "x3", "v1", "v3", "v2"])
+            .contact()
+    })
+}
 
 /// Ball 1 comes with velocity 1. Balls 2 and 3 touch.
 pub fn cradle_start() -> State<6> {
     State::from([-1.0, 0.0, 0.0, 1.0, 0.0, 0.0])
 }
 
-/// The floor below the lower ball.
-pub const FLOOR: u8 = 0;
-/// The gap between the balls.
-pub const BETWEEN: u8 = 1;
-
 /// A ball on top of another one, elastic, under gravity 1. The lower ball has twice the mass. State: heights y₁ ≤ y₂,
-/// without the diameters; velocities.
-pub const STACK: Scene<4> = Scene {
-    field: |_, x| State::from([x[2], x[3], -1.0, -1.0]),
-    second: |_| State::from([-1.0, -1.0, 0.0, 0.0]),
-    guards: &[&[Guard::falling(FLOOR).contact(), Guard::falling(BETWEEN).contact()]],
-    plane: |surface| match surface {
-        FLOOR => (State::from([1.0, 0.0, 0.0, 0.0]), 0.0),
-        _ => (State::from([-1.0, 1.0, 0.0, 0.0]), 0.0),
-    },
-    reset: |_, surface, x| match surface {
-        FLOOR => (0, State::from([x[0], x[1], -x[2], x[3]])),
-        // Both velocities are mirrored at that of the centre of mass.
-        _ => {
-            let center = (2.0 * x[2] + x[3]) / 3.0;
-            (0, State::from([x[0], x[1], 2.0 * center - x[2], 2.0 * center - x[3]]))
-        }
-    },
-    by: By::Signal,
-};
-
-/// The mode of a relay below its surface, x < 0, and above it.
-pub const BELOW: u8 = 0;
-/// The mode of a relay above its surface, x > 0.
-pub const ABOVE: u8 = 1;
+/// without the diameters; velocities. A collision mirrors both velocities at that of the centre of mass.
+pub fn stack(by: By) -> Result<Scene<4>, Error> {
+    Scene::new(by, &["y1", "y2", "v1", "v2"], |equations| {
+        equations
+            .mode_text("flight", &["v1", "v2", "-1", "-1"])
+            .falling_text("floor", "y1")
+            .resets_text(&["y1", "y2", "-v1", "v2"])
+            .contact()
+            .falling_text("between", "y2 - y1")
+            .resets_text(&["y1", "y2", "2*(2*v1 + v2)/3 - v1", "2*(2*v1 + v2)/3 - v2"])
+            .contact()
+    })
+}
 
 /// A relay with a drift: ẋ = −sgn x + 0.3, ẏ = 1 above and −1 below. The state is left where the surface is crossed.
-pub const RELAY: Scene<2> = Scene {
-    field: |mode, _| {
-        if mode == BELOW { State::from([1.3, -1.0]) } else { State::from([-0.7, 1.0]) }
-    },
-    second: uniform,
-    guards: &[&[Guard::rising(0)], &[Guard::falling(0)]],
-    plane: |_| (State::from([1.0, 0.0]), 0.0),
-    reset: |mode, _, x| (if mode == BELOW { ABOVE } else { BELOW }, *x),
-    by: By::Signal,
-};
+pub fn relay(by: By) -> Result<Scene<2>, Error> {
+    relay_with(by, "x")
+}
 
 /// The same relay with resets that put x to 0 exactly.
-pub const SNAPPING_RELAY: Scene<2> = Scene {
-    reset: |mode, _, x| (if mode == BELOW { ABOVE } else { BELOW }, State::from([0.0, x[1]])),
-    ..RELAY
-};
+pub fn snapping_relay(by: By) -> Result<Scene<2>, Error> {
+    relay_with(by, "0")
+}
+
+fn relay_with(by: By, after: &str) -> Result<Scene<2>, Error> {
+    Scene::new(by, &["x", "y"], |equations| {
+        equations
+            .mode_text("below", &["1.3", "-1"])
+            .rising_text("x = 0", "x")
+            .resets_text(&[after, "y"])
+            .to("above")
+            .mode_text("above", &["-0.7", "1"])
+            .falling_text("x = 0", "x")
+            .resets_text(&[after, "y"])
+            .to("below")
+    })
+}
 
 /// ẋ = 1 in six modes. Each of the first five leaves at x = 1, by a surface of its own. The sixth has no guard.
-pub const FIVE_MODES: Scene<1> = Scene {
-    field: |_, _| State::from([1.0]),
-    second: uniform,
-    guards: &[
-        &[Guard::rising(0).contact()],
-        &[Guard::rising(1).contact()],
-        &[Guard::rising(2).contact()],
-        &[Guard::rising(3).contact()],
-        &[Guard::rising(4).contact()],
-    ],
-    plane: |_| (State::from([1.0]), 1.0),
-    reset: |mode, _, x| (mode + 1, *x),
-    by: By::Signal,
-};
+pub fn five_modes(by: By) -> Result<Scene<1>, Error> {
+    Scene::new(by, &["x"], |equations| {
+        let leaving = (0..5).fold(equations, |equations, k| {
+            let guard = equations.mode_text(&format!("{k}"), &["1"]);
+            let guard = guard.rising_text(&format!("{k}"), "x - 1");
+            guard.to(&format!("{}", k + 1)).contact()
+        });
+        leaving.mode_text("5", &["1"])
+    })
+}
 
 /// ẋ = 1. Mode 0 is left at x = 1, mode 1 at x = ½: the jump into mode 1 leads beyond its surface.
-pub const PAST_GUARD: Scene<1> = Scene {
-    guards: &[&[Guard::rising(0)], &[Guard::rising(1).contact()]],
-    plane: |surface| (State::from([1.0]), if surface == 0 { 1.0 } else { 0.5 }),
-    ..FIVE_MODES
-};
+pub fn past_guard(by: By) -> Result<Scene<1>, Error> {
+    past(by, Equations::contact)
+}
 
 /// The same with a guard that says neither that it is a contact nor that it is a crossing.
-pub const PAST_SWITCH: Scene<1> =
-    Scene { guards: &[&[Guard::rising(0)], &[Guard::rising(1)]], ..PAST_GUARD };
+pub fn past_switch(by: By) -> Result<Scene<1>, Error> {
+    past(by, |guard| guard)
+}
 
 /// The same with a crossing.
-pub const PAST_CROSSING: Scene<1> =
-    Scene { guards: &[&[Guard::rising(0)], &[Guard::rising(1).crossing()]], ..PAST_GUARD };
+pub fn past_crossing(by: By) -> Result<Scene<1>, Error> {
+    past(by, Equations::crossing)
+}
+
+fn past(by: By, declared: fn(Equations) -> Equations) -> Result<Scene<1>, Error> {
+    Scene::new(by, &["x"], |equations| {
+        let first = equations.mode_text("0", &["1"]).rising_text("x = 1", "x - 1").to("1");
+        let second = first.mode_text("1", &["1"]).rising_text("x = ½", "x - 0.5").to("2");
+        declared(second).mode_text("2", &["1"])
+    })
+}
 
 /// A ball over a floor at 0, under gravity 1, that keeps half of its speed. State: height and velocity.
-pub const BALL: Scene<2> = Scene {
-    field: |_, x| State::from([x[1], -1.0]),
-    second: |_| State::from([-1.0, 0.0]),
-    guards: &[&[Guard::falling(FLOOR).contact()]],
-    plane: |_| (State::from([1.0, 0.0]), 0.0),
-    reset: |_, _, x| (0, State::from([x[0].max(0.0), -0.5 * x[1]])),
-    by: By::Signal,
-};
+pub fn ball(by: By) -> Result<Scene<2>, Error> {
+    bouncing(by, "height", &["max(height, 0)", "-0.5*speed"])
+}
 
-/// The surface x = 15 from which [`LEAP`] jumps.
-pub const TOP: u8 = 0;
-/// The surface x = 0 that lies between both sides of the jump.
-pub const ZERO: u8 = 1;
+/// A ball over a floor where this guard is zero, with this state after an impact.
+pub fn bouncing(by: By, floor: &str, after: &[&str]) -> Result<Scene<2>, Error> {
+    Scene::new(by, &["height", "speed"], |equations| {
+        let flight = equations.mode_text("flight", &["speed", "-1"]);
+        flight.falling_text("floor", floor).resets_text(after).contact()
+    })
+}
 
 /// ẋ = 1 up to x = 15, where x jumps to −20, over the surface x = 0. That surface bounds the flow, x > 0; its reset
 /// puts x to 5.
-pub const LEAP: Scene<1> = Scene {
-    guards: &[&[Guard::rising(TOP), Guard::falling(ZERO).contact()]],
-    plane: |surface| (State::from([1.0]), if surface == TOP { 15.0 } else { 0.0 }),
-    reset: |_, surface, _| (0, State::from([if surface == TOP { -20.0 } else { 5.0 }])),
-    ..FIVE_MODES
-};
+pub fn leap(by: By) -> Result<Scene<1>, Error> {
+    Scene::new(by, &["x"], |equations| {
+        let top = equations.mode_text("rises", &["1"]).rising_text("top", "x - 15");
+        top.resets_text(&["-20"]).falling_text("zero", "x").resets_text(&["5"]).contact()
+    })
+}
 
-/// The same with a crossing at x = 0. Its reset changes nothing.
-pub const WATCHED_LEAP: Scene<1> = Scene {
-    guards: &[&[Guard::rising(TOP), Guard::either(ZERO).crossing()]],
-    reset: |_, surface, x| (0, if surface == TOP { State::from([-20.0]) } else { *x }),
-    ..LEAP
-};
+/// The same with an observer at x = 0.
+pub fn watched_leap(by: By) -> Result<Scene<1>, Error> {
+    Scene::new(by, &["x"], |equations| {
+        let top = equations.mode_text("rises", &["1"]).rising_text("top", "x - 15");
+        top.resets_text(&["-20"]).either_text("zero", "x")
+    })
+}
 
 /// ẋ = 1. Mode 0 is left upwards at x = 1 and mode 1 downwards at x = 3, with x left as it is: at x = 1 the state is
 /// beyond both surfaces.
-pub const ENDLESS: Scene<1> = Scene {
-    guards: &[&[Guard::rising(0).contact()], &[Guard::falling(1).contact()]],
-    plane: |surface| (State::from([1.0]), if surface == 0 { 1.0 } else { 3.0 }),
-    reset: |mode, _, x| (1 - mode, *x),
-    ..FIVE_MODES
-};
+pub fn endless(by: By) -> Result<Scene<1>, Error> {
+    Scene::new(by, &["x"], |equations| {
+        let up = equations.mode_text("0", &["1"]).rising_text("x = 1", "x - 1").to("1").contact();
+        up.mode_text("1", &["1"]).falling_text("x = 3", "x - 3").to("0").contact()
+    })
+}
 
-/// A ball under gravity 1 below a ceiling at 2. State: height and velocity. A touch of the ceiling is an error.
-pub const CEILING: Scene<2> = Scene {
-    guards: &[&[Guard::rising(0)]],
-    plane: |_| (State::from([1.0, 0.0]), 2.0),
-    reset: |_, _, x| (0, State::from([x[0], -x[1]])),
-    ..BALL
-};
-
-/// The same with a touch as an event, which leaves the state as it is.
-pub const TOUCHED_CEILING: Scene<2> = Scene {
-    guards: &[&[Guard::rising(0).touch(Touch::Event)]],
-    reset: |_, _, x| (0, *x),
-    ..CEILING
-};
-
-/// The same with touches ignored.
-pub const IGNORED_CEILING: Scene<2> =
-    Scene { guards: &[&[Guard::rising(0).touch(Touch::Ignore)]], ..CEILING };
+/// A ball under gravity 1 below a ceiling at 2. State: height and velocity. A touch of the ceiling is an error, or
+/// nothing, or an event that leaves the state as it is.
+pub fn ceiling(by: By, touch: Touch) -> Result<Scene<2>, Error> {
+    Scene::new(by, &["height", "speed"], |equations| {
+        let flight = equations.mode_text("flight", &["speed", "-1"]);
+        let guard = flight.rising_text("ceiling", "height - 2").touch(touch);
+        match touch {
+            Touch::Event => guard.to("flight"),
+            Touch::Error | Touch::Ignore => guard.resets_text(&["height", "-speed"]),
+        }
+    })
+}
 
 /// Thrown upwards with velocity 2, the ball just reaches the ceiling at t = 2.
 pub fn throw() -> State<2> {

@@ -375,8 +375,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
 
 #[cfg(feature = "serde")]
 impl<M, S, X: StateVector> Arrival<M, S, X> {
-    /// True if all components of its states are finite.
-    pub(crate) fn is_finite(&self) -> bool {
-        self.before.is_finite() && self.start.is_finite()
+    /// Its states.
+    pub(crate) fn states(&self) -> [&X; 2] {
+        [&self.before, &self.start]
     }
 }

@@ -32,7 +32,6 @@ use crate::system::HybridSystem;
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize))]
 pub struct Checkpoint<M, S, X> {
     pub(crate) point: Point<M, S, X>,
     pub(crate) stop: Option<Stop>,

@@ -205,16 +205,17 @@ pub enum Error {
         /// The rate, ∇g·f⁻.
         rate: f64,
     },
-    /// Two surfaces are reached at one instant: there is no derivative.
+    /// Two surfaces, or a surface and the limit on time, are reached at one instant: there is no derivative.
     #[error(
-        "no sensitivity at time {time}: the surface {surface} is reached at the same instant as another one, and \
-         nearby orbits reach them in either order. Take the derivative from another start",
+        "no sensitivity at time {time}: the surface {surface} is reached at the same instant as another one or as the \
+         limit on time, and nearby orbits reach them in either order. Take the derivative from another start, or up to \
+         another time",
         time = Number(*.time)
     )]
     CornerSensitivity {
         /// Time of both events.
         time: f64,
-        /// Name of the second surface.
+        /// Name of the surface, the second one of two.
         surface: String,
     },
     /// A derivative by parameters through an event at a preset time, which may depend on the parameters.

@@ -94,7 +94,7 @@ mod before_limit;
 mod chain;
 mod checkpoint;
 #[cfg(feature = "serde")]
-mod checkpoint_writer;
+mod checkpoint_file;
 mod clock;
 #[cfg(feature = "serde")]
 mod count;

@@ -194,10 +194,10 @@ impl<S: Copy + PartialEq, X: StateVector> History<S, X> {
         self.states[(self.newest + STATES - back) % STATES].as_ref()
     }
 
-    /// True if all components of its states are finite.
+    /// Its states.
     #[cfg(feature = "serde")]
-    pub(crate) fn is_finite(&self) -> bool {
-        self.states.iter().flatten().all(StateVector::is_finite)
+    pub(crate) fn states(&self) -> impl Iterator<Item = &X> {
+        self.states.iter().flatten()
     }
 
     pub(crate) fn clear(&mut self) {

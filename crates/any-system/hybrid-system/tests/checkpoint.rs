@@ -317,6 +317,19 @@ fn a_damaged_checkpoint_does_not_panic() {
         }
     }
     assert!(refused > 20 && read > 500, "{refused} {read}");
+    // One of its states in turn has another dimension.
+    let (mut places, mut at) = (Vec::new(), 0);
+    while let Some(found) = text[at..].find(",2,null]") {
+        places.push(at + found);
+        at += found + 1;
+    }
+    assert!(places.len() >= 8, "{text}");
+    for end in places {
+        let begin = text[..end].rfind("[[").unwrap();
+        let damaged = format!("{}[[1.5],1,null]{}", &text[..begin], &text[end + 8..]);
+        let read = serde_json::from_str::<Checkpoint<(), usize, DVector<f64>>>(&damaged);
+        assert!(read.unwrap_err().to_string().contains("is damaged"), "{damaged}");
+    }
     // A state of another dimension than that of the model.
     let other = Model::integrated(|(), x: &DVector<f64>| DVector::from_vec(vec![x[1], -1.0, 0.0]))
         .falling((), |x| x[0], |x| ((), vec![0.0, -x[1], 0.0]));
@@ -355,6 +368,25 @@ fn a_run_of_equations_is_a_file() {
         assert!(SavedRun::<DVector<f64>>::from_json(&text).is_err());
         assert!(SavedRun::<State<2>>::from_json_with(&text, std::slice::from_ref(&own)).is_err());
         run.next();
+    }
+    // A run goes on behind a limit.
+    let mut run = model.start("m", start(), 5.5).unwrap();
+    assert_eq!((run.by_ref().count() > 5, run.stop()), (true, Some(Stop::TimeLimit)));
+    let saved = run.saved();
+    let limits = Limits::new(20.0, 1_000_000);
+    let rest = saved.go_on(limits).map(|arc| format!("{arc:?}"));
+    assert!(rest.eq(run.go_on(limits).map(|arc| format!("{arc:?}"))));
+    assert!(saved.go_on(limits).count() > 5);
+    // What a program has set on the model is no part of the equations.
+    let ball = || {
+        let flight = Equations::new(&["x", "v"], &[]).mode_text("m", &["v", "-1"]);
+        let ball = flight.falling_text("floor", "x").resets_text(&["x", "-v/2"]);
+        ball.model::<State<2>>().unwrap()
+    };
+    assert!(ball().start("m", [1.0, 0.0], 1.0).unwrap().saved().to_json().is_ok());
+    for changed in [ball().contact(), ball().sampled(0.1)] {
+        let error = changed.start("m", [1.0, 0.0], 1.0).unwrap().saved().to_json().unwrap_err();
+        assert!(error.to_string().contains("set it in the equations"), "{error}");
     }
     let each = Tolerances::both(1e-9).absolute_each(&[1e-9, 1e-9, 1e-9]);
     let model = model.tolerances(each);

@@ -176,6 +176,41 @@ fn derivatives_through_ticks_are_those_of_the_standard_map() {
     // Up to a limit on time the ticks come earlier or later, and the end does not.
     let jet = rotor.jet::<2>(&arcs, &Along::parameter("period")).unwrap();
     assert_eq!(jet.time.0[1], 0.0);
+    // Up to the time of a tick, a longer period leaves out the kick: there is no derivative by it, but by the kick.
+    let arcs: Vec<_> =
+        rotor.start("turns", [1.0, 0.3], 1.5).unwrap().map(Result::unwrap).collect();
+    assert_eq!((arcs.len(), arcs[2].duration), (3, 0.0));
+    let error = rotor.jet::<2>(&arcs, &Along::parameter("period")).unwrap_err();
+    assert!(matches!(error, Error::CornerSensitivity { time: 1.5, .. }), "{error}");
+    let up_to_tick = rotor.jet::<2>(&arcs[..2], &Along::parameter("kick")).unwrap();
+    let jet = rotor.jet::<2>(&arcs, &Along::parameter("kick")).unwrap();
+    assert_eq!(jet.state, up_to_tick.state);
+}
+
+/// A limit on time at the very time of a bounce: a higher start lands later. An observer there changes nothing.
+#[test]
+fn an_event_at_the_limit_has_no_derivative_there() {
+    let ball = |jump: bool| {
+        let ball = Equations::new(&["height", "speed"], &[])
+            .mode_text("flight", &["speed", "-2"])
+            .falling_text("floor", "height");
+        if jump { ball.resets_text(&["height", "-speed/2"]) } else { ball }
+    };
+    for jump in [true, false] {
+        let ball = ball(jump).model::<State<2>>().unwrap();
+        let arcs: Vec<_> =
+            ball.start("flight", [1.0, 0.0], 1.0).unwrap().map(Result::unwrap).collect();
+        assert_eq!(arcs.len(), 2, "{arcs:?}");
+        let jet = ball.jet::<2>(&arcs, &Along::start(&[1.0, 0.0]));
+        match jump {
+            true => assert!(matches!(jet, Err(Error::CornerSensitivity { .. })), "{jet:?}"),
+            false => {
+                let off = jet.unwrap().state;
+                let off = [off[0].0[1] - 1.0, off[1].0[1]];
+                assert!(off.iter().all(|off| off.abs() < 1e-13), "{off:?}");
+            }
+        }
+    }
 }
 
 /// The error of derivatives is no larger than ten times that of the state, or the tolerance: over twelve impacts of a nonlinear oscillator, in

@@ -266,6 +266,19 @@ fn wrong_equations_are_refused() {
     let ticks = |first: &str, period: &str| {
         names().mode("m", |_, x, _| [x[0]]).clock_text("tick", first, period)
     };
+    let guard = |text: &str| names().mode("m", |_, x, _| [x[0]]).rising_text("stop", text);
+    // A name for a value, and no value.
+    refused(guard("gap = x - 1"), "stop: a guard has one formula");
+    refused(ticks("b = 2", "1"), "tick: a clock has two formulas");
+    let own = |slope: f64| Function::new("own", move |x| slope * x, Some, |x, _| 1.0 * x).unwrap();
+    let (one, two) = (own(1.0), own(2.0));
+    let field = names().mode("m", |_, x, _| [one.of(x[0])]);
+    refused(field.clone().falling("g", |_, x, _| two.of(x[0])), "is used twice");
+    refused(field.clone().functions(&[two]), "is used twice");
+    let text = field.functions(std::slice::from_ref(&one)).falling_text("g", "own(x)");
+    let json = text.to_json().unwrap();
+    assert_eq!(Equations::from_json_with(&json, std::slice::from_ref(&one)).unwrap(), text);
+    refused(Equations::new(&["own"], &[]).mode("m", |_, x, _| [one.of(x[0])]), "is used twice");
     refused(ticks("x", "1"), "numbers and parameters alone");
     refused(ticks("t", "1"), "numbers and parameters alone");
     refused(ticks("1", "a - 2"), "the period of a clock");

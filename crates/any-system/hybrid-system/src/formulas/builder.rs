@@ -99,6 +99,7 @@ impl Equations {
                 })
             }
             (Ok(name), Ok(field)) => {
+                self = self.functions(&field.names().functions);
                 self.modes.push(ModeEquations { name, field, guards: vec![], after_limit: None });
                 self
             }
@@ -114,7 +115,8 @@ impl Equations {
         either either_text Either;
     }
 
-    /// Adds a clock: events at a first time and after each period, which follow from the parameters.
+    /// Adds a clock: events at a first time and after each period, which follow from the parameters. A time that is not
+    /// later than the start has no event.
     ///
     /// ```
     /// use hybrid_system::{Equations, State};
@@ -172,6 +174,7 @@ impl Equations {
             (Ok(surface), Ok(function)) => {
                 // An observer, until something else is said.
                 let guard = Guard { surface, direction, role: Role::Crossing, touch: Touch::Error };
+                self = self.functions(&function.names().functions);
                 let added = GuardEquations { guard, function, jump: Some(Jump::default()) };
                 match self.modes.last_mut() {
                     Some(mode) => mode.guards.push(added),
@@ -243,6 +246,23 @@ impl Equations {
         self.with_state(state)
     }
 
+    /// The same, from a closure that returns a vector: for a number of components that is known when it runs.
+    #[must_use]
+    pub fn resets_vector(
+        self,
+        state: impl for<'g> Fn(
+            Expression<'g>,
+            &[Expression<'g>],
+            &Parameters<'g>,
+        ) -> Vec<Expression<'g>>,
+    ) -> Self {
+        if self.wrong.is_some() {
+            return self;
+        }
+        let state = Formulas::of_vector(self.names.clone(), state);
+        self.with_state(state)
+    }
+
     /// The same, from texts.
     #[must_use]
     pub fn resets_text(self, state: &[&str]) -> Self {
@@ -253,7 +273,10 @@ impl Equations {
     fn with_state(self, state: Result<Formulas, equations::Error>) -> Self {
         match state {
             _ if self.wrong.is_some() => self,
-            Ok(state) => self.with_jump(|jump| jump.state = Some(state)),
+            Ok(state) => {
+                let known = self.functions(&state.names().functions);
+                known.with_jump(|jump| jump.state = Some(state))
+            }
             Err(error) => self.refused(error),
         }
     }

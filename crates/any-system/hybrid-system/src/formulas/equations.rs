@@ -93,15 +93,26 @@ impl GuardEquations {
     pub(super) fn times(&self) -> Result<PeriodicTimes, Error> {
         let bad = |reason| Error::BadEquations { what: self.guard.surface.to_string(), reason };
         let function = &self.function;
-        if function.count() != 2 {
-            return Err(bad("a clock has two formulas, its first time and its period"));
-        }
         let moves = |node: &Node| matches!(node, Node::Time | Node::State(_));
         if function.nodes().0.iter().any(moves) {
             return Err(bad("the times of a clock follow from numbers and parameters alone"));
         }
         let found = function.values(0.0, &vec![0.0; function.names().states.len()])?;
-        PeriodicTimes::new(found[0], found[1])
+        let [first, period] = found[..] else {
+            return Err(bad("a clock has two formulas, its first time and its period"));
+        };
+        PeriodicTimes::new(first, period)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        match self.function.count() {
+            _ if self.guard.role == Role::Clock => self.times().map(|_| ()),
+            1 => Ok(()),
+            _ => {
+                let what = self.guard.surface.to_string();
+                Err(Error::BadEquations { what, reason: "a guard has one formula" })
+            }
+        }
     }
 }
 
@@ -200,9 +211,7 @@ impl Equations {
         }
         let of_modes = self.modes.iter().flat_map(|mode| &mode.guards);
         of_modes.chain(&self.everywhere).try_for_each(|guard| {
-            if guard.guard.role == Role::Clock {
-                guard.times()?;
-            }
+            guard.check()?;
             guard.jump.as_ref().map_or(Ok(()), check_jump)
         })
     }

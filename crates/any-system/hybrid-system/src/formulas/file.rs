@@ -72,7 +72,7 @@ impl Equations {
     }
 
     /// The SHA-256 of [`to_json`](Self::to_json), as 64 hexadecimal digits: a short name of the model for stores and
-    /// certificates.
+    /// certificates. Of a user's [`Function`] it has the name alone.
     ///
     /// # Errors
     /// As [`to_json`](Self::to_json).
@@ -138,13 +138,7 @@ fn guards(value: &Value, names: &Names) -> Result<Vec<GuardEquations>, Error> {
             touch: word(value, "touch", &TOUCHES)?,
         };
         let function = Formulas::from_value(names.clone(), &value["function"])?;
-        match function.count() {
-            // What a clock has is looked at with all other equations.
-            count if count == 1 || guard.role == Role::Clock => {
-                Ok(GuardEquations { guard, function, jump: jump(&value["jump"], names)? })
-            }
-            _ => bad(guard.surface.as_str(), "a guard has one formula"),
-        }
+        Ok(GuardEquations { guard, function, jump: jump(&value["jump"], names)? })
     };
     list(value, "guards")?.iter().map(guard).collect()
 }

@@ -48,7 +48,7 @@ impl Along {
 pub struct ExecutionJet<const T: usize> {
     /// The state: after the event that ends the last arc, at its own time; or at a limit on time.
     pub state: Vec<Jet<T>>,
-    /// The time since the start of the first arc.
+    /// The time since the start of the first arc, which does not move.
     pub time: Jet<T>,
 }
 
@@ -80,7 +80,7 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
     ///
     /// # Errors
     /// [`Error::GrazingSensitivity`] at a touch, and at a guard that is crossed too slowly; [`Error::CornerSensitivity`]
-    /// for two events at one instant; [`Error::NoSensitivity`] for an arc that does not end in an event of a formula or
+    /// for two events at one instant, and for an event at the instant of the limit; [`Error::NoSensitivity`] for an arc that does not end in an event of a formula or
     /// at a limit on time; [`Error::Formula`] for a parameter that there is none, and for a jump with a kink.
     pub fn jet<const T: usize>(
         &self,
@@ -92,6 +92,8 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         };
         let mut state = self.start_jet(&first.start, direction)?;
         let mut time = Jet::zero();
+        // The event before, if it changed the state.
+        let mut last: Option<&Event<Label, Label, X>> = None;
         for arc in arcs {
             let program = self.motion.mode(arc.mode)?;
             // The derivative is that of this execution: the values are its own.
@@ -99,6 +101,11 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
             (state, time) = match &arc.end {
                 ArcEnd::Event(event) => self.after_event(program, (arc, event), &state, &time)?,
                 ArcEnd::TimeLimit { .. } => {
+                    let moves = time.0.iter().skip(1).any(|term| *term != 0.0);
+                    let at_once = arc.duration <= SAME_INSTANT * (arc.time + arc.duration).abs();
+                    if let Some(event) = last.filter(|_| moves && at_once) {
+                        return Err(corner(event));
+                    }
                     // The end is where it is, whenever the arc has begun.
                     let end = program
                         .jets()?
@@ -109,6 +116,7 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
                 }
                 _ => return Err(Error::NoSensitivity { time: arc.time }),
             };
+            last = arc.event().filter(|event| changes(arc, event));
         }
         state.truncate(first.start.dimension());
         Ok(ExecutionJet { state, time })
@@ -170,16 +178,12 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         if event.kind == EventKind::Clock {
             return self.after_tick(program, (arc, event), start, time);
         }
-        let changes = event.after.as_ref() != Some(&(arc.mode, event.before.clone()));
         let place = program.guards.iter().position(|guard| guard.surface == event.surface);
         let at_once = event.kind == EventKind::AtStart
             || event.kind == EventKind::Crossing && arc.duration <= SAME_INSTANT * event.time.abs();
-        let surface = || format!("{:?}", event.surface);
         match (event.kind, place) {
-            _ if at_once && !changes => return Ok((start.to_vec(), *time)),
-            _ if at_once && arc.jump > 0 => {
-                return Err(Error::CornerSensitivity { time: event.time, surface: surface() });
-            }
+            _ if at_once && !changes(arc, event) => return Ok((start.to_vec(), *time)),
+            _ if at_once && arc.jump > 0 => return Err(corner(event)),
             (EventKind::Touch, _) => {
                 return Err(Error::GrazingSensitivity { time: event.time, rate: 0.0 });
             }
@@ -212,8 +216,7 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         let clock = program.clocks.iter().find(|(clock, _)| clock.surface == event.surface);
         let Some((clock, _)) = clock else { return Err(Error::NoSensitivity { time: arc.time }) };
         if arc.jump > 0 && arc.duration <= SAME_INSTANT * event.time.abs() {
-            let surface = format!("{:?}", event.surface);
-            return Err(Error::CornerSensitivity { time: event.time, surface });
+            return Err(corner(event));
         }
         let times = clock.value_jets()?.values(start)?;
         let [first, period] = [0, 1].map(|k| times.get(k).copied().unwrap_or(Jet::zero()));
@@ -226,6 +229,18 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         let ended = Jet::sum(time, &Jet::number(arc.duration));
         after_jump(clock, &motion, (&ended, &since))
     }
+}
+
+/// True unless an event leads to its own mode and state.
+fn changes<X: StateVector>(
+    arc: &Arc<Label, Label, X>,
+    event: &Event<Label, Label, X>,
+) -> bool {
+    event.after.as_ref().is_none_or(|(mode, state)| *mode != arc.mode || *state != event.before)
+}
+
+fn corner<X>(event: &Event<Label, Label, X>) -> Error {
+    Error::CornerSensitivity { time: event.time, surface: format!("{:?}", event.surface) }
 }
 
 /// State and time after the jump of a guard or a clock, a small time behind the end of an arc.

@@ -60,9 +60,12 @@ impl<X: StateVector> Execution<'_, EquationsModel<X>> {
 }
 
 impl<X: StateVector> SavedRun<X> {
-    /// The execution from here on, up to these limits.
+    /// The execution from here on, up to these limits. It has no further arcs if it had ended for another reason than a
+    /// limit: [`Execution::stop`] tells which.
     pub fn go_on(&self, limits: Limits) -> Execution<'_, EquationsModel<X>> {
-        Execution::restore(&self.model, self.checkpoint.clone(), limits)
+        let mut execution = Execution::restore(&self.model, self.checkpoint.clone(), limits);
+        let _ = execution.go_on(limits);
+        execution
     }
 }
 
@@ -70,12 +73,16 @@ impl<X: StateVector + Serialize + DeserializeOwned> SavedRun<X> {
     /// The run as JSON.
     ///
     /// # Errors
-    /// [`Error::BadEquations`] for a state that is not finite, and for tolerances of single components, which are part of
-    /// a program.
+    /// [`Error::BadEquations`] for a state that is not finite, and for what a program sets beside the equations:
+    /// tolerances of single components, and roles and samples of the model.
     pub fn to_json(&self) -> Result<String, Error> {
         let tolerances = &self.model.motion.tolerances;
         if tolerances.absolute_each.is_some() || tolerances.relative_each.is_some() {
             return bad("tolerances", "those of single components are not written: set them again");
+        }
+        if !self.model.has_declarations_of(&self.model.equations().model()?) {
+            let reason = "what is set on the model is not written: set it in the equations";
+            return bad("roles and samples", reason);
         }
         let equations = self.model.equations().to_value()?;
         let checkpoint = serde_json::to_value(&self.checkpoint);

@@ -5,7 +5,7 @@ use crate::guard::{Guard, Role};
 use std::fmt::Debug;
 
 /// The guards of each mode.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct GuardLists<M, S> {
     /// Modes with guards of their own. Their lists contain the guards of all modes too.
     modes: Vec<(M, Vec<Guard<S>>)>,

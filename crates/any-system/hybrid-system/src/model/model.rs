@@ -114,6 +114,12 @@ impl<M: Copy + Eq, S: Copy + Eq + Debug, X, F, P> Model<M, S, X, F, P> {
         watched.into_iter().for_each(|(mode, guard)| guards.add(mode, guard));
         Model { motion, parts, guards, sampling_interval: None, state: PhantomData }
     }
+
+    /// True if guards and samples are those of the other model.
+    #[cfg(feature = "serde")]
+    pub(crate) fn has_declarations_of(&self, other: &Self) -> bool {
+        self.guards == other.guards && self.sampling_interval == other.sampling_interval
+    }
 }
 
 impl<M: Copy + Eq, S: Copy + Eq + Debug, X, Y, F> Model<M, S, X, ClosedForm<F>>

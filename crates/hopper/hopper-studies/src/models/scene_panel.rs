@@ -204,11 +204,11 @@ impl Panel {
         }
     }
 
-    /// The rates of one component in the modes below (0) and above (1) the surface at 0, as arrows behind the last
-    /// event.
-    pub(super) fn fields<const N: usize>(
+    /// The rates of one component in the modes below and above the surface at 0, as arrows behind the last event.
+    pub(super) fn fields<T: HybridSystem<State = State<N>>, const N: usize>(
         mut self,
-        field: fn(u8, &State<N>) -> State<N>,
+        scene: &T,
+        modes: [T::Mode; 2],
         component: usize,
     ) -> Self {
         /// Length of the arrows, in units of time.
@@ -216,8 +216,9 @@ impl Panel {
         let from = self.events.last().map_or(0.0, |dot| dot.0.0);
         for k in 1..=3 {
             let time = from + 1.4 * ARROW * f64::from(k) - 0.5 * ARROW;
-            for mode in [0, 1] {
-                let rate = field(mode, &State::zeros())[component];
+            for mode in modes {
+                let Some(field) = scene.vector_field(mode, &State::zeros()) else { continue };
+                let rate = field[component];
                 let end = -0.06 * rate.signum();
                 self.arrows.push(((time, end - ARROW * rate), (time + ARROW, end)));
             }
