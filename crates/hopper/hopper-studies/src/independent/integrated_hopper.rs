@@ -42,7 +42,7 @@ pub(crate) fn integrated(alpha: f64, mass_ratio: MassRatio) -> Result<Option<f64
     let limits = Limits::new(longest_hop(alpha, mass_ratio), EVENTS);
     let start = State::from([1.0, alpha, 0.0, 0.0]);
     let mut execution = Execution::new(&hopper, Label::new("flight")?, start, limits);
-    while let Some(arc) = execution.next() {
+    for arc in execution.by_ref() {
         if let Some(event) = arc?.event()
             && event.surface == "lift-off"
             && event.kind == EventKind::Crossing
