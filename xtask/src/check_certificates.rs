@@ -4,7 +4,7 @@
 //! index. If they cannot be had, a line that begins with SKIPPED is printed.
 
 use crate::error::Error;
-use crate::process::{cargo, skip, step};
+use crate::process::{cargo, skip, step, steps};
 use crate::python_environment::{environment_python, first_python};
 use crate::repository::repository;
 use std::path::{Path, PathBuf};
@@ -38,19 +38,13 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     prove.args(["--gate", "--out"]).arg(&folder).current_dir(repository());
     step(&mut prove, "prove")?;
     let files = certificates(&folder);
-    let script = |name: &str| {
+    let script = |name: &'static str, arguments: &[&str], files: &[PathBuf]| {
         let mut command = Command::new(&python);
-        command.arg(scripts.join(name)).env("PYTHONDONTWRITEBYTECODE", "1");
-        command
+        command.arg(scripts.join(name)).args(arguments).args(files);
+        command.env("PYTHONDONTWRITEBYTECODE", "1");
+        (command, name)
     };
-    let checker = "check_certificate.py";
-    step(script(checker).args(["--sample", SAMPLE]).args(files), checker)?;
-    let falsifier = "false_certificates.py";
-    step(script(falsifier).arg(&folder), falsifier)?;
-    step(script(falsifier).args(["--random", CHANGES]).arg(&folder), falsifier)?;
-    // The bound of Theorem 68, which no certificate rests on: a larger one, which takes seconds.
-    let remainder = "left_remainder.py";
-    step(script(remainder).args(["1", "--bound", "40"]), remainder)?;
+    let within = [folder.clone()];
     // Enclosures of functions. Both programs and all lemmas rest on sines and cosines.
     let mut enclosures = Command::new(cargo());
     enclosures.args(["run", "--quiet", "--release", "--package", "interval-arithmetic"]);
@@ -60,8 +54,17 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     let failed = Error::starting(cargo());
     let mut enclosures = enclosures.stdout(Stdio::piped()).spawn().map_err(&failed)?;
     let records = enclosures.stdout.take().map_or_else(Stdio::null, Stdio::from);
-    let comparison = "compare_functions.py";
-    let compared = step(script(comparison).stdin(records), comparison);
+    let mut comparison = script("compare_functions.py", &[], &[]);
+    comparison.0.stdin(records);
+    // Each uses one processor.
+    let compared = steps(vec![
+        script("check_certificate.py", &["--sample", SAMPLE], &files),
+        script("false_certificates.py", &[], &within),
+        script("false_certificates.py", &["--random", CHANGES], &within),
+        // The bound of Theorem 68, which no certificate rests on: a larger one, which takes seconds.
+        script("left_remainder.py", &["1", "--bound", "40"], &[]),
+        comparison,
+    ]);
     let written = enclosures.wait().map_err(failed)?;
     compared?;
     if written.success() {

@@ -38,8 +38,31 @@ pub(crate) fn step(command: &mut Command, what: &str) -> Result<(), Error> {
     let status = command.status().map_err(Error::starting(command.get_program()))?;
     match status.success() {
         true => Ok(()),
-        false => Err(Error::new(format!("{what} failed ({status}); its messages stand above"))),
+        false => Err(failed(what, &status.to_string())),
     }
+}
+
+/// Runs steps side by side. The messages of each are printed when it has ended, in this order.
+pub(crate) fn steps(commands: Vec<(Command, &str)>) -> Result<(), Error> {
+    let found: Vec<Result<(), Error>> = std::thread::scope(|scope| {
+        let start = |(mut command, what)| {
+            let run = move || command.output().map_err(Error::starting(command.get_program()));
+            (what, scope.spawn(run))
+        };
+        let running: Vec<_> = commands.into_iter().map(start).collect();
+        let ended = running.into_iter().map(|(what, step)| {
+            let found = step.join().unwrap_or_else(|_| Err(failed(what, "a panic")))?;
+            std::io::stdout().write_all(&found.stdout).map_err(Error::at("standard output"))?;
+            std::io::stderr().write_all(&found.stderr).map_err(Error::at("standard error"))?;
+            if found.status.success() { Ok(()) } else { Err(failed(what, &found.status.to_string())) }
+        });
+        ended.collect()
+    });
+    found.into_iter().collect()
+}
+
+fn failed(what: &str, how: &str) -> Error {
+    Error::new(format!("{what} failed ({how}); its messages stand above"))
 }
 
 /// A line for the user.
