@@ -42,23 +42,28 @@ pub(crate) fn step(command: &mut Command, what: &str) -> Result<(), Error> {
     }
 }
 
-/// Runs steps side by side. The messages of each are printed when it has ended, in this order.
+/// Runs steps side by side. Their messages are printed in this order when all have ended.
 pub(crate) fn steps(commands: Vec<(Command, &str)>) -> Result<(), Error> {
-    let found: Vec<Result<(), Error>> = std::thread::scope(|scope| {
-        let start = |(mut command, what)| {
-            let run = move || command.output().map_err(Error::starting(command.get_program()));
-            (what, scope.spawn(run))
-        };
-        let running: Vec<_> = commands.into_iter().map(start).collect();
-        let ended = running.into_iter().map(|(what, step)| {
-            let found = step.join().unwrap_or_else(|_| Err(failed(what, "a panic")))?;
+    let output = |mut command: Command| {
+        let output = command.output();
+        output.map_err(Error::starting(command.get_program()))
+    };
+    std::thread::scope(|scope| {
+        let running =
+            commands.into_iter().map(|(command, what)| (what, scope.spawn(|| output(command))));
+        // All begin before the first is waited for, and all end before an error is returned.
+        let running: Vec<_> = running.collect();
+        let found: Vec<_> = running.into_iter().map(|(what, step)| (what, step.join())).collect();
+        for (what, found) in found {
+            let found = found.unwrap_or_else(|_| Err(failed(what, "a panic")))?;
             std::io::stdout().write_all(&found.stdout).map_err(Error::at("standard output"))?;
             std::io::stderr().write_all(&found.stderr).map_err(Error::at("standard error"))?;
-            if found.status.success() { Ok(()) } else { Err(failed(what, &found.status.to_string())) }
-        });
-        ended.collect()
-    });
-    found.into_iter().collect()
+            if !found.status.success() {
+                return Err(failed(what, &found.status.to_string()));
+            }
+        }
+        Ok(())
+    })
 }
 
 fn failed(what: &str, how: &str) -> Error {

@@ -6,8 +6,7 @@
 
 use hybrid_system::{
     Equations, EquationsModel, Error, Guard, HybridSystem, Label, NextEvent, QuasiPolynomial,
-    Reset, Search, State, Tolerances, Touch, default_search, integrated_crossing,
-    integrated_flow,
+    Reset, Search, State, Tolerances, Touch, default_search, integrated_crossing, integrated_flow,
 };
 
 /// Tolerances of the integrated runs. The flows are polynomials of degree two, which every step gives exactly.
@@ -29,8 +28,7 @@ pub enum By {
 }
 
 /// All ways.
-pub const WAYS: [By; 5] =
-    [By::Signal, By::Samples, By::Integration, By::ClosedForm, By::Series];
+pub const WAYS: [By; 5] = [By::Signal, By::Samples, By::Integration, By::ClosedForm, By::Series];
 
 /// All ways in which no event is missed.
 pub const SURE_WAYS: [By; 4] = [By::Signal, By::Integration, By::ClosedForm, By::Series];

@@ -155,7 +155,8 @@ fn stacks_that_bounce_do_not_pass_through_each_other() {
                     };
                     while let Some(Ok(_)) = execution.next() {
                         let x = execution.state();
-                        let what = format!("{by:?}, {restitution}, masses {masses:?}, gap {gap:e}: {x}");
+                        let what =
+                            format!("{by:?}, {restitution}, masses {masses:?}, gap {gap:e}: {x}");
                         assert!(x[0] > -1e-7, "{what}");
                         // The state at a Zeno limit is extrapolated, from integrated bounces with an error of 1e-10.
                         assert!((1..STACK).all(|ball| x[ball] >= x[ball - 1] - 1e-7), "{what}");

@@ -177,8 +177,7 @@ fn derivatives_through_ticks_are_those_of_the_standard_map() {
     let jet = rotor.jet::<2>(&arcs, &Along::parameter("period")).unwrap();
     assert_eq!(jet.time.0[1], 0.0);
     // Up to the time of a tick, a longer period leaves out the kick: there is no derivative by it, but by the kick.
-    let arcs: Vec<_> =
-        rotor.start("turns", [1.0, 0.3], 1.5).unwrap().map(Result::unwrap).collect();
+    let arcs: Vec<_> = rotor.start("turns", [1.0, 0.3], 1.5).unwrap().map(Result::unwrap).collect();
     assert_eq!((arcs.len(), arcs[2].duration), (3, 0.0));
     let error = rotor.jet::<2>(&arcs, &Along::parameter("period")).unwrap_err();
     assert!(matches!(error, Error::CornerSensitivity { time: 1.5, .. }), "{error}");

@@ -85,8 +85,7 @@ fn balls_dropped_together_without_a_gap_collide_like_those_with_a_gap() {
 #[test]
 fn two_balls_never_pass_through_each_other_or_the_floor() {
     for by in SURE_WAYS {
-        let (arcs, stop) =
-            run(stack(by), "flight", [1.0, 1.0, 0.0, 0.0], 30.0, 10_000).unwrap();
+        let (arcs, stop) = run(stack(by), "flight", [1.0, 1.0, 0.0, 0.0], 30.0, 10_000).unwrap();
         assert_eq!(stop, Stop::TimeLimit);
         for arc in &arcs {
             for k in 0..=20 {
@@ -127,8 +126,7 @@ fn a_relay_slides_where_both_fields_point_at_its_surface() {
 /// Without signal, enclosure or field the rates on both sides are unknown: the events at one instant are an error.
 #[test]
 fn a_sampled_relay_without_a_field_is_a_timeless_chain() {
-    let failed =
-        run(snapping_relay(By::Samples), "above", [1.0, 0.0], 10.0, 100_000);
+    let failed = run(snapping_relay(By::Samples), "above", [1.0, 0.0], 10.0, 100_000);
     assert!(matches!(failed, Err(Error::TimelessChain { .. })), "{failed:?}");
 }
 
@@ -241,7 +239,8 @@ fn a_thousand_events_in_no_time_are_an_error_with_the_cycle() {
 #[test]
 fn a_plastic_ball_without_a_mode_for_rest_is_a_timeless_chain() {
     for by in WAYS {
-        let failed = run(bouncing(by, "height", &["0", "0"]), "flight", [0.5, 0.0], 5.0, 100_000).unwrap_err();
+        let failed = run(bouncing(by, "height", &["0", "0"]), "flight", [0.5, 0.0], 5.0, 100_000)
+            .unwrap_err();
         let Error::TimelessChain { time, .. } = failed else { panic!("{by:?}: {failed}") };
         assert!((time - 1.0).abs() < error(by), "{by:?}: {time}");
     }

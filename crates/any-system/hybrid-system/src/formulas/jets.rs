@@ -232,10 +232,7 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
 }
 
 /// True unless an event leads to its own mode and state.
-fn changes<X: StateVector>(
-    arc: &Arc<Label, Label, X>,
-    event: &Event<Label, Label, X>,
-) -> bool {
+fn changes<X: StateVector>(arc: &Arc<Label, Label, X>, event: &Event<Label, Label, X>) -> bool {
     event.after.as_ref().is_none_or(|(mode, state)| *mode != arc.mode || *state != event.before)
 }
 

@@ -52,9 +52,9 @@ pub(crate) fn integrated(alpha: f64, mass_ratio: MassRatio) -> Result<Option<f64
     }
     match execution.stop() {
         Some(Stop::TimeLimit) => Ok(None),
-        other => {
-            Err(Error::CheckFailed(format!("a hop from {alpha} at {mass_ratio:?} ends in {other:?}")))
-        }
+        other => Err(Error::CheckFailed(format!(
+            "a hop from {alpha} at {mass_ratio:?} ends in {other:?}"
+        ))),
     }
 }
 

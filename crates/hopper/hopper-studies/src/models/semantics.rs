@@ -69,8 +69,14 @@ pub(super) fn sliding_and_touches(_: &Job) -> Result<Figure, Error> {
     }
     let (flight, ignoring) = (Label::new("flight")?, ceiling(BY, Touch::Ignore)?);
     let touch = |title| Panel::new(title, 4.0, (0.0, 2.4), "height").forbidden(2.0, 2.4);
-    let error = touch("c: a touch: an error, by default").scene(&ceiling(BY, Touch::Error)?, flight, throw(), &[0]);
-    let event = touch("d: a touch as an event").scene(&ceiling(BY, Touch::Event)?, flight, throw(), &[0]);
+    let error = touch("c: a touch: an error, by default").scene(
+        &ceiling(BY, Touch::Error)?,
+        flight,
+        throw(),
+        &[0],
+    );
+    let event =
+        touch("d: a touch as an event").scene(&ceiling(BY, Touch::Event)?, flight, throw(), &[0]);
     let ignored = touch("e: a touch ignored").scene(&ignoring, flight, throw(), &[0]);
     let crossing = touch("f: faster by a tenth: a crossing").scene(
         &ignoring,
