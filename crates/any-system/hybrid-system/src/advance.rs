@@ -2,17 +2,18 @@
 
 use crate::execution::Execution;
 use crate::limits::{Limits, Stop};
-use crate::system::HybridSystem;
+use crate::state::StateVector;
+use std::fmt::Debug;
 
-impl<T: HybridSystem> Execution<'_, T> {
+impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M, S, X> {
     /// The mode in which the execution is.
-    pub fn mode(&self) -> T::Mode {
+    pub fn mode(&self) -> M {
         self.at.mode
     }
 
     /// The state at which the execution is: after the last jump, or at the limit that was reached. After a terminal
     /// event it is the state before the jump that does not happen.
-    pub fn state(&self) -> &T::State {
+    pub fn state(&self) -> &X {
         &self.at.state
     }
 

@@ -3,7 +3,9 @@
 use crate::execution::Execution;
 use crate::limits::{Limits, Stop};
 use crate::point::Point;
-use crate::system::HybridSystem;
+use crate::state::StateVector;
+use crate::system::AnySystem;
+use std::fmt::Debug;
 
 /// An execution between two arcs, without its system and its limits.
 ///
@@ -64,9 +66,9 @@ impl<M: Copy, S, X> Checkpoint<M, S, X> {
     }
 }
 
-impl<'a, T: HybridSystem> Execution<'a, T> {
+impl<'a, M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'a, M, S, X> {
     /// The present point of the execution, from which it can be restored.
-    pub fn checkpoint(&self) -> Checkpoint<T::Mode, T::Surface, T::State> {
+    pub fn checkpoint(&self) -> Checkpoint<M, S, X> {
         Checkpoint { point: self.at.clone(), stop: self.stop }
     }
 
@@ -74,8 +76,8 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     ///
     /// If the execution had ended at a limit, [`go_on`](Self::go_on) continues it with others.
     pub fn restore(
-        system: &'a T,
-        checkpoint: Checkpoint<T::Mode, T::Surface, T::State>,
+        system: &'a AnySystem<'a, M, S, X>,
+        checkpoint: Checkpoint<M, S, X>,
         limits: Limits,
     ) -> Self {
         Execution { system, limits, stop: checkpoint.stop, at: checkpoint.point }
