@@ -92,6 +92,12 @@ pub enum Error {
         /// The absolute tolerance that was given.
         absolute: f64,
     },
+    /// The longest step of a motion is no length.
+    #[error("the longest step is {longest}: it must be positive")]
+    LongestStep {
+        /// The step that was given.
+        longest: f64,
+    },
     /// A time is not finite.
     #[error("the times {time} and {end} must be finite")]
     Time {

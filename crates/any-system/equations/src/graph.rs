@@ -2,17 +2,27 @@
 
 use crate::constant::Constant;
 use crate::error::Error;
+use crate::function::Function;
 use crate::node::{Binary, Node, Unary};
 use std::collections::HashMap;
 
 /// 2⁵³: an `f64` of this size is an integer of its own.
 const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;
 
+/// The most functions of the user in one list: each derivative of a motion may need one more, and so does a family such as
+/// those of Bessel.
+const MOST_FUNCTIONS: usize = 100;
+
+pub(crate) const TWO_FUNCTIONS: &str =
+    "that of two functions: make a function once, and use it wherever it is called";
+
 /// A list of parts. Each one stands behind those of which it is a function, and no two are equal.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Graph {
     nodes: Vec<Node>,
     known: HashMap<Node, usize>,
+    /// The functions of the user that are called.
+    called: Vec<Function>,
     /// What a closure did wrong: it cannot return an error from an operator.
     pub(crate) wrong: Option<Error>,
 }
@@ -32,7 +42,26 @@ impl Graph {
     /// The graph of a list without equal parts.
     pub(crate) fn of(nodes: Vec<Node>) -> Self {
         let known = nodes.iter().enumerate().map(|(at, node)| (merged(node), at)).collect();
-        Graph { nodes, known, wrong: None }
+        let mut graph = Graph { known, ..Graph::default() };
+        nodes.iter().for_each(|node| graph.note_call(node));
+        Graph { nodes, ..graph }
+    }
+
+    /// Notes a call. A function that is made anew wherever its derivative is asked for would be another one each time, and
+    /// the derivatives of a motion would never end.
+    fn note_call(&mut self, node: &Node) {
+        let Node::Call(function, _) = node else { return };
+        match self.called.iter().find(|known| known.name() == function.name()) {
+            Some(known) if known == function => {}
+            Some(_) => {
+                let (name, reason) = (function.name().to_owned(), TWO_FUNCTIONS);
+                self.refuse(Error::Name { name, reason });
+            }
+            None if self.called.len() == MOST_FUNCTIONS => {
+                self.refuse(Error::TooLarge { limit: MOST_FUNCTIONS });
+            }
+            None => self.called.push(function.clone()),
+        }
     }
 
     pub(crate) fn nodes(&self) -> &[Node] {
@@ -49,6 +78,7 @@ impl Graph {
         if let Some(&known) = self.known.get(&key) {
             return known;
         }
+        self.note_call(&node);
         self.nodes.push(node);
         self.known.insert(key, self.nodes.len() - 1);
         self.nodes.len() - 1

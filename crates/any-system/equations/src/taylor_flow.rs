@@ -83,10 +83,15 @@ impl<'s> TaylorFlow<'s> {
     }
 
     /// The same with no step longer than this time.
-    #[must_use]
-    pub fn longest_step(mut self, time: f64) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::LongestStep`] unless it is positive.
+    pub fn longest_step(mut self, time: f64) -> Result<Self, Error> {
+        if !(time > 0.0) {
+            return Err(Error::LongestStep { longest: time });
+        }
         self.longest_step = time;
-        self
+        Ok(self)
     }
 
     /// The order of the polynomials.

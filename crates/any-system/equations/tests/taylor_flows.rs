@@ -130,7 +130,7 @@ fn hard_motions_end_with_an_error_or_are_right() {
 #[test]
 fn steps_are_capped_and_can_be_left() {
     let series = field(&["x"], &["1"]);
-    let flow = TaylorFlow::new(&series, 1e-12, 1e-12).unwrap().longest_step(0.25);
+    let flow = TaylorFlow::new(&series, 1e-12, 1e-12).unwrap().longest_step(0.25).unwrap();
     let mut steps = 0;
     let state = flow.follow(0.0, &[0.0], 10.0, |_| {
         steps += 1;

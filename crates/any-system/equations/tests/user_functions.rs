@@ -61,7 +61,24 @@ fn names_of_functions_are_theirs_alone() {
     assert!(wrong("sin").is_err() && wrong("t").is_err() && wrong("2x").is_err());
     let names = Names::new(&["x"], &[]).unwrap();
     let both = Formulas::new(names.clone(), |_, x, _| [one.of(x[0]) + two.of(x[0])]);
-    assert!(both.unwrap_err().to_string().contains("used twice"));
+    assert!(both.unwrap_err().to_string().contains("two functions"));
+    // A function whose derivative makes it anew, and one of a family without end.
+    fn anew() -> Function {
+        Function::new("anew", |x| x, |_| None, |x, _| anew().of(x)).unwrap()
+    }
+    fn bessel(order: u32) -> Function {
+        let name = format!("J{order}");
+        let number = f64::from(order);
+        Function::new(&name, |x| x, |_| None, move |x, j| number * j / x - bessel(order + 1).of(x))
+            .unwrap()
+    }
+    let of = |function: Function| Formulas::new(names.clone(), move |_, x, _| [function.of(x[0])]);
+    let error = Series::new(&of(anew()).unwrap(), None).unwrap_err().to_string();
+    assert!(error.contains("make a function once"), "{error}");
+    assert!(matches!(
+        Series::new(&of(bessel(9)).unwrap(), None),
+        Err(Error::TooLarge { .. } | Error::Name { .. })
+    ));
     // A derivative that is no number, and a domain that ends.
     let bad = Function::new("bad", |x| x, Some, |x, _| x.number(f64::NAN)).unwrap();
     let of_bad = Formulas::new(names.clone(), |_, x, _| [bad.of(x[0])]).unwrap();

@@ -3,6 +3,7 @@
 #![cfg(feature = "ode")]
 
 use hybrid_system::*;
+use nalgebra::DVector;
 use std::f64::consts::PI;
 
 /// Events of a run with their certainties.
@@ -148,8 +149,83 @@ fn other_guards_are_searched_on_steps() {
     assert!(found.iter().all(|(_, certainty)| *certainty == Certainty::Interpolated));
 }
 
+/// A field with the same motion, in closed form and with a component that makes it none.
+fn ends(field: &[&str], states: &[&str], start: &[f64], time: f64) -> [DVector<f64>; 2] {
+    let run = |field: &[&str], states: &[&str], start: Vec<f64>| {
+        let model = Equations::new(states, &[]).mode_text("m", field);
+        let model = model.model::<DVector<f64>>().unwrap();
+        let mut run = model.start("m", DVector::from_vec(start), time).unwrap();
+        run.by_ref().for_each(|arc| drop(arc.unwrap()));
+        run.state().clone()
+    };
+    // The time comes behind the components that have names.
+    let mut longer = start.to_vec();
+    longer.insert(states.len(), 0.0);
+    let (field_with, states_with) = ([field, &["w^2"]].concat(), [states, &["w"]].concat());
+    [run(field, states, start.to_vec()), run(&field_with, &states_with, longer)]
+}
+
+/// A small root beside a large forcing: the terms of the closed form are large and cancel. The motion is integrated then.
+#[test]
+fn closed_forms_that_cancel_are_integrated() {
+    // i = R(1 − e^(−t/R)), q = t²/2 − t³/(6R) + …
+    for r in ["1e7", "1e6", "1e5", "8388608"] {
+        let circuit = Equations::new(&["q", "i"], &[("R", r)])
+            .mode_text("m", &["i", "1 - i/R"])
+            .rising_text("full", "q - 2");
+        let found = events(&circuit, ("m", [0.0, 0.0], 5.0));
+        let resistance: f64 = r.parse().unwrap();
+        let exact = 2.0 + 4.0 / (6.0 * resistance);
+        assert!(found.len() == 1 && (found[0].0 - exact).abs() < 1e-9, "{r}: {found:?} {exact}");
+    }
+    // A fall with a little drag lands, and bounces as often as its integration says.
+    for drag in ["1e-8", "1e-6", "1e-4", "1e-3"] {
+        let ball = |field: &[&str], states: &[&str], after: &[&str]| {
+            Equations::new(states, &[("c", drag)])
+                .mode_text("m", field)
+                .falling_text("floor", "h")
+                .resets_text(after)
+        };
+        let closed = ball(&["v", "-9.81 - c*v"], &["h", "v"], &["h", "-0.8*v"]);
+        let other = ball(&["v", "-9.81 - c*v", "w^2"], &["h", "v", "w"], &["h", "-0.8*v", "w"]);
+        let a = events(&closed, ("m", [1.0, 0.0], 3.5));
+        let b = events(&other, ("m", [1.0, 0.0, 0.0], 3.5));
+        assert!(a.len() == b.len() && a.len() > 8, "{drag}: {a:?} {b:?}");
+        for ((a, _), (b, _)) in a.iter().zip(&b) {
+            assert!((a - b).abs() < 1e-10, "{drag}: {a} {b}");
+        }
+    }
+    for (field, states, start, time) in [
+        (&["1e-9*z + t^2"][..], &["z"][..], &[0.5, 0.0][..], 1.0),
+        (&["1e-4*z + t^3"], &["z"], &[0.5, 0.0], 1.0),
+        (&["1e-12*z + 1"], &["z"], &[0.5], 1.0),
+        (&["x - 1e-9*y", "-0.5*x - 1e-9*y + t"], &["x", "y"], &[2.0, 0.0, 0.0], 5.0),
+        (&["1e-3*x + 3*y + t", "-1e-9*x + 1e-3*y + t^2"], &["x", "y"], &[-0.471, 1.663, 0.0], 1.0),
+        (&["-9.81 - 1e-8*v", "v"], &["v", "h"], &[0.0, 100.0], 4.0),
+    ] {
+        let [closed, other] = ends(field, states, start, time);
+        for axis in 0..states.len() {
+            let (a, b) = (closed[axis], other[axis]);
+            assert!((a - b).abs() < 1e-10 * (1.0 + b.abs()), "{field:?}: {a} {b}");
+        }
+    }
+}
+
+/// What has no value has none in closed form: the derivative of `0*sqrt(x)` is zero, its value below zero is not.
+#[test]
+fn no_closed_form_leaves_the_domain() {
+    let model = Equations::new(&["x"], &[]).mode_text("m", &["1 + 0*sqrt(x)"]);
+    let model = model.model::<State<1>>().unwrap();
+    let failed = model.start("m", [-1.0], 3.0).unwrap().find_map(Result::err);
+    assert!(failed.unwrap().to_string().contains("sqrt(x)"));
+    // A power of a high degree takes no time.
+    let high = Equations::new(&["x"], &[]).mode_text("m", &["t^100000"]);
+    let arc = high.model::<State<2>>().unwrap().start("m", [0.0, 0.0], 0.5).unwrap().next();
+    assert!(arc.unwrap().is_ok());
+}
+
 /// The fields and guards of random linear models.
-const RATES: [&str; 6] = ["0", "-0.5", "-1", "-0.1", "0.2", "-2"];
+const RATES: [&str; 8] = ["0", "-0.5", "-1", "-0.1", "0.2", "-2", "1e-9", "-1e-5"];
 const FORCING: [&str; 8] =
     ["0", "1", "cos(t)", "sin(1.3*t)", "0.3*t", "exp(-0.5*t)", "t*exp(-t)", "cos(t)^2"];
 const GUARDS: [&str; 6] = ["x - 0.3", "x*y - 0.1", "y", "x - cos(t)", "z - 0.2*x", "x*x - 0.5"];

@@ -273,8 +273,8 @@ fn wrong_equations_are_refused() {
     let own = |slope: f64| Function::new("own", move |x| slope * x, Some, |x, _| 1.0 * x).unwrap();
     let (one, two) = (own(1.0), own(2.0));
     let field = names().mode("m", |_, x, _| [one.of(x[0])]);
-    refused(field.clone().falling("g", |_, x, _| two.of(x[0])), "is used twice");
-    refused(field.clone().functions(&[two]), "is used twice");
+    refused(field.clone().falling("g", |_, x, _| two.of(x[0])), "that of two functions");
+    refused(field.clone().functions(&[two]), "that of two functions");
     let text = field.functions(std::slice::from_ref(&one)).falling_text("g", "own(x)");
     let json = text.to_json().unwrap();
     assert_eq!(Equations::from_json_with(&json, std::slice::from_ref(&one)).unwrap(), text);
@@ -292,6 +292,36 @@ fn wrong_equations_are_refused() {
         model.start("m", DVector::zeros(1), 1.0).err(),
         Some(Error::Dimension { expected: 2, found: 1, .. })
     ));
+}
+
+/// A bump of a guard that shows neither in its series nor where the series is tested: a look often enough finds it.
+#[test]
+fn looks_at_guards_find_what_their_series_hide() {
+    let bumps =
+        ["1 - 2*exp(-((x - 2.4734)/0.05616)^2)", "tanh((x - 2.98)/0.06)*tanh((x - 3.17)/0.06)"];
+    for bump in bumps {
+        let model = Equations::new(&["x", "y"], &[]).mode_text("m", &["1", "y*y*0"]);
+        let model = model.either_text("bump", bump).model::<State<2>>().unwrap();
+        let looked = Tolerances::both(1e-12).check_interval(0.02);
+        let model = model.tolerances(looked);
+        let arcs = model.start("m", [0.0, 0.0], 10.0).unwrap();
+        assert_eq!(arcs.filter(|arc| arc.as_ref().unwrap().event().is_some()).count(), 2, "{bump}");
+    }
+}
+
+/// Tolerances are looked at where a closed form needs none, too.
+#[test]
+fn wrong_tolerances_are_refused() {
+    let good = Tolerances::both(1e-9);
+    for wrong in [
+        good.longest_step(0.0),
+        good.longest_step(f64::NAN),
+        good.check_interval(-1.0),
+        Tolerances::both(0.0),
+    ] {
+        let model = Equations::new(&["x"], &[]).mode_text("m", &["1"]).model::<State<1>>().unwrap();
+        assert!(model.tolerances(wrong).start("m", [0.0], 1.0).is_err(), "{wrong:?}");
+    }
 }
 
 /// A logarithm that leaves its domain on the way: the error names the part, the state and the time.

@@ -13,9 +13,9 @@
 //! forcing beside it, there is no closed form, and the motion is integrated.
 
 use super::exact::{difference, product, quotient, sum};
-use super::quasi_values::{enclosed, quasi_value, term};
+use super::quasi_values::{enclosed, needed, quasi_value, term};
 use crate::crossing::{QuasiPolynomial, QuasiPolynomialPart};
-use equations::Formulas;
+use equations::{Binary, Formulas, Node, Unary};
 use interval_arithmetic::Enclosure;
 
 /// The most components of a state that are looked at: the order of the blocks takes the cube of it.
@@ -71,6 +71,9 @@ impl ClosedForm {
             if components.len() > 2 {
                 return None;
             }
+            if !components.iter().all(|&row| is_affine(field, row, &components)) {
+                return None;
+            }
             let pairs = components.iter().flat_map(|row| components.iter().map(move |c| (row, c)));
             let matrix = pairs.map(|(row, column)| entries[row * count + column]);
             let matrix = matrix.collect::<Option<Vec<_>>>()?;
@@ -95,7 +98,7 @@ impl ClosedForm {
                 _ => pair(&block.matrix, &forcing, &from)?,
             };
             for (&own, found) in block.components.iter().zip(found) {
-                known[own] = (is_sharp(&found) && found.check().is_ok()).then_some(found);
+                known[own] = (is_known(&found) && found.check().is_ok()).then_some(found);
                 known[own].as_ref()?;
             }
         }
@@ -103,17 +106,72 @@ impl ClosedForm {
     }
 }
 
-/// The largest error of a coefficient, relative to the largest one: near a resonance or a double root coefficients are
-/// large and cancel. A larger number would give motions with fewer digits than an integration; a smaller one would
-/// integrate what has a closed form.
+/// True if a formula is a sum of these components times what does not move with them: `0*sqrt(x)` has the derivative zero, and
+/// no value below zero.
+fn is_affine(field: &Formulas, row: usize, components: &[usize]) -> bool {
+    let (nodes, outputs) = field.nodes();
+    let needed = needed(nodes, outputs[row]);
+    let mut moves = vec![false; needed.len()];
+    for place in (0..needed.len()).filter(|&place| needed[place]) {
+        let node = &nodes[place];
+        let is_moving = match *node {
+            Node::State(at) => components.contains(&at),
+            _ => node.operands().any(|operand| moves[operand]),
+        };
+        let is_linear = match *node {
+            Node::State(_) | Node::Unary(Unary::Negative, _) => true,
+            Node::Binary(Binary::Sum | Binary::Difference, ..) => true,
+            Node::Binary(Binary::Product, a, b) => !(moves[a] && moves[b]),
+            Node::Binary(Binary::Quotient, _, b) => !moves[b],
+            _ => false,
+        };
+        if is_moving && !is_linear {
+            return false;
+        }
+        moves[place] = is_moving;
+    }
+    true
+}
+
+/// The largest error of a coefficient, relative to the largest one, and of a closed form, relative to its own size on the
+/// motion. Coefficients are large and cancel where a root is small beside the forcing, near a resonance and near a double
+/// root. A larger number would give motions with fewer digits than an integration; a smaller one would integrate what has a
+/// closed form.
 const SHARP: f64 = 1e-11;
 
-/// True if the coefficients are known well, and do not cancel much at the start.
-fn is_sharp(function: &QuasiPolynomial) -> bool {
+/// True if the coefficients are known well beside the largest one: else the signs of the motion at its start are hidden.
+fn is_known(function: &QuasiPolynomial) -> bool {
     let parts = function.to_parts();
     let numbers = || parts.iter().flat_map(|(_, _, cos, sin)| cos.iter().chain(sin));
     let largest = numbers().map(|(value, _)| value.abs()).fold(0.0, f64::max);
     numbers().all(|(_, error)| *error <= SHARP * largest)
+}
+
+/// Parts of a motion at which its size is looked at: its ends, and some that no periodic motion passes at zero.
+const LOOKS: [f64; 8] = [1.0, 0.0, 0.382, 0.764, 0.146, 0.528, 0.910, 0.292];
+
+/// The rounding of a term by its evaluation, in ulps of its coefficient.
+const TERM_ULPS: f64 = 2.0;
+
+/// True if the errors of a function up to a time are small beside its size there, or below the absolute tolerance.
+///
+/// The errors of rates and frequencies do not count: they are those of the model's own numbers, and an integration has them
+/// too.
+pub(super) fn is_sharp(function: &QuasiPolynomial, time: f64, absolute: f64) -> bool {
+    let error = error_until(&function.to_parts(), time);
+    LOOKS.iter().any(|part| error <= SHARP * function.value(part * time).abs() + absolute)
+}
+
+/// Σ e^(σt) Σ δ_k t^k with the errors δ_k of the terms, where it is largest up to this time.
+fn error_until(parts: &[QuasiPolynomialPart], time: f64) -> f64 {
+    let of = |(value, error): &(f64, f64)| error + TERM_ULPS * f64::EPSILON * value.abs();
+    let errors = parts.iter().map(|((sigma, _), _, cos, sin)| {
+        let both = cos.iter().map(of).chain(sin.iter().map(of));
+        let powers = (0..cos.len()).chain(0..sin.len());
+        let sum: f64 = both.zip(powers).map(|(c, k)| c * time.abs().powi(k as i32)).sum();
+        sum * pxfm::f_exp((sigma * time).max(0.0))
+    });
+    errors.sum()
 }
 
 /// A complex number.

@@ -51,7 +51,9 @@ impl<X: StateVector> Motion<Label, X> for TaylorMotion {
         T: HybridSystem<Mode = Label, State = X>,
     {
         let program = self.mode(mode)?;
-        let Some(motion) = program.closed_form(start.components()) else {
+        let last = times.last().copied().unwrap_or(0.0);
+        let motion = program.closed_form(start.components());
+        let Some(motion) = motion.filter(|own| own.is_sharp_until(last, &self.tolerances)) else {
             return taylor_states(&program.series, start, times, &self.tolerances);
         };
         let at = |time: f64| start.filled(|axis| motion.components[axis].value(time));
@@ -76,9 +78,19 @@ impl<X: StateVector> Motion<Label, X> for TaylorMotion {
         // The equations' guards come first among those of a mode.
         let own = program.guards.len();
         let all = system.guards(mode).iter().filter(|guard| guard.role != Role::Clock).count();
-        let closed = || program.closed_form(start.components()).is_some();
-        if all == own && search.horizon.is_finite() && closed() {
-            return default_search(system, mode, start, search);
+        if all == own
+            && search.horizon.is_finite()
+            && let Some(motion) = program.closed_form(start.components())
+        {
+            let found = default_search(system, mode, start, search);
+            let end = match &found {
+                Ok(NextEvent::Crossing(crossing)) => crossing.time,
+                Ok(NextEvent::Unfinished { time, .. }) => *time,
+                Ok(NextEvent::None { .. }) | Err(_) => search.horizon,
+            };
+            if motion.is_sharp_until(end, &self.tolerances) {
+                return found;
+            }
         }
         let searched = system.guards(mode).iter().filter(|guard| guard.role != Role::Clock);
         let watched = searched.enumerate().map(|(place, _)| (place < own).then_some(place));
@@ -96,10 +108,15 @@ impl<X: StateVector> Motion<Label, X> for TaylorMotion {
     fn validate(&self, mode: Label, start: &X) -> Result<(), Error> {
         self.mode(mode)?;
         let (expected, found) = (self.programs.dimension, start.dimension());
-        match expected == found {
-            true => Ok(()),
-            false => Err(Error::Dimension { what: "the state of a model", expected, found }),
+        if expected != found {
+            let timed = expected > self.programs.equations.names().states.len();
+            let what = match timed {
+                true => "the state of the model, with the time as its last component,",
+                false => "the state of the model",
+            };
+            return Err(Error::Dimension { what, expected, found });
         }
+        self.tolerances.check(found)
     }
 }
 

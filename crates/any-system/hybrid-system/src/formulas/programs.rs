@@ -1,6 +1,6 @@
 //! What runs the equations of a model: series, guards and jumps of each mode.
 
-use super::closed_form::ClosedForm;
+use super::closed_form::{ClosedForm, is_sharp};
 use super::equations::{Equations, GuardEquations, Jump, ModeEquations};
 use super::label::Label;
 use super::quasi_values::quasi_value;
@@ -8,6 +8,7 @@ use crate::clock::PeriodicTimes;
 use crate::crossing::QuasiPolynomial;
 use crate::error::Error;
 use crate::guard::Role;
+use crate::ode::Tolerances;
 use equations::{Constant, Formulas, JetSeries, Node, Series};
 use std::sync::{Arc, Mutex, OnceLock};
 
@@ -58,6 +59,17 @@ fn made(
     make: impl FnOnce() -> Result<JetSeries, equations::Error>,
 ) -> Result<&JetSeries, Error> {
     jets.get_or_init(make).as_ref().map_err(|error| error.clone().into())
+}
+
+impl ClosedMotion {
+    /// True if the closed form has the digits of an integration up to a time: see [`is_sharp`].
+    pub(super) fn is_sharp_until(&self, time: f64, tolerances: &Tolerances) -> bool {
+        let components = self.components.iter().enumerate();
+        let mut components = components.map(|(axis, own)| (own, tolerances.of(axis, 0.0)));
+        let mut guards = self.guards.iter().map(|own| (own, tolerances.absolute));
+        components.all(|(own, absolute)| is_sharp(own, time, absolute))
+            && guards.all(|(own, absolute)| is_sharp(own, time, absolute))
+    }
 }
 
 impl ModeProgram {

@@ -7,8 +7,16 @@ use crate::crossing::{QuasiPolynomial, QuasiPolynomialPart};
 use equations::{Algebra, Arithmetic, Binary, Formulas, Node, Unary};
 use interval_arithmetic::Enclosure;
 
-/// The most terms of a quasi-polynomial: a formula with more is left to the integration.
+/// The most terms of a quasi-polynomial, and the most coefficients of one: a formula with more is left to the integration.
+/// Products of larger ones take milliseconds, and powers of a high degree cancel.
 const MOST_TERMS: usize = 32;
+const MOST_COEFFICIENTS: usize = 64;
+
+fn is_short(function: &QuasiPolynomial) -> bool {
+    let parts = function.to_parts();
+    let longest = parts.iter().map(|(_, _, cos, sin)| cos.len().max(sin.len())).max();
+    parts.len() <= MOST_TERMS && longest.unwrap_or(0) <= MOST_COEFFICIENTS
+}
 
 /// A number with the bound on its error that holds an enclosure.
 pub(super) fn with_error(number: Enclosure) -> (f64, f64) {
@@ -96,6 +104,18 @@ fn binary(function: Binary, x: &QuasiPolynomial, y: &QuasiPolynomial) -> Option<
     }
 }
 
+/// For each part up to a wanted one, whether that one needs it.
+pub(super) fn needed(nodes: &[Node], wanted: usize) -> Vec<bool> {
+    let mut needed = vec![false; wanted + 1];
+    needed[wanted] = true;
+    for place in (0..=wanted).rev() {
+        if needed[place] {
+            nodes[place].operands().for_each(|operand| needed[operand] = true);
+        }
+    }
+    needed
+}
+
 /// One formula along a motion whose components these are; `None` if it is no quasi-polynomial, or needs a component that is
 /// none.
 pub(super) fn quasi_value(
@@ -105,13 +125,7 @@ pub(super) fn quasi_value(
 ) -> Option<QuasiPolynomial> {
     let (nodes, outputs) = formulas.nodes();
     let wanted = *outputs.get(output)?;
-    let mut needed = vec![false; wanted + 1];
-    needed[wanted] = true;
-    for place in (0..=wanted).rev().filter(|&place| nodes[place].operands().next().is_some()) {
-        if needed[place] {
-            nodes[place].operands().for_each(|operand| needed[operand] = true);
-        }
-    }
+    let needed = needed(nodes, wanted);
     let mut values: Vec<Option<QuasiPolynomial>> = vec![None; wanted + 1];
     for place in (0..=wanted).filter(|&place| needed[place]) {
         let of = |place: usize| values[place].as_ref();
@@ -125,7 +139,7 @@ pub(super) fn quasi_value(
             Node::Unary(function, a) => unary(function, of(a)?),
             Node::Binary(function, a, b) => binary(function, of(a)?, of(b)?),
         };
-        values[place] = Some(found.filter(|found| found.to_parts().len() <= MOST_TERMS)?);
+        values[place] = Some(found.filter(is_short)?);
     }
     values.pop().flatten()
 }

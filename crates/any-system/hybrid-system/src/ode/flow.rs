@@ -7,7 +7,6 @@ use crate::crossing::{NextEvent, Search};
 use crate::error::Error;
 use crate::state::StateVector;
 use crate::system::{AnySystem, HybridSystem};
-use std::fmt::Debug;
 
 /// The state after `time` along ẋ = f(x): the value that [`HybridSystem::flow`](crate::HybridSystem::flow) returns in a
 /// mode without closed form.
@@ -22,8 +21,7 @@ pub fn integrated_flow<T: HybridSystem + ?Sized>(
     tolerances: Tolerances,
 ) -> T::State {
     let mut after = None;
-    let flow =
-        visit_states(&system, mode, start, &[time], tolerances, &mut |state| after = Some(state));
+    let flow = visit_states(system, mode, start, &[time], tolerances, |state| after = Some(state));
     match (flow, after) {
         (Ok(()), Some(after)) => after,
         _ => start.filled(|_| f64::NAN),
@@ -47,17 +45,17 @@ pub fn integrated_states<T: HybridSystem + ?Sized>(
     tolerances: Tolerances,
 ) -> Result<Vec<T::State>, Error> {
     let mut states = Vec::with_capacity(times.len());
-    visit_states(&system, mode, start, times, tolerances, &mut |state| states.push(state))?;
+    visit_states(system, mode, start, times, tolerances, |state| states.push(state))?;
     Ok(states)
 }
 
-fn visit_states<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector>(
-    system: &AnySystem<'_, M, S, X>,
-    mode: M,
-    start: &X,
+fn visit_states<T: HybridSystem + ?Sized>(
+    system: &T,
+    mode: T::Mode,
+    start: &T::State,
     times: &[f64],
     tolerances: Tolerances,
-    visit: &mut dyn FnMut(X),
+    mut visit: impl FnMut(T::State),
 ) -> Result<(), Error> {
     let Some(end) = last_time(times)? else { return Ok(()) };
     let mut times = times.iter().copied().peekable();
@@ -70,7 +68,7 @@ fn visit_states<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector>(
     if system.vector_field(mode, start).is_none() {
         return Err(Error::NoVectorField { mode: format!("{mode:?}") });
     }
-    let field: &Field<X> = &field_of(system, mode);
+    let field = field_of(system, mode);
     let mut integration = Integration::new(field, start, tolerances)?.autonomous().until(end)?;
     while !integration.ended() {
         integration.step()?;
@@ -177,23 +175,22 @@ pub fn integrated_crossing<T>(
 where
     T: HybridSystem + ?Sized,
 {
-    let system: &AnySystem<'_, T::Mode, T::Surface, T::State> = &system;
-    let field: &Field<T::State> = &field_of(system, mode);
+    let field = field_of(system, mode);
     let integration = |longest_first: f64| {
-        let integration = Integration::new(field, start, tolerances)?.autonomous();
+        let integration = Integration::new(&field, start, tolerances)?.autonomous();
         Ok(integration.until(request.horizon)?.starting_with(longest_first))
     };
-    search(system, mode, (start, &field(0.0, start)), request, integration, tolerances)
+    let rate = field(0.0, start);
+    // The field is compiled into the steps. All else sees the system by its three types.
+    let system: &AnySystem<'_, T::Mode, T::Surface, T::State> = &system;
+    search(system, mode, (start, &rate), request, integration, tolerances)
 }
 
-/// A field of any system: an integration is compiled once for each type of states.
-type Field<'a, X> = dyn Fn(f64, &X) -> X + 'a;
-
 /// f of a mode. Its components are NaN where the model gives no field.
-fn field_of<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector>(
-    system: &AnySystem<'_, M, S, X>,
-    mode: M,
-) -> impl Fn(f64, &X) -> X {
+fn field_of<T: HybridSystem + ?Sized>(
+    system: &T,
+    mode: T::Mode,
+) -> impl Fn(f64, &T::State) -> T::State + '_ {
     move |_, state| {
         let outside = || state.filled(|_| f64::NAN);
         system.vector_field(mode, state).unwrap_or_else(outside)

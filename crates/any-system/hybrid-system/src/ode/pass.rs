@@ -138,7 +138,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
     ) -> bool {
         let Some(side) = followed.search.clear_side() else { return false };
         let (from, to) = integration.interval();
-        let away = match integration.guard(followed.place) {
+        let away = match self.polynomial(followed, integration) {
             Some(coefficients) => stays(coefficients, side, to - from),
             None => {
                 to - from <= PARTS * self.tolerances.check_interval
@@ -149,6 +149,28 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             followed.search = ZeroSearch::on_side(followed.guard.direction, until, side);
         }
         away
+    }
+
+    /// The polynomial of a guard on the last step, if the guard has its sign at every look.
+    pub(super) fn polynomial<'i>(
+        &self,
+        followed: &Followed<T::Surface>,
+        integration: &'i impl Stepping<T::State>,
+    ) -> Option<&'i [f64]> {
+        let coefficients = integration.guard(followed.place)?;
+        let (from, to) = integration.interval();
+        let looks = ((to - from).abs() / self.tolerances.check_interval).ceil();
+        if looks > self.request.intervals as f64 {
+            return None;
+        }
+        let agrees = |look: f64| {
+            let since = (to - from) * look / looks;
+            let state = integration.state_on_step(from + since)?;
+            let value = self.system.guard_value(followed.guard.surface, &state);
+            Some((value > 0.0) == (equations::horner(coefficients, since) > 0.0))
+        };
+        let agree = (1..looks as usize).all(|look| agrees(look as f64) == Some(true));
+        agree.then_some(coefficients)
     }
 
     /// The smallest distance of some values from zero is more than half of the difference between the largest and the

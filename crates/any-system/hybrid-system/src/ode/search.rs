@@ -234,7 +234,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         let mut failure: Option<(f64, Error)> = None;
         for followed in followed.iter_mut() {
             let guard = followed.guard;
-            let powers = integration.guard(followed.place);
+            let powers = self.polynomial(followed, integration);
             let on_step = self.on_step(step, guard.surface, followed.stated, powers);
             let is_last = until >= self.request.horizon;
             let found = loop {

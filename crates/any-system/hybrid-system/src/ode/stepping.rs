@@ -38,6 +38,12 @@ pub(super) trait Stepping<V> {
     /// The state at a time in the last step with all its digits, if the polynomial has fewer; `None` if it has them.
     fn directly_at(&mut self, time: f64) -> Option<Result<V, Error>>;
 
+    /// The state at a time in the last step, where its polynomial is at hand.
+    fn state_on_step(&self, time: f64) -> Option<V> {
+        let _ = time;
+        None
+    }
+
     /// The guard at this place among the searched ones as a polynomial in the time since the last step began, if it is
     /// one.
     fn guard(&self, place: usize) -> Option<&[f64]> {

@@ -106,7 +106,7 @@ impl<'s, V: StateVector> TaylorIntegration<'s, V> {
         });
         let flow = TaylorFlow::new(series, tolerances.relative.clamp(1e-17, 0.1), 0.0)?
             .tolerances(each.collect())?
-            .longest_step(tolerances.longest_step);
+            .longest_step(tolerances.longest_step)?;
         let mut step = flow.memory()?;
         step.state_at_end.copy_from_slice(start.components());
         let (taken, most, start) = (0, tolerances.steps, start.clone());
@@ -195,6 +195,10 @@ impl<V: StateVector> Stepping<V> for TaylorIntegration<'_, V> {
 
     fn directly_at(&mut self, _: f64) -> Option<Result<V, Error>> {
         None
+    }
+
+    fn state_on_step(&self, time: f64) -> Option<V> {
+        Some(self.at(time))
     }
 
     fn guard(&self, place: usize) -> Option<&[f64]> {
