@@ -2,18 +2,17 @@
 
 use crate::execution::Execution;
 use crate::limits::{Limits, Stop};
-use crate::state::StateVector;
-use std::fmt::Debug;
+use crate::system::HybridSystem;
 
-impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M, S, X> {
+impl<T: HybridSystem> Execution<'_, T> {
     /// The mode in which the execution is.
-    pub fn mode(&self) -> M {
+    pub fn mode(&self) -> T::Mode {
         self.at.mode
     }
 
     /// The state at which the execution is: after the last jump, or at the limit that was reached. After a terminal
     /// event it is the state before the jump that does not happen.
-    pub fn state(&self) -> &X {
+    pub fn state(&self) -> &T::State {
         &self.at.state
     }
 

@@ -124,7 +124,7 @@ impl<M: Copy, S: Copy, X: StateVector> Arc<M, S, X> {
     /// [`Error::StateNotFinite`] where the flow is not defined.
     pub fn state<T>(&self, system: &T, elapsed: f64) -> Result<X, Error>
     where
-        T: HybridSystem<State = X, Mode = M, Surface = S> + ?Sized,
+        T: HybridSystem<State = X, Mode = M, Surface = S>,
     {
         let state = system.flow(self.mode, &self.start, elapsed);
         if state.is_finite() {
@@ -141,7 +141,7 @@ impl<M: Copy, S: Copy, X: StateVector> Arc<M, S, X> {
     /// [`Error::StateNotFinite`] where the flow is not defined, and the errors of [`HybridSystem::flow_at`].
     pub fn states<T>(&self, system: &T, elapsed: &[f64]) -> Result<Vec<X>, Error>
     where
-        T: HybridSystem<State = X, Mode = M, Surface = S> + ?Sized,
+        T: HybridSystem<State = X, Mode = M, Surface = S>,
     {
         let states = system.flow_at(self.mode, &self.start, elapsed)?;
         match states.iter().zip(elapsed).find(|(state, _)| !state.is_finite()) {

@@ -5,17 +5,16 @@ use crate::arrival::{Arrival, DurationOfArc, PLACES};
 use crate::before_limit::Passing;
 use crate::crossing::{Certainty, Crossing, EventKind, GuardedFlow, LeavingGuards};
 use crate::error::Error;
-use crate::execution::Execution;
+use crate::execution::{AnArc, Execution};
 use crate::guard::Role;
 use crate::limits::Stop;
 use crate::missed::check_missed;
 use crate::next_event::{ClockEvent, flow_to};
 use crate::sliding::{AtOnce, Sliding, sliding_point};
 use crate::state::StateVector;
-use crate::system::{AnySystem, FlowFrom, Reset};
+use crate::system::{FlowFrom, HybridSystem, Reset};
 use crate::time_sum::TimeSum;
 use crate::zeno::ZenoLimit;
-use std::fmt::Debug;
 
 /// The rate of a guard at its crossing is taken over this part of its flight, along the flow behind it. Over a shorter
 /// part rounding would show, over a longer one the bend.
@@ -25,14 +24,14 @@ const NEXT_PART: f64 = 0.01;
 /// they were without the error; a smaller one would give up a limit that is still known.
 const LARGEST_PART: f64 = 0.25;
 
-impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M, S, X> {
+impl<T: HybridSystem> Execution<'_, T> {
     /// An arc that ends in an event, before a clock if there is one.
     pub(crate) fn event_arc(
         &mut self,
-        crossing: Crossing<S, X>,
-        (horizon, clock): (f64, Option<ClockEvent<S>>),
-        leaving: LeavingGuards<S>,
-    ) -> Result<Arc<M, S, X>, Error> {
+        crossing: Crossing<T::Surface, T::State>,
+        (horizon, clock): (f64, Option<ClockEvent<T::Surface>>),
+        leaving: LeavingGuards<T::Surface>,
+    ) -> Result<AnArc<T>, Error> {
         let Crossing {
             surface,
             time: duration,
@@ -108,7 +107,7 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
                 self.at.residues.forget(surface);
             }
         }
-        let same = |(mode, after): &(M, X)| *mode == self.at.mode && *after == state;
+        let same = |(mode, after): &(T::Mode, T::State)| *mode == self.at.mode && *after == state;
         let changes_nothing = after.as_ref().is_some_and(same);
         self.at.time = time;
         self.at.jump += 1;
@@ -139,7 +138,7 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
     /// The error of the time of an event by the rounding of the state at which a stop or an observer has divided its
     /// flight: near a Zeno limit the velocity is small, and the height as rounded. Zero for a flight that is not
     /// divided. A flight of which rounding hides a part that counts is lost, with all that would have come behind it.
-    fn error_by_division(&self, surface: S, before: &X, duration: f64) -> f64 {
+    fn error_by_division(&self, surface: T::Surface, before: &T::State, duration: f64) -> f64 {
         let divided = self.at.history.since_event;
         if divided == 0.0 {
             return 0.0;
@@ -159,9 +158,9 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
     /// Keeps what the start of the next arc must know about the event at the end of this one.
     fn remember(
         &mut self,
-        (kind, surface): (EventKind, S),
-        state: &X,
-        (length, leaving): (DurationOfArc, LeavingGuards<S>),
+        (kind, surface): (EventKind, T::Surface),
+        state: &T::State,
+        (length, leaving): (DurationOfArc, LeavingGuards<T::Surface>),
         time_passes: bool,
     ) {
         let passed = (kind == EventKind::Crossing).then_some(surface);
@@ -210,10 +209,10 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
     pub(crate) fn arc_without_event(
         &mut self,
         horizon: f64,
-        end: Option<X>,
+        end: Option<T::State>,
         certainty: Certainty,
-        leaving: LeavingGuards<S>,
-    ) -> Result<Arc<M, S, X>, Error> {
+        leaving: LeavingGuards<T::Surface>,
+    ) -> Result<AnArc<T>, Error> {
         if !horizon.is_finite() {
             self.stop = Some(Stop::NoFurtherEvent);
             return Ok(self.new_arc(horizon, ArcEnd::Never { certainty }));
@@ -235,7 +234,12 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
     }
 
     /// Moves on to a state without an event.
-    pub(crate) fn advance(&mut self, duration: f64, state: X, leaving: LeavingGuards<S>) {
+    pub(crate) fn advance(
+        &mut self,
+        duration: f64,
+        state: T::State,
+        leaving: LeavingGuards<T::Surface>,
+    ) {
         if duration > 0.0 {
             // A guard that reaches its surface just here, and passes through it after the limit, must not lose its
             // event.
@@ -252,7 +256,7 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
     }
 
     /// Forgets the residues of earlier events that the state has left, at the end of an arc of this duration.
-    fn forget_residues(&mut self, passed: Option<S>, state: &X, duration: f64) {
+    fn forget_residues(&mut self, passed: Option<T::Surface>, state: &T::State, duration: f64) {
         let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
         let value = |surface| flow.guard_value(surface, state);
         let inside = |surface| match duration > 0.0 {
@@ -264,12 +268,16 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
     }
 
     /// The flow from the present state.
-    pub(crate) fn flow(&self) -> FlowFrom<'_, AnySystem<'_, M, S, X>> {
+    pub(crate) fn flow(&self) -> FlowFrom<'_, T> {
         FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state }
     }
 
     /// An arc from the present state.
-    pub(crate) fn new_arc(&self, duration: f64, end: ArcEnd<M, S, X>) -> Arc<M, S, X> {
+    pub(crate) fn new_arc(
+        &self,
+        duration: f64,
+        end: ArcEnd<T::Mode, T::Surface, T::State>,
+    ) -> AnArc<T> {
         Arc {
             mode: self.at.mode,
             time: self.at.time.value(),
@@ -281,10 +289,13 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
     }
 
     /// The sliding point at which the execution is, if an event of `surface` at once leads back to the mode before.
-    pub(crate) fn sliding(&self, surface: S) -> Option<Sliding<M, S, X>> {
+    pub(crate) fn sliding(
+        &self,
+        surface: T::Surface,
+    ) -> Option<Sliding<T::Mode, T::Surface, T::State>> {
         let last = self.at.chain.last();
         // A crossing of another surface says nothing about the distance from this one.
-        let of_last = |arrival: &&Arrival<M, S, X>| {
+        let of_last = |arrival: &&Arrival<T::Mode, T::Surface, T::State>| {
             last.is_some_and(|(_, surface)| Some(surface) == arrival.surface())
         };
         let at = AtOnce {
@@ -300,7 +311,10 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
 
     /// The arc of no duration that ends on a sliding surface. The execution continues after it if the model gives a
     /// mode.
-    pub(crate) fn sliding_arc(&mut self, sliding: Sliding<M, S, X>) -> Arc<M, S, X> {
+    pub(crate) fn sliding_arc(
+        &mut self,
+        sliding: Sliding<T::Mode, T::Surface, T::State>,
+    ) -> AnArc<T> {
         let after = self.system.slide(&sliding);
         let arc = self.new_arc(0.0, ArcEnd::Sliding { sliding, after: after.clone() });
         self.at.jump += 1;
@@ -315,7 +329,11 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
 
     /// The arc that replaces infinitely many events up to their limit. The execution continues after it if the model
     /// gives a mode.
-    pub(crate) fn zeno_arc(&mut self, limit: ZenoLimit<X>, passing: &[Passing<S>]) -> Arc<M, S, X> {
+    pub(crate) fn zeno_arc(
+        &mut self,
+        limit: ZenoLimit<T::State>,
+        passing: &[Passing<T::Surface>],
+    ) -> AnArc<T> {
         let after = self.system.rest(self.at.mode, &limit.state);
         let (remainder, state) = (limit.remainder, limit.state.clone());
         let passed = passing.iter().map(|guard| (guard.surface, guard.from)).collect();

@@ -111,7 +111,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         (length, leaving): (DurationOfArc, LeavingGuards<S>),
     ) -> Self
     where
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let DurationOfArc { duration, since_event, time_rounding, time_error, solved, from } =
             length;
@@ -179,7 +179,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     pub(crate) fn continues<T>(&self, next: &FlowFrom<T>) -> bool
     where
         M: PartialEq,
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         !self.after_zeno && self.mode == next.mode && self.before == *next.start
     }
@@ -202,7 +202,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         now: f64,
     ) -> Option<Leaving<S>>
     where
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let left = self.leaving.iter().find(|left| left.surface == surface && !left.ahead)?;
         if left.hidden > self.duration {
@@ -229,7 +229,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         (now, rounding): (f64, f64),
     ) -> bool
     where
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let before = next.guard_value(surface, &self.before);
         // A contact at which the bounces have ended is no event that is still to come.
@@ -268,7 +268,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     /// the side from which it came, although its rate at the time of the touch may still lead to the surface.
     pub(crate) fn has_touched<T>(&self, next: &FlowFrom<T>, surface: S) -> bool
     where
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let value = |state: &X| next.guard_value(surface, state);
         self.touched && Some(surface) == self.surface && value(next.start) == value(&self.before)
@@ -315,7 +315,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     /// guard of the crossed surface is zero by construction, if the reset has not changed it.
     pub(crate) fn error_after<T>(&self, next: &FlowFrom<T>, surface: S) -> f64
     where
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let value = next.guard_value(surface, next.start);
         let (_, change) = self.earlier(next.system, surface);
@@ -333,7 +333,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     /// only, and its height is no error.
     fn earlier<T>(&self, system: &T, surface: S) -> (f64, f64)
     where
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let lookback = LOOKBACK * self.time_rounding;
         let value = |state: &X| system.guard_value(surface, state);
@@ -353,7 +353,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     /// The state a moment before the end of the arc, along its field, or by its flow.
     fn state_before<T>(&self, system: &T, lookback: f64) -> X
     where
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         if lookback < NEAR * self.duration
             && let Some(field) = system.vector_field(self.mode, &self.before)

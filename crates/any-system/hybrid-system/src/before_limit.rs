@@ -12,20 +12,19 @@
 //! A guard belongs to the events that lead to the limit if it has had two within three periods. It is looked at now and
 //! at the limit: two zeros on the way, after the last event that can be followed, are not seen.
 
-use crate::arc::Arc;
 use crate::arrival::Arrival;
 use crate::crossing::{
     Certainty, Crossing, EventKind, GuardedFlow, LeavingGuards, change_by_components,
 };
 use crate::error::Error;
-use crate::execution::Execution;
+use crate::execution::{AnArc, Execution};
 use crate::guard::{Guard, Role};
 use crate::start_rule::ArcStart;
 use crate::state::StateVector;
+use crate::system::HybridSystem;
 use crate::zeno::ZenoLimit;
 use interval_arithmetic::root_beyond;
 use smallvec::SmallVec;
-use std::fmt::Debug;
 
 /// Guards that are kept without allocating.
 const FEW: usize = 4;
@@ -41,12 +40,14 @@ pub(crate) struct Passing<S> {
 
 pub(crate) type PassingGuards<S> = SmallVec<[Passing<S>; FEW]>;
 
-type MaybeArc<M, S, X> = Result<Option<Arc<M, S, X>>, Error>;
-type MaybeCrossing<S, X> = Result<Option<Crossing<S, X>>, Error>;
+type Limit<T> = ZenoLimit<<T as HybridSystem>::State>;
+type MaybeArc<T> = Result<Option<AnArc<T>>, Error>;
+type CrossingOf<T> = Crossing<<T as HybridSystem>::Surface, <T as HybridSystem>::State>;
+type MaybeCrossing<T> = Result<Option<CrossingOf<T>>, Error>;
 
-impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M, S, X> {
+impl<T: HybridSystem> Execution<'_, T> {
     /// The arc up to a Zeno limit, or to a clock within the error of the limit; `None` if the flow has to be followed.
-    pub(crate) fn arc_to_limit(&mut self, limit: ZenoLimit<X>, horizon: f64) -> MaybeArc<M, S, X> {
+    pub(crate) fn arc_to_limit(&mut self, limit: Limit<T>, horizon: f64) -> MaybeArc<T> {
         // What has come to its surface at the instant of the last event has its event first.
         let pending = self.at.arrival.as_ref().is_some_and(Arrival::has_pending);
         if pending && !matches!(self.start_of_arc(horizon).0, Ok(ArcStart::Flows)) {
@@ -75,11 +76,7 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
 
     /// The next arc if rounding hides the next event on the way to a Zeno limit, and with it how far the events up to
     /// a clock, a guard or the limit on time move the state.
-    pub(crate) fn hidden_arc(
-        &mut self,
-        limit: ZenoLimit<X>,
-        horizon: f64,
-    ) -> Result<Arc<M, S, X>, Error> {
+    pub(crate) fn hidden_arc(&mut self, limit: Limit<T>, horizon: f64) -> Result<AnArc<T>, Error> {
         let (leaving, certainty) = (LeavingGuards::new(), Certainty::Interpolated);
         let passing = self.passing(&limit);
         let clock = self.next_clock(limit.remainder.min(horizon))?;
@@ -107,15 +104,15 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
 
     /// The guards that change their side, in a direction that counts, between now and a Zeno limit, and whose events do
     /// not lead there.
-    fn passing(&self, limit: &ZenoLimit<X>) -> PassingGuards<S> {
+    fn passing(&self, limit: &Limit<T>) -> PassingGuards<T::Surface> {
         let flow = self.flow();
         // The state at the limit is extrapolated as far as the time.
         let error = limit.time_error / limit.remainder;
         let error_of_state = self.at.history.error_of_state(limit);
         let arrival = self.at.arrival.as_ref();
-        let passes = |guard: &Guard<S>| {
+        let passes = |guard: &Guard<T::Surface>| {
             let surface = guard.surface;
-            let value = |state: &X| flow.guard_value(surface, state);
+            let value = |state: &T::State| flow.guard_value(surface, state);
             let [now, then] = [&self.at.state, &limit.state].map(value);
             let pending = arrival.and_then(|arrival| arrival.came_from(surface));
             let from = pending.unwrap_or(now.signum());
@@ -139,7 +136,7 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
     }
 
     /// The straight path from the present state to that of a limit, by the part of the time to it.
-    fn path_to(&self, limit: &ZenoLimit<X>) -> impl Fn(f64) -> X {
+    fn path_to(&self, limit: &Limit<T>) -> impl Fn(f64) -> T::State {
         let from = self.at.state.clone();
         let mut step = limit.state.clone();
         step.add_scaled(-1.0, &from);
@@ -153,14 +150,14 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
     /// The first event of these guards on the straight path to a limit.
     fn first_on_path<'a>(
         &self,
-        limit: &ZenoLimit<X>,
-        passing: impl IntoIterator<Item = &'a Passing<S>>,
-    ) -> MaybeCrossing<S, X>
+        limit: &Limit<T>,
+        passing: impl IntoIterator<Item = &'a Passing<T::Surface>>,
+    ) -> MaybeCrossing<T>
     where
-        S: 'a,
+        T::Surface: 'a,
     {
         let (flow, path) = (self.flow(), self.path_to(limit));
-        let mut first: Option<(f64, &Passing<S>)> = None;
+        let mut first: Option<(f64, &Passing<T::Surface>)> = None;
         for guard in passing {
             let along = |part: f64| flow.guard_value(guard.surface, &path(part));
             let [now, then] = [0.0, 1.0].map(along);
@@ -177,7 +174,7 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
                 first = Some((part, guard));
             }
         }
-        let crossing = |(part, guard): (f64, &Passing<S>)| Crossing {
+        let crossing = |(part, guard): (f64, &Passing<T::Surface>)| Crossing {
             surface: guard.surface,
             time: part * limit.remainder,
             // A point of the path has no rounding by a search.

@@ -3,9 +3,7 @@
 use crate::execution::Execution;
 use crate::limits::{Limits, Stop};
 use crate::point::Point;
-use crate::state::StateVector;
-use crate::system::AnySystem;
-use std::fmt::Debug;
+use crate::system::HybridSystem;
 
 /// An execution between two arcs, without its system and its limits.
 ///
@@ -66,9 +64,9 @@ impl<M: Copy, S, X> Checkpoint<M, S, X> {
     }
 }
 
-impl<'a, M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'a, M, S, X> {
+impl<'a, T: HybridSystem> Execution<'a, T> {
     /// The present point of the execution, from which it can be restored.
-    pub fn checkpoint(&self) -> Checkpoint<M, S, X> {
+    pub fn checkpoint(&self) -> Checkpoint<T::Mode, T::Surface, T::State> {
         Checkpoint { point: self.at.clone(), stop: self.stop }
     }
 
@@ -76,8 +74,8 @@ impl<'a, M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'
     ///
     /// If the execution had ended at a limit, [`go_on`](Self::go_on) continues it with others.
     pub fn restore(
-        system: &'a AnySystem<'a, M, S, X>,
-        checkpoint: Checkpoint<M, S, X>,
+        system: &'a T,
+        checkpoint: Checkpoint<T::Mode, T::Surface, T::State>,
         limits: Limits,
     ) -> Self {
         Execution { system, limits, stop: checkpoint.stop, at: checkpoint.point }

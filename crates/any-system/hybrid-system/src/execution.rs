@@ -8,37 +8,25 @@ use crate::limits::{Limits, Stop};
 use crate::point::Point;
 use crate::residues::Residues;
 use crate::state::StateVector;
-use crate::system::AnySystem;
+use crate::system::HybridSystem;
 use crate::time_sum::TimeSum;
 use crate::zeno::History;
-use std::fmt::{self, Debug};
 
 /// An execution of a hybrid system, as an iterator over its arcs.
 ///
 /// The iterator ends at a limit, at a terminal event, at a Zeno limit or a sliding surface after which the model
 /// gives no mode, when no event can follow, or after an error. [`stop`](Self::stop) returns which.
-///
-/// Its type has the modes, the surfaces and the states of the system, and not the system itself: a function of all
-/// executions with such states has no other parameter.
-#[derive(Clone)]
-pub struct Execution<'a, M, S, X> {
-    pub(crate) system: &'a AnySystem<'a, M, S, X>,
+#[derive(Debug, Clone)]
+pub struct Execution<'a, T: HybridSystem> {
+    pub(crate) system: &'a T,
     pub(crate) limits: Limits,
     pub(crate) stop: Option<Stop>,
-    pub(crate) at: Point<M, S, X>,
+    pub(crate) at: Point<T::Mode, T::Surface, T::State>,
 }
 
-impl<M: Debug, S: Debug, X: Debug> Debug for Execution<'_, M, S, X> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Execution { limits, stop, at, .. } = self;
-        let mut fields = formatter.debug_struct("Execution");
-        fields.field("limits", limits).field("stop", stop).field("at", at).finish_non_exhaustive()
-    }
-}
-
-impl<'a, M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'a, M, S, X> {
+impl<'a, T: HybridSystem> Execution<'a, T> {
     /// Starts in `mode` from `state` at hybrid time (0, 0).
-    pub fn new(system: &'a AnySystem<'a, M, S, X>, mode: M, state: X, limits: Limits) -> Self {
+    pub fn new(system: &'a T, mode: T::Mode, state: T::State, limits: Limits) -> Self {
         let at = Point {
             mode,
             state,
@@ -66,7 +54,7 @@ impl<'a, M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'
     }
 
     /// The next arc. The state of the execution moves to the end of the arc.
-    fn arc(&mut self) -> Result<Arc<M, S, X>, Error> {
+    fn arc(&mut self) -> Result<AnArc<T>, Error> {
         self.check()?;
         let horizon = self.at.time.up_to(self.limits.time);
         // Events before a limit on time, a clock or another event that comes before the Zeno limit are followed.
@@ -142,7 +130,7 @@ impl<'a, M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'
     }
 
     /// An error if a state is not finite.
-    pub(crate) fn check_state(&self, time: f64, state: &X) -> Result<(), Error> {
+    pub(crate) fn check_state(&self, time: f64, state: &T::State) -> Result<(), Error> {
         if state.is_finite() {
             return Ok(());
         }
@@ -151,10 +139,12 @@ impl<'a, M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'
     }
 }
 
-impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Iterator
-    for Execution<'_, M, S, X>
-{
-    type Item = Result<Arc<M, S, X>, Error>;
+/// An arc of a system.
+pub(crate) type AnArc<T> =
+    Arc<<T as HybridSystem>::Mode, <T as HybridSystem>::Surface, <T as HybridSystem>::State>;
+
+impl<T: HybridSystem> Iterator for Execution<'_, T> {
+    type Item = Result<AnArc<T>, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
         if self.stop.is_some() {

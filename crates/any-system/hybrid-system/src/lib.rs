@@ -164,7 +164,7 @@ pub use sliding::Sliding;
 #[cfg(feature = "ode")]
 pub use sliding::{Filippov, FilippovMode, FilippovSurface};
 pub use state::{State, StateVector};
-pub use system::{AnySystem, HybridSystem, Reset, default_search};
+pub use system::{HybridSystem, Reset, default_search};
 pub use trajectory::{EventColumns, Trajectory};
 pub use zeno::ZenoLimit;
 

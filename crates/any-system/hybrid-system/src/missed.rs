@@ -19,7 +19,7 @@ const TIME_ULPS: f64 = 2.0;
 ///
 /// # Errors
 /// [`Error::MissedEvent`].
-pub(crate) fn check_missed<T: HybridSystem + ?Sized>(
+pub(crate) fn check_missed<T: HybridSystem>(
     arc: &FlowFrom<T>,
     residues: &Residues<T::Surface>,
     crossed: Option<T::Surface>,

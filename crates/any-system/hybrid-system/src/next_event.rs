@@ -8,18 +8,23 @@ use crate::guard::Role;
 use crate::lands_beyond::LandsBeyond;
 use crate::point::Point;
 use crate::start_rule::{ArcStart, Undeclared, start_of_arc};
-use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem};
-use std::fmt::Debug;
 
 /// The next event of an arc, the guards on whose surfaces it starts, and the clock up to which it was looked for.
-type NextAndLeaving<S, X> = (NextEvent<S, X>, LeavingGuards<S>, Option<ClockEvent<S>>);
+type NextAndLeaving<T> = (
+    NextEvent<<T as HybridSystem>::Surface, <T as HybridSystem>::State>,
+    LeavingGuards<<T as HybridSystem>::Surface>,
+    Option<ClockEvent<<T as HybridSystem>::Surface>>,
+);
 
-type StartAndLeaving<S> = (Result<ArcStart<S>, Error>, LeavingGuards<S>);
+type StartAndLeaving<T> = (
+    Result<ArcStart<<T as HybridSystem>::Surface>, Error>,
+    LeavingGuards<<T as HybridSystem>::Surface>,
+);
 
-impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M, S, X> {
+impl<T: HybridSystem> Execution<'_, T> {
     /// The next event: at once, at a preset time, or the first crossing.
-    pub(crate) fn next_event(&self, horizon: f64) -> Result<NextAndLeaving<S, X>, Error> {
+    pub(crate) fn next_event(&self, horizon: f64) -> Result<NextAndLeaving<T>, Error> {
         let Point { mode, ref state, ref time, .. } = self.at;
         let flow = self.flow();
         let (start, leaving) = self.start_of_arc(horizon);
@@ -79,7 +84,7 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
     }
 
     /// How the next arc starts, and the guards on whose surfaces it does.
-    pub(crate) fn start_of_arc(&self, horizon: f64) -> StartAndLeaving<S> {
+    pub(crate) fn start_of_arc(&self, horizon: f64) -> StartAndLeaving<T> {
         let Point { ref arrival, ref residues, initial, .. } = self.at;
         let mut leaving = LeavingGuards::new();
         let times = (horizon, self.limits.sampling_interval);
@@ -92,10 +97,10 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
     ///
     /// # Errors
     /// [`Error::BadLimit`] for a time that is not later than the present: the clock would never move on.
-    pub(crate) fn next_clock(&self, horizon: f64) -> Result<Option<ClockEvent<S>>, Error> {
+    pub(crate) fn next_clock(&self, horizon: f64) -> Result<Option<ClockEvent<T::Surface>>, Error> {
         let now = self.at.time.value();
         let guards = self.system.guards(self.at.mode).iter();
-        let mut earliest: Option<ClockEvent<S>> = None;
+        let mut earliest: Option<ClockEvent<T::Surface>> = None;
         for guard in guards.filter(|guard| guard.role == Role::Clock) {
             // A clock whose time is now, and that has not had its event yet, must not be lost.
             let had_its_event = self.at.initial || self.at.chain.contains(guard.surface);
@@ -149,6 +154,6 @@ impl<S> ClockEvent<S> {
 }
 
 /// The state at a time of a flow; the start itself at time zero.
-pub(crate) fn flow_to<T: HybridSystem + ?Sized>(flow: &FlowFrom<T>, time: f64) -> T::State {
+pub(crate) fn flow_to<T: HybridSystem>(flow: &FlowFrom<T>, time: f64) -> T::State {
     if time == 0.0 { flow.start.clone() } else { flow.system.flow(flow.mode, flow.start, time) }
 }

@@ -76,7 +76,7 @@ pub(crate) struct Undeclared {
 /// # Errors
 /// [`Error::StartsBeyond`], [`Error::NotFinite`] for a guard without a value, and errors if rounding hides to which
 /// side a guard leaves its surface.
-pub(crate) fn start_of_arc<T: HybridSystem + ?Sized>(
+pub(crate) fn start_of_arc<T: HybridSystem>(
     flow: &FlowFrom<T>,
     arrival: Option<&Arrival<T::Mode, T::Surface, T::State>>,
     residues: &Residues<T::Surface>,

@@ -202,106 +202,6 @@ pub trait HybridSystem {
     }
 }
 
-impl<T: HybridSystem + ?Sized> HybridSystem for &T {
-    type State = T::State;
-    type Mode = T::Mode;
-    type Surface = T::Surface;
-
-    fn flow(&self, mode: T::Mode, start: &T::State, time: f64) -> T::State {
-        (**self).flow(mode, start, time)
-    }
-
-    fn flow_at(
-        &self,
-        mode: T::Mode,
-        start: &T::State,
-        times: &[f64],
-    ) -> Result<Vec<T::State>, Error> {
-        (**self).flow_at(mode, start, times)
-    }
-
-    fn guards(&self, mode: T::Mode) -> &[Guard<T::Surface>] {
-        (**self).guards(mode)
-    }
-
-    fn guard_value(&self, surface: T::Surface, state: &T::State) -> f64 {
-        (**self).guard_value(surface, state)
-    }
-
-    fn reset(
-        &self,
-        mode: T::Mode,
-        surface: T::Surface,
-        before: &T::State,
-    ) -> Reset<T::Mode, T::State> {
-        (**self).reset(mode, surface, before)
-    }
-
-    fn rest(&self, mode: T::Mode, limit: &T::State) -> Option<(T::Mode, T::State)> {
-        (**self).rest(mode, limit)
-    }
-
-    fn slide(
-        &self,
-        sliding: &Sliding<T::Mode, T::Surface, T::State>,
-    ) -> Option<(T::Mode, T::State)> {
-        (**self).slide(sliding)
-    }
-
-    fn vector_field(&self, mode: T::Mode, state: &T::State) -> Option<T::State> {
-        (**self).vector_field(mode, state)
-    }
-
-    fn validate(&self, mode: T::Mode, start: &T::State) -> Result<(), Error> {
-        (**self).validate(mode, start)
-    }
-
-    fn guard_error(&self, surface: T::Surface, state: &T::State) -> Option<f64> {
-        (**self).guard_error(surface, state)
-    }
-
-    fn leaving_side(&self, mode: T::Mode, surface: T::Surface, start: &T::State) -> Option<f64> {
-        (**self).leaving_side(mode, surface, start)
-    }
-
-    fn next_time(&self, mode: T::Mode, surface: T::Surface, after: f64) -> Option<f64> {
-        (**self).next_time(mode, surface, after)
-    }
-
-    fn guard_quasi_polynomial(
-        &self,
-        mode: T::Mode,
-        surface: T::Surface,
-        start: &T::State,
-    ) -> Option<QuasiPolynomial> {
-        (**self).guard_quasi_polynomial(mode, surface, start)
-    }
-
-    fn guard_enclosure(
-        &self,
-        mode: T::Mode,
-        surface: T::Surface,
-        start: &T::State,
-        order: u32,
-        times: (f64, f64),
-    ) -> Option<Enclosure> {
-        (**self).guard_enclosure(mode, surface, start, order, times)
-    }
-
-    fn first_crossing(
-        &self,
-        mode: T::Mode,
-        start: &T::State,
-        search: &Search<T::Surface>,
-    ) -> Result<NextEvent<T::Surface, T::State>, Error> {
-        (**self).first_crossing(mode, start, search)
-    }
-}
-
-/// Any hybrid system with these modes, surfaces and states. Executions and searches see a system as this: they are compiled
-/// once for all systems with the same three types.
-pub type AnySystem<'a, M, S, X> = dyn HybridSystem<Mode = M, Surface = S, State = X> + 'a;
-
 /// The first crossing of a guard of `mode` along the flow of a system: what [`HybridSystem::first_crossing`] does
 /// unless a model overrides it. An override can call this function for some modes.
 ///
@@ -333,7 +233,6 @@ pub fn default_search<T: HybridSystem + ?Sized>(
     start: &T::State,
     search: &Search<T::Surface>,
 ) -> Result<NextEvent<T::Surface, T::State>, Error> {
-    let system: &AnySystem<'_, T::Mode, T::Surface, T::State> = &system;
     earliest_crossing(&FlowFrom { system, mode, start }, search)
 }
 

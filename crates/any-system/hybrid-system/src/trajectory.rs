@@ -52,7 +52,7 @@ pub struct EventColumns<M, S> {
     pub certainties: Vec<Certainty>,
 }
 
-impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M, S, X> {
+impl<T: HybridSystem> Execution<'_, T> {
     /// The rest of the execution as arrays, with states at the times of `grid`, which are continuous times t in
     /// ascending order. Times before the first arc or after the last one have no row.
     ///
@@ -77,7 +77,7 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug, X: StateVector> Execution<'_, M
     /// # Errors
     /// [`Error::BadLimit`] for a grid that is not in ascending order, or not finite; the errors of the execution, and
     /// those of [`Arc::states`].
-    pub fn trajectory(&mut self, grid: &[f64]) -> Result<Trajectory<M, S>, Error> {
+    pub fn trajectory(&mut self, grid: &[f64]) -> Result<Trajectory<T::Mode, T::Surface>, Error> {
         check_grid(grid)?;
         let system = self.system;
         let mut rows = Rows::new(self.at.state.dimension());
@@ -168,7 +168,7 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug> Rows<M, S> {
         grid: &[f64],
     ) -> Result<(), Error>
     where
-        T: HybridSystem<Mode = M, Surface = S> + ?Sized,
+        T: HybridSystem<Mode = M, Surface = S>,
     {
         let at_start = grid.iter().take_while(|&&time| time <= arc.time && time < end).count();
         self.push(arc.time, arc, arc.start.components(), at_start > 0);

@@ -14,7 +14,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     /// there: it jumps at the surface.
     pub(crate) fn is_beyond_jump<T>(&self, next: &FlowFrom<T>) -> bool
     where
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let Some(surface) = self.surface else { return false };
         let value = next.guard_value(surface, next.start);
@@ -34,7 +34,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     /// more, this motion leads beyond the surface. `None` if the arc before was too short to show that side.
     fn moved_on<T>(&self, next: &FlowFrom<T>, now: &X, surface: S) -> Option<f64>
     where
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let mut lookback = LOOKBACK * self.time_rounding.max(f64::EPSILON * self.duration);
         while lookback > 0.0 && lookback <= self.duration {
@@ -60,7 +60,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         longest: f64,
     ) -> Option<bool>
     where
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let now = next.guard_value(surface, next.start);
         let is_beyond = |state: &X| Some(self.moved_on(next, state, surface)? * now > 0.0);

@@ -15,7 +15,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     /// its far side may have gone and come back: its values before the end tell.
     pub(super) fn side_before<T>(&self, arc: &FlowFrom<T>, guard: &Guard<S>) -> Option<f64>
     where
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let value = |state: &X| arc.guard_value(guard.surface, state);
         let (start, now) = (value(arc.start), value(&self.before));
@@ -50,7 +50,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     /// is no rounding.
     fn was_on_side_before<T>(&self, arc: &FlowFrom<T>, surface: S, side: f64) -> bool
     where
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let value = |state: &X| arc.guard_value(surface, state);
         let mut lookback = LOOKBACK * self.time_rounding.max(f64::EPSILON * self.duration);
@@ -68,7 +68,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     /// Whether a guard that started on its surface has been clearly on `side` on the arc.
     pub(super) fn has_left<T>(&self, arc: &FlowFrom<T>, surface: S, side: f64) -> bool
     where
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         PLACES.iter().any(|part| {
             let state = arc.state(part * self.duration);
@@ -80,7 +80,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     /// are reached together by its formulas have signs of rounding.
     pub(super) fn side_by_rounding<T>(&self, arc: &FlowFrom<T>, surface: S) -> Option<f64>
     where
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let value = |state: &X| arc.guard_value(surface, state);
         let now = value(&self.before);
@@ -116,7 +116,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     /// rounding shows: the arc was too short. Its event has been before this arc, or is still to come.
     pub(super) fn has_stayed<T>(&self, arc: &FlowFrom<T>, surface: S) -> bool
     where
-        T: HybridSystem<State = X, Surface = S, Mode = M> + ?Sized,
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let is_zero =
             |state: &X| arc.guard_value(surface, state).abs() <= arc.rounding_at(surface, state);

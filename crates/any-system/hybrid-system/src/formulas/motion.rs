@@ -159,7 +159,7 @@ where
         mode: &str,
         start: impl Into<X>,
         time: f64,
-    ) -> Result<Execution<'_, Label, Label, X>, Error> {
+    ) -> Result<Execution<'_, Self>, Error> {
         let (mode, start) = (Label::new(mode)?, start.into());
         self.validate(mode, &start)?;
         Ok(self.run(mode, start, time))

@@ -37,7 +37,7 @@ const TOLERANCES: [&str; 5] = ["relative", "absolute", "longest_step", "check_in
 ///     .model::<State<2>>()?;
 /// let mut run = ball.start("flight", [1.0, 0.0], 3.0)?;
 /// run.next();
-/// let text = ball.saved(&run)?.to_json()?;
+/// let text = run.saved().to_json()?;
 /// let rest: Vec<_> = run.collect::<Result<_, _>>()?;
 /// let saved = SavedRun::<State<2>>::from_json(&text)?;
 /// let again = saved.go_on(Limits::new(3.0, 1_000_000));
@@ -52,23 +52,17 @@ pub struct SavedRun<X> {
     pub checkpoint: Checkpoint<Label, Label, X>,
 }
 
-impl<X: StateVector> EquationsModel<X> {
-    /// An execution of this model as data, between two arcs.
-    ///
-    /// # Errors
-    /// [`Error::BadEquations`] for an execution of another model.
-    pub fn saved(&self, run: &Execution<'_, Label, Label, X>) -> Result<SavedRun<X>, Error> {
-        if !std::ptr::addr_eq(self, run.system) {
-            return bad("the execution", "it is of another model: save it with its own");
-        }
-        Ok(SavedRun { model: self.clone(), checkpoint: run.checkpoint() })
+impl<X: StateVector> Execution<'_, EquationsModel<X>> {
+    /// The execution as data, between two arcs.
+    pub fn saved(&self) -> SavedRun<X> {
+        SavedRun { model: self.system.clone(), checkpoint: self.checkpoint() }
     }
 }
 
 impl<X: StateVector> SavedRun<X> {
     /// The execution from here on, up to these limits. It has no further arcs if it had ended for another reason than a
     /// limit: [`Execution::stop`] tells which.
-    pub fn go_on(&self, limits: Limits) -> Execution<'_, Label, Label, X> {
+    pub fn go_on(&self, limits: Limits) -> Execution<'_, EquationsModel<X>> {
         let mut execution = Execution::restore(&self.model, self.checkpoint.clone(), limits);
         let _ = execution.go_on(limits);
         execution

@@ -387,7 +387,7 @@ where
     /// The execution from `start` in `mode`, up to the time `time` and at most a million events: an iterator over its arcs.
     ///
     /// [`Execution::new`] takes the other limits.
-    pub fn run(&self, mode: M, start: impl Into<X>, time: f64) -> Execution<'_, M, S, X> {
+    pub fn run(&self, mode: M, start: impl Into<X>, time: f64) -> Execution<'_, Self> {
         let mut limits = Limits::new(time, MOST_EVENTS);
         limits.sampling_interval = self.sampling_interval;
         Execution::new(self, mode, start.into(), limits)

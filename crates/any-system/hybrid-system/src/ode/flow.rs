@@ -6,7 +6,7 @@ use super::tolerances::Tolerances;
 use crate::crossing::{NextEvent, Search};
 use crate::error::Error;
 use crate::state::StateVector;
-use crate::system::{AnySystem, HybridSystem};
+use crate::system::HybridSystem;
 
 /// The state after `time` along ẋ = f(x): the value that [`HybridSystem::flow`](crate::HybridSystem::flow) returns in a
 /// mode without closed form.
@@ -180,10 +180,7 @@ where
         let integration = Integration::new(&field, start, tolerances)?.autonomous();
         Ok(integration.until(request.horizon)?.starting_with(longest_first))
     };
-    let rate = field(0.0, start);
-    // The field is compiled into the steps. All else sees the system by its three types.
-    let system: &AnySystem<'_, T::Mode, T::Surface, T::State> = &system;
-    search(system, mode, (start, &rate), request, integration, tolerances)
+    search(system, mode, (start, &field(0.0, start)), request, integration, tolerances)
 }
 
 /// f of a mode. Its components are NaN where the model gives no field.

@@ -8,7 +8,7 @@ use super::tolerances::Tolerances;
 use crate::crossing::{NextEvent, Search};
 use crate::error::Error;
 use crate::state::StateVector;
-use crate::system::{AnySystem, HybridSystem};
+use crate::system::HybridSystem;
 use equations::{Series, TaylorFlow};
 use smallvec::SmallVec;
 
@@ -58,7 +58,6 @@ pub(crate) fn taylor_crossing<T: HybridSystem + ?Sized>(
         let motion = TaylorIntegration::new(series, start, horizon, &tolerances, watched.clone())?;
         Ok(TaylorIntegration { longest_first, ..motion })
     };
-    let system: &AnySystem<'_, T::Mode, T::Surface, T::State> = &system;
     let rate = system.vector_field(mode, start);
     let rate = rate.unwrap_or_else(|| start.filled(|_| f64::NAN));
     search(system, mode, (start, &rate), request, integration, tolerances)

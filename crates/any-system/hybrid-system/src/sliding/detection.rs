@@ -53,7 +53,7 @@ pub(crate) struct AtOnce<'a, M, S, X> {
 
 /// The sliding point, if the last event and this event at once lead to each other and the fields on both sides point at
 /// the surface.
-pub(crate) fn sliding_point<T: HybridSystem + ?Sized>(
+pub(crate) fn sliding_point<T: HybridSystem>(
     system: &T,
     at: &AtOnce<T::Mode, T::Surface, T::State>,
 ) -> Option<Sliding<T::Mode, T::Surface, T::State>> {
@@ -99,7 +99,7 @@ pub(crate) fn sliding_point<T: HybridSystem + ?Sized>(
 }
 
 /// True if the event of this mode and surface leads to the mode `to` and leaves the state where it is.
-fn leads_to<T: HybridSystem + ?Sized>(
+fn leads_to<T: HybridSystem>(
     system: &T,
     (mode, surface): (T::Mode, T::Surface),
     state: &T::State,
@@ -122,7 +122,7 @@ pub(crate) fn is_unchanged<X: StateVector>(before: &X, after: &X) -> bool {
 
 /// True if `mode` has a guard of this surface that is an event for a state that passes to this side, ±1. A guard that
 /// counts both ways never is an event at once.
-fn fires_towards<T: HybridSystem + ?Sized>(
+fn fires_towards<T: HybridSystem>(
     system: &T,
     (mode, surface): (T::Mode, T::Surface),
     side: f64,
@@ -137,7 +137,7 @@ fn fires_towards<T: HybridSystem + ?Sized>(
 
 /// True if the state is on the surface: within rounding of the guard, or as close as the crossing before, or so
 /// close that a motion at this rate of the guard takes less than some roundings of the time.
-fn is_on_surface<T: HybridSystem + ?Sized>(
+fn is_on_surface<T: HybridSystem>(
     system: &T,
     surface: T::Surface,
     at: &AtOnce<T::Mode, T::Surface, T::State>,
@@ -152,18 +152,14 @@ fn is_on_surface<T: HybridSystem + ?Sized>(
 }
 
 /// The rounding error of a guard, from its state and from its own arithmetic.
-pub(super) fn rounding<T: HybridSystem + ?Sized>(
-    system: &T,
-    surface: T::Surface,
-    state: &T::State,
-) -> f64 {
+pub(super) fn rounding<T: HybridSystem>(system: &T, surface: T::Surface, state: &T::State) -> f64 {
     let guard = |state: &T::State| system.guard_value(surface, state);
     stated_or_measured(system.guard_error(surface, state), state, &guard)
 }
 
 /// The factor c of ∇g = c ∇h for the guards g of `surface` and h of `other`, if the two are the same surface near
 /// `state`: h = g/c there, within rounding, and the gradients are parallel. `None` if the surfaces differ.
-pub(super) fn same_surface<T: HybridSystem + ?Sized>(
+pub(super) fn same_surface<T: HybridSystem>(
     system: &T,
     surface: T::Surface,
     other: T::Surface,

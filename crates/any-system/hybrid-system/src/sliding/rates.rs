@@ -32,7 +32,7 @@ impl GuardRates {
 /// | a quasi-polynomial | its derivative | measured: the change under the rounding of the state |
 /// | enclosures of order 1 | the middle of the interval | half its width |
 /// | a field | the difference of order eight along the field | the distance from order six, and rounding |
-pub(crate) fn guard_rates<T: HybridSystem + ?Sized>(
+pub(crate) fn guard_rates<T: HybridSystem>(
     system: &T,
     mode: T::Mode,
     surface: T::Surface,
@@ -43,7 +43,7 @@ pub(crate) fn guard_rates<T: HybridSystem + ?Sized>(
         .or_else(|| by_field(system, mode, surface, state))
 }
 
-fn by_quasi_polynomial<T: HybridSystem + ?Sized>(
+fn by_quasi_polynomial<T: HybridSystem>(
     system: &T,
     mode: T::Mode,
     surface: T::Surface,
@@ -68,7 +68,7 @@ fn by_quasi_polynomial<T: HybridSystem + ?Sized>(
     })
 }
 
-fn by_enclosure<T: HybridSystem + ?Sized>(
+fn by_enclosure<T: HybridSystem>(
     system: &T,
     mode: T::Mode,
     surface: T::Surface,
@@ -82,7 +82,7 @@ fn by_enclosure<T: HybridSystem + ?Sized>(
     Some(GuardRates { first: derivative(1)?, second: derivative(2) })
 }
 
-fn by_field<T: HybridSystem + ?Sized>(
+fn by_field<T: HybridSystem>(
     system: &T,
     mode: T::Mode,
     surface: T::Surface,
