@@ -2,6 +2,19 @@
 
 use thiserror::Error;
 
+impl Error {
+    /// The same error of a motion whose times begin so much later.
+    #[must_use]
+    pub fn later(mut self, by: f64) -> Error {
+        if let Error::NoValue { time, .. } = &mut self
+            && let Ok(own) = time.parse::<f64>()
+        {
+            *time = format!("{:?}", own + by);
+        }
+        self
+    }
+}
+
 /// Why a formula was not made, read or evaluated.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]

@@ -331,6 +331,20 @@ fn a_formula_without_a_value_is_named() {
         Equations::new(&["x"], &[]).mode_text("m", &["-1 - 0*ln(x)"]).model::<State<1>>().unwrap();
     let error = model.start("m", [1.0], 5.0).unwrap().next().unwrap().unwrap_err().to_string();
     assert!(error.contains("ln(x)"), "{error}");
+    // So is that of a guard, at its own time: here in the second arc.
+    for guard in ["ln(x) + 1000", "sqrt(x) + 1"] {
+        let model = Equations::new(&["x"], &[]).mode_text("m", &["-1 - 0*ln(x + 9)"]);
+        let model = model.falling_text("half", "x - 0.5").falling_text("other", guard);
+        let model = model.model::<State<1>>().unwrap();
+        let mut arcs = model.start("m", [1.0], 5.0).unwrap();
+        assert!(arcs.next().unwrap().unwrap().event().is_some());
+        let error = arcs.next().unwrap().unwrap_err().to_string();
+        assert!(error.contains("(x) has no finite value"), "{error}");
+        assert!(error.contains("t = 1.0"), "{error}");
+        // The motion itself goes on.
+        let end = model.flow(Label::new("m").unwrap(), &State::from([1.0]), 3.0);
+        assert!((end[0] + 2.0).abs() < 1e-12);
+    }
     // The event before is found.
     let model = Equations::new(&["x"], &[])
         .mode_text("m", &["-1 - 0*ln(x)"])

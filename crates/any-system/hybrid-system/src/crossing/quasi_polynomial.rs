@@ -137,6 +137,13 @@ impl QuasiPolynomial {
         self.terms.iter().map(|term| term.value(time)).sum()
     }
 
+    /// Σ e^(σt) Σ δ_k t^k with the errors δ_k of the coefficients, and of their terms by evaluation, where it is largest up to
+    /// this time.
+    #[cfg(feature = "ode")]
+    pub(crate) fn error_until(&self, time: f64) -> f64 {
+        self.terms.iter().map(|term| term.error_until(time)).sum()
+    }
+
     /// g′.
     #[must_use]
     pub fn derivative(&self) -> Self {

@@ -2,6 +2,10 @@
 
 use super::rounded::Rounded;
 
+/// The rounding of a term by its evaluation, in ulps of its coefficient.
+#[cfg(feature = "ode")]
+const TERM_ULPS: f64 = 2.0;
+
 /// exp(σt) (p(t) cos ωt + q(t) sin ωt), with polynomials p and q, lowest power first, and ω ≥ 0.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Term {
@@ -54,6 +58,18 @@ impl Term {
         } else {
             interval_arithmetic::exp(self.sigma.value * time) * oscillation
         }
+    }
+
+    /// e^(σt) Σ δ_k t^k where it is largest up to a time, with the errors δ_k of the coefficients and of their own evaluation.
+    #[cfg(feature = "ode")]
+    pub(crate) fn error_until(&self, time: f64) -> f64 {
+        let error = |c: &Rounded| c.error + TERM_ULPS * f64::EPSILON * c.value.abs();
+        let series = |coefficients: &[Rounded]| {
+            coefficients.iter().rev().fold(0.0, |sum, c| sum * time.abs() + error(c))
+        };
+        let growth = self.sigma.value * time;
+        let largest = if growth > 0.0 { interval_arithmetic::exp(growth) } else { 1.0 };
+        largest * (series(&self.cos) + series(&self.sin))
     }
 
     /// (exp(σt)(p cos + q sin))′ = exp(σt)((p′ + σp + ωq) cos + (q′ + σq − ωp) sin).

@@ -148,30 +148,15 @@ fn is_known(function: &QuasiPolynomial) -> bool {
 }
 
 /// Parts of a motion at which its size is looked at: its ends, and some that no periodic motion passes at zero.
-const LOOKS: [f64; 8] = [1.0, 0.0, 0.382, 0.764, 0.146, 0.528, 0.910, 0.292];
-
-/// The rounding of a term by its evaluation, in ulps of its coefficient.
-const TERM_ULPS: f64 = 2.0;
+const LOOKS: [f64; 8] = [0.0, 1.0, 0.382, 0.764, 0.146, 0.528, 0.910, 0.292];
 
 /// True if the errors of a function up to a time are small beside its size there, or below the absolute tolerance.
 ///
 /// The errors of rates and frequencies do not count: they are those of the model's own numbers, and an integration has them
 /// too.
 pub(super) fn is_sharp(function: &QuasiPolynomial, time: f64, absolute: f64) -> bool {
-    let error = error_until(&function.to_parts(), time);
+    let error = function.error_until(time);
     LOOKS.iter().any(|part| error <= SHARP * function.value(part * time).abs() + absolute)
-}
-
-/// Σ e^(σt) Σ δ_k t^k with the errors δ_k of the terms, where it is largest up to this time.
-fn error_until(parts: &[QuasiPolynomialPart], time: f64) -> f64 {
-    let of = |(value, error): &(f64, f64)| error + TERM_ULPS * f64::EPSILON * value.abs();
-    let errors = parts.iter().map(|((sigma, _), _, cos, sin)| {
-        let both = cos.iter().map(of).chain(sin.iter().map(of));
-        let powers = (0..cos.len()).chain(0..sin.len());
-        let sum: f64 = both.zip(powers).map(|(c, k)| c * time.abs().powi(k as i32)).sum();
-        sum * pxfm::f_exp((sigma * time).max(0.0))
-    });
-    errors.sum()
 }
 
 /// A complex number.

@@ -54,7 +54,12 @@ impl<X: StateVector> Motion<Label, X> for TaylorMotion {
         let last = times.last().copied().unwrap_or(0.0);
         let motion = program.closed_form(start.components());
         let Some(motion) = motion.filter(|own| own.is_sharp_until(last, &self.tolerances)) else {
-            return taylor_states(&program.series, start, times, &self.tolerances);
+            let of = |series: &Series| taylor_states(series, start, times, &self.tolerances);
+            // Steps end where a guard has no value. The motion goes on.
+            return of(&program.series).or_else(|error| match program.guards.is_empty() {
+                true => Err(error),
+                false => of(&Series::new(&program.field, None)?),
+            });
         };
         let at = |time: f64| start.filled(|axis| motion.components[axis].value(time));
         Ok(times.iter().map(|&time| if time == 0.0 { start.clone() } else { at(time) }).collect())
@@ -77,8 +82,8 @@ impl<X: StateVector> Motion<Label, X> for TaylorMotion {
         let program = self.mode(mode)?;
         // The equations' guards come first among those of a mode.
         let own = program.guards.len();
-        let all = system.guards(mode).iter().filter(|guard| guard.role != Role::Clock).count();
-        if all == own
+        let searched = || system.guards(mode).iter().filter(|guard| guard.role != Role::Clock);
+        if searched().count() == own
             && search.horizon.is_finite()
             && let Some(motion) = program.closed_form(start.components())
         {
@@ -92,17 +97,26 @@ impl<X: StateVector> Motion<Label, X> for TaylorMotion {
                 return found;
             }
         }
-        let searched = system.guards(mode).iter().filter(|guard| guard.role != Role::Clock);
-        let watched = searched.enumerate().map(|(place, _)| (place < own).then_some(place));
+        let watched = searched().enumerate().map(|(place, _)| (place < own).then_some(place));
         let motion = (&program.series, watched.collect());
-        match taylor_crossing(system, mode, start, (search, self.tolerances), motion)? {
+        match taylor_crossing(system, mode, start, (search, self.tolerances), motion) {
             // Without guards nothing was integrated: the end of the arc, or why it is not reached.
-            NextEvent::None { state: None, certainty } if search.horizon.is_finite() => {
+            Ok(NextEvent::None { state: None, certainty }) if search.horizon.is_finite() => {
                 let state = self.states(system, mode, start, &[search.horizon])?.pop();
                 Ok(NextEvent::None { state, certainty })
             }
-            found => Ok(found),
+            Err(Error::NotFinite { at, value }) => {
+                let state = self.states(system, mode, start, &[at]).ok().and_then(|mut s| s.pop());
+                let part = state.and_then(|state| guard_without_value(program, &state));
+                Err(part.map_or(Error::NotFinite { at, value }, |error| error.later(at).into()))
+            }
+            found => found,
         }
+        .map_err(|error| match error {
+            // The time of an arc begins at zero.
+            Error::Formula(error) => Error::Formula(error.later(search.time)),
+            other => other,
+        })
     }
 
     fn validate(&self, mode: Label, start: &X) -> Result<(), Error> {
@@ -118,6 +132,15 @@ impl<X: StateVector> Motion<Label, X> for TaylorMotion {
         }
         self.tolerances.check(found)
     }
+}
+
+/// The error of the first guard that has no value at a state.
+fn guard_without_value<X: StateVector>(
+    program: &ModeProgram,
+    state: &X,
+) -> Option<equations::Error> {
+    let values = program.guards.iter().map(|guard| guard.function.values(0.0, state.components()));
+    values.filter_map(Result::err).next()
 }
 
 impl<X, P> Model<Label, Label, X, TaylorMotion, P> {
