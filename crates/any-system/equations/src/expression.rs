@@ -186,6 +186,9 @@ impl Neg for Expression<'_> {
 }
 
 /// The parameters by their names, `p["damping"]`. A name that is none makes the formulas an error.
+///
+/// They are looked up by text, and are no fields of a struct that a macro makes: the names may come from a file, a text or
+/// another language, and one that is wrong is an error value with the name in it.
 pub struct Parameters<'g> {
     pub(crate) names: &'g [String],
     pub(crate) symbols: Vec<Expression<'g>>,

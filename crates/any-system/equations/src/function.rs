@@ -10,7 +10,7 @@ use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
-/// A function of one number that formulas do not have, with all that they need of it: its value, its enclosures, and its
+/// A function of one number, and of no more, that formulas do not have, with all that they need of it: its value, its enclosures, and its
 /// derivative as an expression, from which all higher ones and the Taylor series follow.
 ///
 /// ```

@@ -13,10 +13,12 @@
 //! | [`Series`], [`Coefficients`] | Taylor series along the motion, to any order, in `f64` or in enclosures |
 //! | [`TaylorFlow`], [`Step`] | the motion by Taylor's method: a polynomial for each step |
 //! | [`TaylorFlow::states_at`] | the motions of many starts side by side, with the same bits |
+//! | [`JetSeries`], [`Jet`] | derivatives of any order in one direction, of values and of motions, as polynomials |
 //! | [`Formulas::texts`], [`Formulas::latex`] | the formulas, written |
 //! | [`Formulas::to_json`], [`Formulas::from_json`], [`Formulas::content_hash`] | the formulas as data, with exact numbers |
 //! | [`Expression`], [`Term`], [`Parameters`] | what a closure computes with |
-//! | [`Function`] | a function of the user's own, with its derivative and its enclosure |
+//! | [`Function`], [`Names::with_functions`] | a function of the user's own, with its derivative and its enclosure |
+//! | [`Constant`], [`Decimal`] | a number of a formula: the decimal that is written, or a double |
 //!
 //! ```
 //! use equations::{Formulas, Names, Series};

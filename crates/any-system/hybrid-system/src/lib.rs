@@ -10,6 +10,8 @@
 //! |---|---|
 //! | `Equations` | a model by its equations, written once: events, exact derivatives, JSON (feature `ode`) |
 //! | `Along`, `ExecutionJet` | derivatives of a whole execution, to any order (feature `ode`) |
+//! | `SavedRun` | an execution of equations as a file, which another program goes on with (features `ode` and `serde`) |
+//! | `Function`, `Label` | a function that equations call and a user brings; the name of a mode or a surface (feature `ode`) |
 //! | [`Model`] | a model written with closures, in some 20 lines |
 //! | [`HybridSystem`] | the trait of a model: flow, guards, guard values, reset |
 //! | [`Guard`], [`Direction`] | a switching surface, and the direction in which a crossing counts |
@@ -59,8 +61,8 @@
 //! `dry_friction` a mass sticks to a belt.
 //!
 //! # Features
-//! `ode`: modes given as ẋ = f(x), and sliding modes. `serde`: checkpoints that can be saved and loaded. Both are
-//! off by default.
+//! `ode`: models by their equations, modes given as ẋ = f(x), and sliding modes. `serde`: checkpoints, and with `ode` runs of
+//! equations, that can be saved and loaded. Both are off by default.
 //!
 //! # Accuracy
 //! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard given
@@ -70,8 +72,8 @@
 //! crossing states whether it was found by sampling.
 //!
 //! # Speed
-//! Executions of fixed dimension with integrated modes allocate no memory, up to eight guards a mode. Quasi-polynomials
-//! allocate their coefficients. `cargo bench -p hybrid-system --features ode` measures the cost of an event for each
+//! Executions of fixed dimension whose modes are integrated from closures allocate no memory, up to eight guards a mode, two of
+//! them on their surfaces at once. Equations and quasi-polynomials allocate their coefficients. `cargo bench -p hybrid-system --features ode` measures the cost of an event for each
 //! kind of guard.
 //!
 //! # Not here

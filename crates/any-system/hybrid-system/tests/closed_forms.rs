@@ -79,8 +79,7 @@ fn chains_of_components_with_forcing() {
 /// Resonance and its neighbours: (cos ωt − cos t)/(1 − ω²), or t sin t/2.
 #[test]
 fn a_resonance_and_its_neighbours_are_right() {
-    for omega in [1.0f64, 1.0 + f64::EPSILON, 1.0 - f64::EPSILON, 1.0 + 1e-9, 1.0 + 1e-4, 1.01, 1.7]
-    {
+    for omega in [1.0f64, 1f64.next_up(), 1f64.next_down(), 1.0 + 1e-9, 1.0 + 1e-4, 1.01, 1.7] {
         let forced = Equations::new(&["x", "v"], &[])
             .mode("m", move |t, x, _| [x[1], (omega * t).cos() - x[0]])
             .either("zero", |_, x, _| x[0]);
@@ -91,6 +90,8 @@ fn a_resonance_and_its_neighbours_are_right() {
             (1..).map(|k| PI * f64::from(k) / a).take_while(|t| *t < 20.0).collect();
         exact.extend((1..).map(|k| PI * f64::from(k) / b).take_while(|t| *t < 20.0));
         exact.sort_by(f64::total_cmp);
+        // At the resonance, and near it, it is integrated.
+        assert_eq!(all_certain(&found), omega >= 1.0001, "{omega}");
         // Double zeros are touches, which this guard does not have at these frequencies.
         assert_eq!(found.len(), exact.len(), "{omega}: {found:?} {exact:?}");
         assert_times(&found, |k| exact[k], 2e-9);
@@ -100,12 +101,14 @@ fn a_resonance_and_its_neighbours_are_right() {
 /// Critical damping and its neighbours: x = (1 + (1 + v₀)t)e^(−t) has its zero at −1/(1 + v₀).
 #[test]
 fn critical_damping_and_its_neighbours_are_right() {
-    for damping in [2.0, 2.0 + 2.0 * f64::EPSILON, 2.0 - f64::EPSILON, 2.0 + 1e-9] {
+    for damping in [2.0, 2f64.next_up(), 2f64.next_down(), 2.0 + 1e-9] {
         let oscillator = Equations::new(&["x", "v"], &[])
             .mode("m", move |_, x, _| [x[1], -x[0] - damping * x[1]])
             .falling("zero", |_, x, _| x[0]);
         let found = events(&oscillator, ("m", [1.0, -3.0], 30.0));
         assert_eq!(found.len(), 1, "{damping}");
+        // Beside the double root the motion is integrated.
+        assert_eq!(all_certain(&found), damping == 2.0, "{damping}");
         assert!((found[0].0 - 0.5).abs() < 1e-8, "{damping}: {found:?}");
     }
     let exact = Equations::new(&["x", "v"], &[])

@@ -40,6 +40,7 @@ fn the_first_periodic_orbit_of_roessler() {
     assert!((point[1] - 0.029_590_060_630_665).abs() < 1e-12, "{point:?}");
 }
 
+/// The period 4 K(sin(a/2)) at a = 1: its Taylor coefficients by the amplitude (mpmath).
 #[test]
 fn derivatives_of_a_period_to_the_third_order() {
     let exact = [
@@ -59,6 +60,8 @@ fn derivatives_of_a_period_to_the_third_order() {
     }
 }
 
+/// Along an impacting orbit: the chain of saltation matrices, the derivative along one direction, and the difference of
+/// two runs.
 #[test]
 fn derivatives_through_impacts_agree() {
     let oscillator = Equations::new(&["x", "v"], &[("damping", "0.1")])
@@ -112,6 +115,7 @@ fn derivatives_through_impacts_agree() {
     assert!(model.jet::<2>(&arcs, &Along::start(&[1.0])).is_err());
 }
 
+/// x = sin t touches 1, and passes 1 − δ slowly: the derivative of the time is −tan of the phase, and infinite at last.
 #[test]
 fn derivatives_are_refused_at_a_grazing() {
     let circle = |level: f64| {

@@ -118,8 +118,6 @@ fn a_planet_passes_its_apocentres() {
     }
 }
 
-/// Rössler's system, section x = 0, ẋ > 0: the orbit of period one meets it near y = −8.3809417428298,
-/// z = 0.029590060630665 (CAPD), found here by Newton's method with the derivatives of the model.
 /// A ball on a floor, with its Zeno limit at 3 times the fall, and rest behind it.
 #[test]
 fn a_ball_comes_to_rest() {
@@ -229,10 +227,6 @@ fn another_process_runs_the_same_bits() {
     assert_eq!(bits.len() % 16, 0);
 }
 
-/// The period 4 K(sin(a/2)) at a = 1: its Taylor coefficients by the amplitude (mpmath).
-/// Along an impacting orbit: the chain of saltation matrices, the derivative along one direction, and the difference of
-/// two runs.
-/// x = sin t touches 1, and passes 1 − δ slowly: the derivative of the time is −tan of the phase, and infinite at last.
 #[test]
 fn wrong_equations_are_refused() {
     let names = || Equations::new(&["x"], &[("a", "2")]);

@@ -121,9 +121,6 @@ impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
             .filter(|guard| guard.surface == surface)
             .map(|guard| guard.function.first_value(0.0, state.components()));
         let differs = |own: &f64| *own != value && !(own.is_nan() && value.is_nan());
-        {
-            let mut values = values;
-            values.find(differs)
-        }
+        values.into_iter().find(differs)
     }
 }

@@ -1,4 +1,5 @@
-//! The hopper by its equations of motion alone: each phase is integrated, and its end is searched along the solution.
+//! The hopper by its equations of motion alone: flights are integrated by Taylor series, and the closed form of a contact is
+//! found by the library.
 
 use crate::error::Error;
 use hybrid_system::{
