@@ -133,18 +133,23 @@ fn is_affine(field: &Formulas, row: usize, components: &[usize]) -> bool {
     true
 }
 
-/// The largest error of a coefficient, relative to the largest one, and of a closed form, relative to its own size on the
-/// motion. Coefficients are large and cancel where a root is small beside the forcing, near a resonance and near a double
-/// root. A larger number would give motions with fewer digits than an integration; a smaller one would integrate what has a
-/// closed form.
-const SHARP: f64 = 1e-11;
+/// The largest error of a coefficient, relative to the largest one. Near a resonance and near a double root coefficients are
+/// large, and their errors hide the signs of the motion at its start. A larger number would hide more; a smaller one would
+/// integrate what has a closed form.
+const KNOWN: f64 = 1e-11;
+
+/// The largest bound on the error of a closed form, relative to its own size on the motion. Coefficients are large and cancel
+/// where a root is small beside the forcing, near a resonance and near a double root. The bound is some ten times the error. A
+/// larger number would give motions with fewer digits than an integration; a smaller one would integrate what has a closed
+/// form.
+const SHARP: f64 = 1e-10;
 
 /// True if the coefficients are known well beside the largest one: else the signs of the motion at its start are hidden.
 fn is_known(function: &QuasiPolynomial) -> bool {
     let parts = function.to_parts();
     let numbers = || parts.iter().flat_map(|(_, _, cos, sin)| cos.iter().chain(sin));
     let largest = numbers().map(|(value, _)| value.abs()).fold(0.0, f64::max);
-    numbers().all(|(_, error)| *error <= SHARP * largest)
+    numbers().all(|(_, error)| *error <= KNOWN * largest)
 }
 
 /// Parts of a motion at which its size is looked at: its ends, and some that no periodic motion passes at zero.
