@@ -1,7 +1,9 @@
 //! One program for all tests of this crate: it links once.
 #![allow(clippy::unwrap_used)]
 
+mod bits;
 mod known_functions;
+mod known_maps;
 mod models;
 mod random_formulas;
 mod reading;

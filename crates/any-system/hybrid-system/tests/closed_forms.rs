@@ -98,6 +98,24 @@ fn a_resonance_and_its_neighbours_are_right() {
     }
 }
 
+/// A forced oscillator first meets a stop where its amplitude F/√((1 − ω²)² + (2ζω)²) is the gap.
+#[test]
+fn the_first_grazing_is_where_the_amplitude_is_the_gap() {
+    let (force, omega, zeta) = (1.0f64, 0.8f64, 0.05f64);
+    let (stiff, damped) = (1.0 - omega * omega, 2.0 * zeta * omega);
+    let amplitude = force / stiff.hypot(damped);
+    let phase = damped.atan2(stiff);
+    for (part, impacts) in [(1.0 + 1e-9, 0), (1.0 - 1e-9, 5)] {
+        let gap = part * amplitude;
+        let oscillator = Equations::new(&["x", "v"], &[("zeta", "0.05")])
+            .mode("m", |t, x, p| [x[1], (0.8 * t).cos() - x[0] - 2.0 * p["zeta"] * x[1]])
+            .rising("stop", |_, x, _| x[0] - gap);
+        let start = [amplitude * phase.cos(), amplitude * omega * phase.sin(), 0.0];
+        let found = events(&oscillator, ("m", start, 5.0 * 2.0 * PI / omega));
+        assert!(found.len() == impacts && all_certain(&found), "{part}: {found:?}");
+    }
+}
+
 /// Critical damping and its neighbours: x = (1 + (1 + v₀)t)e^(−t) has its zero at −1/(1 + v₀).
 #[test]
 fn critical_damping_and_its_neighbours_are_right() {

@@ -370,6 +370,10 @@ fn files_of_any_bytes_are_safe() {
         let found = Equations::from_json(&good.replacen(from, to, 1));
         assert!(found.is_err(), "{from} {found:?}");
     }
+    // The error names the part.
+    let wrong = good.replacen("\"outputs\":[", "\"outputs\":[99,", 1);
+    let error = Equations::from_json(&wrong).unwrap_err().to_string();
+    assert!(error.contains("the field of mode swing, outputs[0]"), "{error}");
 }
 
 /// Steps at ends: an event at the horizon, at the start of time, on every step, and at a time of 10⁹.

@@ -106,9 +106,10 @@ impl Equations {
         equations.everywhere = guards(&file["everywhere"], &names)?;
         for mode in list(&file["modes"], "modes")? {
             let name = label(mode, "name")?;
-            let field = Formulas::from_value(names.clone(), &mode["field"])?;
+            let field = formulas(&mode["field"], &names, &format!("the field of mode {name}"))?;
             let guards = guards(&mode["guards"], &names)?;
-            let after_limit = jump(&mode["after_limit"], &names)?;
+            let after_limit =
+                jump(&mode["after_limit"], &names, &format!("the limit of mode {name}"))?;
             equations.modes.push(ModeEquations { name, field, guards, after_limit });
         }
         equations.check()?;
@@ -137,13 +138,26 @@ fn guards(value: &Value, names: &Names) -> Result<Vec<GuardEquations>, Error> {
             role: word(value, "role", &ROLES)?,
             touch: word(value, "touch", &TOUCHES)?,
         };
-        let function = Formulas::from_value(names.clone(), &value["function"])?;
-        Ok(GuardEquations { guard, function, jump: jump(&value["jump"], names)? })
+        let place = format!("guard {}", guard.surface);
+        let function = formulas(&value["function"], names, &place)?;
+        Ok(GuardEquations { guard, function, jump: jump(&value["jump"], names, &place)? })
     };
     list(value, "guards")?.iter().map(guard).collect()
 }
 
-fn jump(value: &Value, names: &Names) -> Result<Option<Jump>, Error> {
+/// The formulas of a part of the equations, which an error names.
+fn formulas(value: &Value, names: &Names, part: &str) -> Result<Formulas, Error> {
+    let read = Formulas::from_value(names.clone(), value);
+    let named = read.map_err(|error| match error {
+        equations::Error::File { place, reason } => {
+            equations::Error::File { place: format!("{part}, {place}"), reason }
+        }
+        other => other,
+    });
+    Ok(named?)
+}
+
+fn jump(value: &Value, names: &Names, part: &str) -> Result<Option<Jump>, Error> {
     let Value::Object(entries) = value else {
         return if value.is_null() {
             Ok(None)
@@ -152,7 +166,8 @@ fn jump(value: &Value, names: &Names) -> Result<Option<Jump>, Error> {
         };
     };
     let mode = entries.contains_key("mode").then(|| label(value, "mode")).transpose()?;
-    let state = entries.get("state").map(|state| Formulas::from_value(names.clone(), state));
+    let state = entries.get("state");
+    let state = state.map(|state| formulas(state, names, &format!("the state after {part}")));
     Ok(Some(Jump { mode, state: state.transpose()? }))
 }
 
