@@ -2,6 +2,7 @@
 
 use crate::crossing::{Certainty, EventKind};
 use crate::error::Error;
+use crate::guard::Direction;
 use crate::sliding::Sliding;
 use crate::state::StateVector;
 use crate::system::HybridSystem;
@@ -30,6 +31,8 @@ pub struct Event<M, S, X> {
     pub after: Option<(M, X)>,
     /// A crossing, a touch, an event at once, or a preset time.
     pub kind: EventKind,
+    /// How the guard has changed its sign, `Rising` or `Falling`; `None` for a touch and for a preset time.
+    pub direction: Option<Direction>,
     /// How certain it is that no event came before.
     pub certainty: Certainty,
 }
@@ -102,6 +105,7 @@ impl<M: Copy, S: Copy, X: StateVector> Arc<M, S, X> {
                 before: convert(&event.before),
                 after: pair(&event.after),
                 kind: event.kind,
+                direction: event.direction,
                 certainty: event.certainty,
             }),
             ArcEnd::Zeno { limit, after } => {

@@ -77,6 +77,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             }
             Reset::Stop => None,
         };
+        let direction = self.direction(surface, (kind, from), &leaving);
         let end = ArcEnd::Event(Event {
             surface,
             time: time.value(),
@@ -87,6 +88,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             before: state.clone(),
             after: after.clone(),
             kind,
+            direction,
             certainty,
         });
         let arc = self.new_arc(duration, end);

@@ -4,7 +4,7 @@ use crate::crossing::LeavingGuards;
 use crate::crossing::{Certainty, Crossing, EventKind, NextEvent, Search};
 use crate::error::Error;
 use crate::execution::Execution;
-use crate::guard::Role;
+use crate::guard::{Direction, Role};
 use crate::lands_beyond::LandsBeyond;
 use crate::point::Point;
 use crate::start_rule::{ArcStart, Undeclared, start_of_arc};
@@ -91,6 +91,34 @@ impl<T: HybridSystem> Execution<'_, T> {
         let start =
             start_of_arc(&self.flow(), arrival.as_ref(), residues, initial, times, &mut leaving);
         (start, leaving)
+    }
+
+    /// The direction in which a guard has its event, if it comes `from` a side. A guard that counts both ways, in a model that
+    /// solves for its events, comes from the side of its value at the start of the arc, or of that to which it left its zero.
+    pub(crate) fn direction(
+        &self,
+        surface: T::Surface,
+        (kind, from): (EventKind, Option<f64>),
+        leaving: &LeavingGuards<T::Surface>,
+    ) -> Option<Direction> {
+        let mut guards = self.system.guards(self.at.mode).iter();
+        let guard = guards.find(|guard| guard.surface == surface)?;
+        match (kind, guard.direction) {
+            (EventKind::Touch | EventKind::Clock, _) => None,
+            (_, directed @ (Direction::Rising | Direction::Falling)) => Some(directed),
+            (_, Direction::Either) => {
+                let arrival = self.at.arrival.as_ref();
+                let pending = arrival.and_then(|arrival| arrival.came_from(surface));
+                let left = leaving.iter().find(|leaving| leaving.surface == surface);
+                let now = || self.system.guard_value(surface, &self.at.state);
+                let left = || left.map_or_else(now, |leaving| leaving.side);
+                let from = from.or(pending).unwrap_or_else(left);
+                (from != 0.0).then_some(match from < 0.0 {
+                    true => Direction::Rising,
+                    false => Direction::Falling,
+                })
+            }
+        }
     }
 
     /// The clock with the earliest preset time, if that is within `horizon`.

@@ -284,3 +284,47 @@ where
         }
     }
 }
+
+/// The direction of an event: of a guard that counts both ways it alternates along a sine, however the guard is searched.
+/// Touches and preset times have none.
+#[test]
+fn an_event_says_how_its_guard_has_changed_its_sign() {
+    let directions = |arcs: Vec<Option<Direction>>| arcs.into_iter().flatten().collect::<Vec<_>>();
+    let falls_first = [Direction::Falling, Direction::Rising, Direction::Falling];
+    let swing = |x: &State<2>, t: f64| {
+        let (sin, cos) = pxfm::f_sincos(t);
+        [x[0] * cos + x[1] * sin, x[1] * cos - x[0] * sin]
+    };
+    let closed = || Model::closed_form(move |(), x: &State<2>, t| swing(x, t));
+    let sampled = closed().either((), |x| x[0], |x| ((), *x)).sampled(0.1);
+    let signal = closed().either((), |x| x[0], |x| ((), *x)).signal(0, |(), x| {
+        Some(QuasiPolynomial::cosine(x[0], 1.0) + QuasiPolynomial::sine(x[1], 1.0))
+    });
+    let integrated =
+        Model::integrated(|(), x: &State<2>| [x[1], -x[0]]).either((), |x| x[0], |x| ((), *x));
+    let of = |arc: Result<Arc<(), usize, State<2>>, Error>| {
+        arc.unwrap().event().and_then(|event| event.direction)
+    };
+    for start in [[1.0, 0.0], [0.0, -1.0]] {
+        // From x = 0, falling, the first event is a rise.
+        let expected = if start[0] > 0.0 {
+            falls_first.to_vec()
+        } else {
+            vec![Direction::Rising, Direction::Falling, Direction::Rising]
+        };
+        assert_eq!(directions(sampled.run((), start, 9.5).map(of).collect()), expected);
+        assert_eq!(directions(signal.run((), start, 9.5).map(of).collect()), expected);
+        assert_eq!(directions(integrated.run((), start, 9.5).map(of).collect()), expected);
+    }
+    let neither = Equations::new(&["x", "v"], &[])
+        .mode_text("m", &["v", "-x"])
+        .clock_text("tick", "1", "1")
+        .either_text("top", "x - 1")
+        .touch(Touch::Event)
+        .model::<State<2>>()
+        .unwrap();
+    let found: Vec<_> = neither.start("m", [0.0, 1.0], 3.5).unwrap().map(Result::unwrap).collect();
+    let events: Vec<_> = found.iter().filter_map(Arc::event).collect();
+    assert_eq!(events.len(), 4);
+    assert!(events.iter().all(|event| event.direction.is_none()));
+}

@@ -116,6 +116,7 @@ fn a_grazing_has_no_derivative() {
         time_error: 0.0,
         at_time_limit: false,
         kind: EventKind::Crossing,
+        direction: Some(Direction::Rising),
         jump: 0,
         before: Vector2::new(0.3, 0.0),
         after: Some((Side::Right, Vector2::new(0.3, 0.0))),

@@ -2,6 +2,7 @@
 
 import math
 import operator
+import pickle
 
 import numpy as np
 import pytest
@@ -245,6 +246,14 @@ def test_derivatives_pass_a_sliding_motion():
     assert found.shape == (2, 2) and abs(found[0]).max() > 0.1
 
 
+def test_an_event_says_how_its_guard_has_changed_its_sign():
+    zero = Guard("zero", lambda x: x[0], "either", role="observer")
+    swing = HybridSystem(field=lambda mode, x: [x[1], -x[0]], guards=[zero])
+    events = [arc.event for arc in swing.run([1.0, 0.0], time=9.5) if arc.event]
+    assert [event.direction for event in events] == ["falling", "rising", "falling"]
+    assert pickle.loads(pickle.dumps(events[0])) == events[0]
+
+
 def test_derivatives_that_do_not_exist_are_told():
     falls = HybridSystem(field=lambda mode, x: [x[1], -1.0], guards=[])
     with pytest.raises(ValueError, match="no sensitivity"):
@@ -256,7 +265,7 @@ def test_derivatives_that_do_not_exist_are_told():
         flow=lambda mode, x, t: [x[0] + t * (x[1] - t / 2), x[1] - t], field=lambda mode, x: [x[1], -1.0], guards=[top]
     )
     touch = next(thrown.run([0.0, 1.0], mode="up", time=2))
-    assert touch.event.kind == "touch"
+    assert touch.event.kind == "touch" and touch.event.direction is None
     with pytest.raises(ValueError, match="changes at a rate of 0"):
         sensitivity([touch])
     with pytest.raises(ValueError, match="at least one"):

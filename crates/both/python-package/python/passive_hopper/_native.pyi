@@ -272,6 +272,7 @@ class Event:
     next_mode: _Mode | None
     after: _State | None
     kind: Literal["crossing", "touch", "at start", "clock"]
+    direction: Literal["rising", "falling"] | None
     certainty: Literal["exact", "certain", "interpolated", "sampled"]
 
 class Zeno:

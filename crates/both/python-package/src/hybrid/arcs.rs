@@ -7,7 +7,7 @@ use super::sliding::Sliding;
 use super::vectors::{State, copied, numbers};
 use crate::arrays::shaped;
 use crate::pickling::{Reduced, equal, plain, reduced, refused};
-use hybrid_system::{Arc as LibraryArc, ArcEnd, Certainty, EventKind, StateVector};
+use hybrid_system::{Arc as LibraryArc, ArcEnd, Certainty, Direction, EventKind, StateVector};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -37,6 +37,8 @@ pub(crate) struct Event {
     after: Option<Py<PyAny>>,
     /// "crossing", "touch", "at start" or "clock".
     kind: String,
+    /// How the guard has changed its sign, "rising" or "falling"; None for a touch and a clock.
+    direction: Option<String>,
     /// How certain it is that no event came before: "exact", "certain", "interpolated" or "sampled".
     certainty: String,
 }
@@ -151,6 +153,7 @@ impl HybridArc {
             next_mode,
             after,
             kind: kind(event.kind).to_owned(),
+            direction: event.direction.map(|direction| crossed(direction).to_owned()),
             certainty: certainty(event.certainty).to_owned(),
         }))
     }
@@ -275,6 +278,14 @@ pub(crate) fn certainty(certainty: Certainty) -> &'static str {
     }
 }
 
+fn crossed(direction: Direction) -> &'static str {
+    match direction {
+        Direction::Rising => "rising",
+        Direction::Falling => "falling",
+        Direction::Either => "either",
+    }
+}
+
 plain!(Event {
     surface,
     time,
@@ -286,6 +297,7 @@ plain!(Event {
     next_mode,
     after,
     kind,
+    direction,
     certainty
 });
 
