@@ -73,6 +73,12 @@ impl<T: HybridSystem> Execution<'_, T> {
         let after = match self.system.reset(self.at.mode, surface, &state) {
             Reset::Jump { mode, state: after } => {
                 check_dimension("the state after a reset", &state, &after)?;
+                if !after.is_finite()
+                    && let Some(error) =
+                        self.system.reset_error(self.at.mode, surface, &state, time.value())
+                {
+                    return Err(error);
+                }
                 Some((mode, after))
             }
             Reset::Stop => None,

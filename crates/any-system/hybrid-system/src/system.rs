@@ -75,6 +75,20 @@ pub trait HybridSystem {
         before: &Self::State,
     ) -> Reset<Self::Mode, Self::State>;
 
+    /// Why the state after an event at this time is not finite, if the model knows more than that.
+    ///
+    /// Default: `None`, and the execution names the state.
+    fn reset_error(
+        &self,
+        mode: Self::Mode,
+        surface: Self::Surface,
+        before: &Self::State,
+        time: f64,
+    ) -> Option<Error> {
+        let _ = (mode, surface, before, time);
+        None
+    }
+
     /// Mode and state after the Zeno limit of infinitely many events in `mode`. Example: after its bounces a ball is at
     /// rest. `limit` is the state at the limit.
     ///

@@ -339,6 +339,12 @@ fn a_formula_without_a_value_is_named() {
         let end = model.flow(Label::new("m").unwrap(), &State::from([1.0]), 3.0);
         assert!((end[0] + 2.0).abs() < 1e-12);
     }
+    // And that of a reset.
+    let model = Equations::new(&["x"], &[]).mode_text("m", &["-1"]).falling_text("floor", "x");
+    let model = model.resets_text(&["2 + ln(x - 1)"]).model::<State<1>>().unwrap();
+    let error = model.start("m", [1.0], 5.0).unwrap().next().unwrap().unwrap_err().to_string();
+    assert!(error.contains("ln(x - 1) has no finite value"), "{error}");
+    assert!(error.contains("t = 1.0"), "{error}");
     // The event before is found.
     let model = Equations::new(&["x"], &[])
         .mode_text("m", &["-1 - 0*ln(x)"])

@@ -4,6 +4,7 @@ use super::equations::Jump;
 use super::label::Label;
 use super::programs::{GuardProgram, Programs};
 use crate::crossing::QuasiPolynomial;
+use crate::error::Error;
 use crate::model::ModelPart;
 use crate::state::StateVector;
 use crate::system::Reset;
@@ -102,6 +103,11 @@ impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
             let (mode, state) = after(jump, mode, before);
             Reset::Jump { mode, state }
         }))
+    }
+
+    fn reset_error(&self, mode: Label, surface: Label, before: &X, time: f64) -> Option<Error> {
+        let jump = self.0.mode(mode)?.of_surface(surface)?.jump.as_ref()?;
+        Some(jump.state.as_ref()?.values(0.0, before.components()).err()?.later(time).into())
     }
 
     fn next_time(&self, mode: Label, surface: Label, after: f64) -> Option<Option<f64>> {

@@ -50,6 +50,10 @@ where
         self.parts.reset(mode, surface, before).unwrap_or(Reset::Stop)
     }
 
+    fn reset_error(&self, mode: M, surface: S, before: &X, time: f64) -> Option<Error> {
+        self.parts.reset_error(mode, surface, before, time)
+    }
+
     fn rest(&self, mode: M, limit: &X) -> Option<(M, X)> {
         self.parts.rest(mode, limit)
     }
