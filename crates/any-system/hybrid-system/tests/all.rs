@@ -13,6 +13,7 @@ mod cradles;
 mod ends_of_arcs;
 mod equation_derivatives;
 mod equation_models;
+mod equation_refusals;
 mod exponential_guards;
 mod hard_guards;
 mod instant_derivatives;
