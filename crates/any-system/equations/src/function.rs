@@ -10,8 +10,8 @@ use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
-/// A function of one number, and of no more, that formulas do not have, with all that they need of it: its value, its enclosures, and its
-/// derivative as an expression, from which all higher ones and the Taylor series follow.
+/// A function of one number, and of no more, that formulas do not have, with all that they need of it: its value, its
+/// enclosures, and its derivative as an expression, from which all higher ones and the Taylor series follow.
 ///
 /// ```
 /// use equations::{Enclosure, Formulas, Function, Names};
@@ -41,9 +41,9 @@ use std::sync::Arc;
 /// ```
 ///
 /// The value must depend on the number alone, so that all runs have the same bits. It must return for every `f64`: a step
-/// that is refused later may ask for it outside the domain, or at NaN; answer NaN there. The enclosure must contain the values of
-/// the exact function at all numbers of an interval; `None` means that it may leave the domain. Nothing can test it: proofs
-/// take it as given.
+/// that is refused later may ask for it outside the domain, or at NaN; answer NaN there. The enclosure must contain the
+/// values of the exact function at all numbers of an interval; `None` means that it may leave the domain. No test can show
+/// that it does: proofs take it as given.
 #[derive(Clone)]
 pub struct Function(Arc<Parts>);
 
@@ -89,6 +89,25 @@ impl Function {
     /// The function of a symbol.
     pub fn of<'g>(&self, argument: Expression<'g>) -> Expression<'g> {
         argument.with(|graph| graph.place(Node::Call(self.clone(), argument.place)))
+    }
+
+    /// Adds it to a list of functions, unless it is there.
+    ///
+    /// # Errors
+    /// [`Error::Name`] for another one with its name: a text or a file could not tell them apart.
+    pub(crate) fn note_in(&self, known: &mut Vec<Function>) -> Result<(), Error> {
+        match known.iter().find(|known| known.name() == self.name()) {
+            Some(known) if known == self => Ok(()),
+            Some(_) => {
+                let reason =
+                    "that of two functions: make a function once, and use it wherever it is called";
+                Err(Error::Name { name: self.name().to_owned(), reason })
+            }
+            None => {
+                known.push(self.clone());
+                Ok(())
+            }
+        }
     }
 
     pub(crate) fn value(&self, x: f64) -> f64 {

@@ -13,9 +13,6 @@ const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;
 /// those of Bessel.
 const MOST_FUNCTIONS: usize = 100;
 
-pub(crate) const TWO_FUNCTIONS: &str =
-    "that of two functions: make a function once, and use it wherever it is called";
-
 /// A list of parts. Each one stands behind those of which it is a function, and no two are equal.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Graph {
@@ -51,16 +48,11 @@ impl Graph {
     /// the derivatives of a motion would never end.
     fn note_call(&mut self, node: &Node) {
         let Node::Call(function, _) = node else { return };
-        match self.called.iter().find(|known| known.name() == function.name()) {
-            Some(known) if known == function => {}
-            Some(_) => {
-                let (name, reason) = (function.name().to_owned(), TWO_FUNCTIONS);
-                self.refuse(Error::Name { name, reason });
-            }
-            None if self.called.len() == MOST_FUNCTIONS => {
-                self.refuse(Error::TooLarge { limit: MOST_FUNCTIONS });
-            }
-            None => self.called.push(function.clone()),
+        let noted = function.note_in(&mut self.called);
+        if let Err(error) = noted {
+            self.refuse(error);
+        } else if self.called.len() > MOST_FUNCTIONS {
+            self.refuse(Error::TooLarge { limit: MOST_FUNCTIONS });
         }
     }
 

@@ -4,7 +4,6 @@ use crate::constant::{Constant, Decimal};
 use crate::error::Error;
 use crate::formulas::length;
 use crate::function::Function;
-use crate::graph::TWO_FUNCTIONS;
 use std::collections::HashSet;
 
 /// The names of formulas, and the values of parameters.
@@ -91,14 +90,7 @@ impl Names {
     ) -> Result<Names, Error> {
         let known = self.functions.len();
         for function in called {
-            match self.functions.iter().find(|known| known.name() == function.name()) {
-                Some(known) if known == function => {}
-                Some(_) => {
-                    let (name, reason) = (function.name().to_owned(), TWO_FUNCTIONS);
-                    return Err(Error::Name { name, reason });
-                }
-                None => self.functions.push(function.clone()),
-            }
+            function.note_in(&mut self.functions)?;
         }
         if self.functions.len() > known {
             self.check()?;

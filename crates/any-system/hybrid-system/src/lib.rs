@@ -72,9 +72,9 @@
 //! crossing states whether it was found by sampling.
 //!
 //! # Speed
-//! Executions of fixed dimension whose modes are integrated from closures allocate no memory, up to eight guards a mode, two of
-//! them on their surfaces at once. Equations and quasi-polynomials allocate their coefficients. `cargo bench -p hybrid-system --features ode` measures the cost of an event for each
-//! kind of guard.
+//! Executions of fixed dimension whose modes are integrated from closures allocate no memory, up to eight guards a mode, two
+//! of them on their surfaces at once. Equations and quasi-polynomials allocate their coefficients. `cargo bench -p
+//! hybrid-system --features ode` measures the cost of an event for each kind of guard.
 //!
 //! # Not here
 //! Stiff integrators ([what to do](stiff)), differential-algebraic equations, sliding along several surfaces at

@@ -137,6 +137,13 @@ impl QuasiPolynomial {
         self.terms.iter().map(|term| term.value(time)).sum()
     }
 
+    /// The number of terms, and of the coefficients of the longest polynomial.
+    #[cfg(feature = "ode")]
+    pub(crate) fn size(&self) -> (usize, usize) {
+        let longest = self.terms.iter().map(|term| term.cos.len().max(term.sin.len())).max();
+        (self.terms.len(), longest.unwrap_or(0))
+    }
+
     /// Σ e^(σt) Σ δ_k t^k with the errors δ_k of the coefficients, and of their terms by evaluation, where it is largest up to
     /// this time.
     #[cfg(feature = "ode")]

@@ -51,12 +51,7 @@ impl Equations {
             &Parameters<'g>,
         ) -> [Expression<'g>; N],
     ) -> Self {
-        // A closure that is called with names that were refused would find no components.
-        if self.wrong.is_some() {
-            return self;
-        }
-        let field = Formulas::new(self.names.clone(), field);
-        self.add_mode(name, field)
+        self.mode_vector(name, |t, x, p| field(t, x, p).into())
     }
 
     /// The same, from texts.
@@ -77,6 +72,7 @@ impl Equations {
             &Parameters<'g>,
         ) -> Vec<Expression<'g>>,
     ) -> Self {
+        // A closure that is called with names that were refused would find no components.
         if self.wrong.is_some() {
             return self;
         }
@@ -239,11 +235,7 @@ impl Equations {
             &Parameters<'g>,
         ) -> [Expression<'g>; N],
     ) -> Self {
-        if self.wrong.is_some() {
-            return self;
-        }
-        let state = Formulas::new(self.names.clone(), state);
-        self.with_state(state)
+        self.resets_vector(|t, x, p| state(t, x, p).into())
     }
 
     /// The same, from a closure that returns a vector: for a number of components that is known when it runs.

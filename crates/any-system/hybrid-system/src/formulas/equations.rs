@@ -91,15 +91,14 @@ pub(super) struct Jump {
 impl GuardEquations {
     /// The times of a clock.
     pub(super) fn times(&self) -> Result<PeriodicTimes, Error> {
-        let bad = |reason| Error::BadEquations { what: self.guard.surface.to_string(), reason };
         let function = &self.function;
         let moves = |node: &Node| matches!(node, Node::Time | Node::State(_));
         if function.nodes().0.iter().any(moves) {
-            return Err(bad("the times of a clock follow from numbers and parameters alone"));
+            return self.bad("the times of a clock follow from numbers and parameters alone");
         }
         let found = function.values(0.0, &vec![0.0; function.names().states.len()])?;
         let [first, period] = found[..] else {
-            return Err(bad("a clock has two formulas, its first time and its period"));
+            return self.bad("a clock has two formulas, its first time and its period");
         };
         PeriodicTimes::new(first, period)
     }
@@ -108,11 +107,12 @@ impl GuardEquations {
         match self.function.count() {
             _ if self.guard.role == Role::Clock => self.times().map(|_| ()),
             1 => Ok(()),
-            _ => {
-                let what = self.guard.surface.to_string();
-                Err(Error::BadEquations { what, reason: "a guard has one formula" })
-            }
+            _ => self.bad("a guard has one formula"),
         }
+    }
+
+    fn bad<T>(&self, reason: &'static str) -> Result<T, Error> {
+        Err(Error::BadEquations { what: self.guard.surface.to_string(), reason })
     }
 }
 

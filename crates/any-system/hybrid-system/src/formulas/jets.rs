@@ -80,8 +80,9 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
     ///
     /// # Errors
     /// [`Error::GrazingSensitivity`] at a touch, and at a guard that is crossed too slowly; [`Error::CornerSensitivity`]
-    /// for two events at one instant, and for an event at the instant of the limit; [`Error::NoSensitivity`] for an arc that does not end in an event of a formula or
-    /// at a limit on time; [`Error::Formula`] for a parameter that there is none, and for a jump with a kink.
+    /// for two events at one instant, and for an event at the instant of the limit; [`Error::NoSensitivity`] for an arc
+    /// that does not end in an event of a formula or at a limit on time; [`Error::Formula`] for a parameter that there is
+    /// none, and for a jump with a kink.
     pub fn jet<const T: usize>(
         &self,
         arcs: &[Arc<Label, Label, X>],

@@ -123,10 +123,9 @@ impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
 
     fn other_value(&self, surface: Label, state: &X, value: f64) -> Option<f64> {
         let guards = self.0.modes.iter().flat_map(|mode| &mode.guards);
-        let values = guards
+        let mut values = guards
             .filter(|guard| guard.surface == surface)
             .map(|guard| guard.function.first_value(0.0, state.components()));
-        let differs = |own: &f64| *own != value && !(own.is_nan() && value.is_nan());
-        values.into_iter().find(differs)
+        values.find(|own: &f64| *own != value && !(own.is_nan() && value.is_nan()))
     }
 }

@@ -13,9 +13,8 @@ const MOST_TERMS: usize = 32;
 const MOST_COEFFICIENTS: usize = 64;
 
 fn is_short(function: &QuasiPolynomial) -> bool {
-    let parts = function.to_parts();
-    let longest = parts.iter().map(|(_, _, cos, sin)| cos.len().max(sin.len())).max();
-    parts.len() <= MOST_TERMS && longest.unwrap_or(0) <= MOST_COEFFICIENTS
+    let (terms, coefficients) = function.size();
+    terms <= MOST_TERMS && coefficients <= MOST_COEFFICIENTS
 }
 
 /// A number with the bound on its error that holds an enclosure.
