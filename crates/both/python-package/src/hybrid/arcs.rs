@@ -3,11 +3,12 @@
 use super::callables::Callables;
 use super::model::Model;
 use super::names::{ExecutionMode, ExecutionSurface};
+use super::quasi_polynomial::name_of;
 use super::sliding::Sliding;
 use super::vectors::{State, copied, numbers};
 use crate::arrays::shaped;
 use crate::pickling::{Reduced, equal, plain, reduced, refused};
-use hybrid_system::{Arc as LibraryArc, ArcEnd, Certainty, Direction, EventKind, StateVector};
+use hybrid_system::{Arc as LibraryArc, ArcEnd, Certainty, EventKind, StateVector};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -153,7 +154,7 @@ impl HybridArc {
             next_mode,
             after,
             kind: kind(event.kind).to_owned(),
-            direction: event.direction.map(|direction| crossed(direction).to_owned()),
+            direction: event.direction.map(|direction| name_of(direction).to_owned()),
             certainty: certainty(event.certainty).to_owned(),
         }))
     }
@@ -275,14 +276,6 @@ pub(crate) fn certainty(certainty: Certainty) -> &'static str {
         Certainty::Certain => "certain",
         Certainty::Interpolated => "interpolated",
         Certainty::Sampled { .. } => "sampled",
-    }
-}
-
-fn crossed(direction: Direction) -> &'static str {
-    match direction {
-        Direction::Rising => "rising",
-        Direction::Falling => "falling",
-        Direction::Either => "either",
     }
 }
 

@@ -115,17 +115,24 @@ impl From<hybrid_system::QuasiPolynomial> for QuasiPolynomial {
     }
 }
 
+/// The names of directions.
+const DIRECTIONS: [(&str, Direction); 3] =
+    [("rising", Direction::Rising), ("falling", Direction::Falling), ("either", Direction::Either)];
+
 /// A direction by its name.
 ///
 /// # Errors
 /// ValueError for other words.
 pub(crate) fn direction_of(name: &str) -> PyResult<Direction> {
-    match name {
-        "rising" => Ok(Direction::Rising),
-        "falling" => Ok(Direction::Falling),
-        "either" => Ok(Direction::Either),
-        other => Err(PyValueError::new_err(format!(
-            "a direction is 'rising', 'falling' or 'either', not {other:?}"
-        ))),
-    }
+    let found = DIRECTIONS.iter().find(|(known, _)| *known == name);
+    found.map(|(_, direction)| *direction).ok_or_else(|| {
+        PyValueError::new_err(format!(
+            "a direction is 'rising', 'falling' or 'either', not {name:?}"
+        ))
+    })
+}
+
+/// The name of a direction.
+pub(crate) fn name_of(direction: Direction) -> &'static str {
+    DIRECTIONS.iter().find(|(_, known)| *known == direction).map_or("", |(name, _)| name)
 }
