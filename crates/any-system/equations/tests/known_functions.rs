@@ -1,7 +1,7 @@
 //! Values, derivatives and series of every function agree with thirty digits from mpmath
 //! (xtask/generators/functions.py).
 
-use equations::{Formulas, Names, Series};
+use equations::{Formulas, Jet, JetSeries, Names, Series};
 use interval_arithmetic::Enclosure;
 use serde_json::Value;
 
@@ -76,6 +76,25 @@ fn enclosures_of_values_and_coefficients_hold_the_known_ones() {
         }
         let width = found.watched(0)[0].width();
         assert!(width <= 16.0 * f64::EPSILON * known[0].abs() + 1e-322, "{what}: {width:e}");
+    }
+}
+
+/// As the start moves along the field, coefficient k becomes Σ binom(k + j, j) c_{k+j} εʲ.
+#[test]
+fn derivatives_of_coefficients_are_the_known_ones() {
+    for Record { what, field, watched, start, rates, known } in records() {
+        let series = JetSeries::new(&field, Some(&watched)).unwrap();
+        let start = [0, 1].map(|axis| Jet::<4>::moving(start[axis], rates[axis]));
+        let found = series.coefficients(&start, known.len() - 4).unwrap();
+        for (k, found) in found.watched(0).iter().enumerate() {
+            let mut binomial = 1.0;
+            for (j, found) in found.0.iter().enumerate() {
+                let size = known[k + j].abs() + known[(k + j).max(1) - 1].abs().min(1.0);
+                let off = (found - binomial * known[k + j]).abs();
+                assert!(off <= 1e-12 * binomial * size, "{what}, {k}, {j}: {found}");
+                binomial *= (k + j + 1) as f64 / (j + 1) as f64;
+            }
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! A test for zeros of a guard that is a polynomial in the time since a step began.
+//! A test for zeros of a guard that is a polynomial in the time since a step began: (6a) of the [mathematics](crate::mathematics).
 //!
 //! Around the middle m of an interval of half length r the guard is Σ dₖ (t − m)ᵏ. With ν for the rounding:
 //!

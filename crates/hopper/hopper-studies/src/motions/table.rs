@@ -9,7 +9,8 @@ use std::time::Duration;
 /// The errors at which times are compared.
 const ERRORS: [f64; 5] = [1e-6, 1e-8, 1e-10, 1e-12, 1e-14];
 
-/// A table, scene by scene: the least time of a start at which a program's error is no larger, over its tolerances.
+/// A table, scene by scene: the least time of a start at which a program's error is no larger, over its tolerances. Behind it the
+/// least error at all, with its time.
 pub(crate) fn markdown(points: &[Point]) -> String {
     let mut rows = Vec::new();
     let mut scenes: Vec<&str> = points.iter().map(|point| point.scene.as_str()).collect();
@@ -20,18 +21,20 @@ pub(crate) fn markdown(points: &[Point]) -> String {
         dedup(&mut programs);
         for (at, program) in programs.into_iter().enumerate() {
             let own = || own.iter().filter(|point| point.program == program);
+            let time = |seconds: f64| duration(Duration::from_secs_f64(seconds));
             let cell = |error: f64| {
                 let right = own().filter(|point| point.error <= error);
                 let least = right.map(|point| point.seconds).min_by(f64::total_cmp);
-                least.map_or("–".to_owned(), |least| duration(Duration::from_secs_f64(least)))
+                least.map_or("–".to_owned(), time)
             };
-            let least = own().map(|point| point.error).min_by(f64::total_cmp);
+            let best = own()
+                .min_by(|a, b| a.error.total_cmp(&b.error).then(a.seconds.total_cmp(&b.seconds)));
+            let best = best.map_or("–".to_owned(), |best| {
+                format!("{} in {}", digit(best.error), time(best.seconds))
+            });
             let cells = ERRORS.map(cell).join(" | ");
             let name = if at == 0 { scene } else { "" };
-            rows.push(format!(
-                "{name} | {program} | {cells} | {}",
-                least.map_or("–".to_owned(), digit)
-            ));
+            rows.push(format!("{name} | {program} | {cells} | {best}"));
         }
     }
     markdown_table(
@@ -81,7 +84,7 @@ mod tests {
         let points = [point(1e-6, 1e-5, 1e-6), point(1e-9, 1e-9, 3e-6), point(1e-12, 2e-11, 2e-6)];
         let text = markdown(&points);
         let row = text.lines().nth(2).unwrap();
-        assert_eq!(row, "| m | p | 2.0 µs | 2.0 µs | 2.0 µs | – | – | 2e-11 |");
+        assert_eq!(row, "| m | p | 2.0 µs | 2.0 µs | 2.0 µs | – | – | 2e-11 in 2.0 µs |");
         let bytes = csv(&points).unwrap().bytes;
         assert_eq!(String::from_utf8(bytes).unwrap().lines().count(), 4);
     }
