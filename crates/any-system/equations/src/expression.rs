@@ -5,7 +5,8 @@ use crate::error::Error;
 use crate::graph::Graph;
 use crate::node::{Binary, Node, Unary};
 use std::cell::RefCell;
-use std::ops::{Add, Div, Index, Mul, Neg, Sub};
+use std::ops::{Add, Bound, Deref, Div, Index, Mul, Neg, Sub};
+use std::ops::{Range, RangeBounds, RangeFrom, RangeInclusive, RangeTo, RangeToInclusive};
 
 /// A part of a formula, as a closure sees it: a symbol that can be added, multiplied and given to functions.
 ///
@@ -184,6 +185,65 @@ impl Neg for Expression<'_> {
         self.with(|graph| graph.unary(Unary::Negative, self.place))
     }
 }
+
+/// The components of the state, `x[0]`: a slice. A component or a range that it does not have makes the formulas an error.
+pub struct States<'g> {
+    pub(crate) symbols: Vec<Expression<'g>>,
+    pub(crate) zero: Expression<'g>,
+}
+
+impl States<'_> {
+    fn refuse(&self, needed: usize) {
+        let (what, given) = ("components of the state", self.symbols.len());
+        self.zero.graph.borrow_mut().refuse(Error::Length { what, needed, given });
+    }
+}
+
+impl<'g> Deref for States<'g> {
+    type Target = [Expression<'g>];
+    fn deref(&self) -> &[Expression<'g>] {
+        &self.symbols
+    }
+}
+
+impl<'g> Index<usize> for States<'g> {
+    type Output = Expression<'g>;
+    fn index(&self, component: usize) -> &Expression<'g> {
+        self.symbols.get(component).unwrap_or_else(|| {
+            self.refuse(component.saturating_add(1));
+            &self.zero
+        })
+    }
+}
+
+/// Parts of the state, by each kind of range between brackets.
+macro_rules! index_by {
+    ($($range:ty),*) => {$(
+        impl<'g> Index<$range> for States<'g> {
+            type Output = [Expression<'g>];
+            fn index(&self, components: $range) -> &[Expression<'g>] {
+                self.symbols.get(components.clone()).unwrap_or_else(|| {
+                    let ends = [components.start_bound().cloned(), components.end_bound().cloned()];
+                    let needed = ends.into_iter().map(|end| match end {
+                        Bound::Included(last) => last.saturating_add(1),
+                        Bound::Excluded(length) => length,
+                        Bound::Unbounded => 0,
+                    });
+                    self.refuse(needed.max().unwrap_or(0));
+                    &[]
+                })
+            }
+        }
+    )*};
+}
+
+index_by!(
+    Range<usize>,
+    RangeFrom<usize>,
+    RangeTo<usize>,
+    RangeInclusive<usize>,
+    RangeToInclusive<usize>
+);
 
 /// The parameters by their names, `p["damping"]`. A name that is none makes the formulas an error.
 ///

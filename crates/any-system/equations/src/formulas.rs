@@ -4,7 +4,7 @@ use crate::algebra::{Algebra, Arithmetic};
 use crate::constant::{Constant, Decimal};
 use crate::derivative::partials;
 use crate::error::Error;
-use crate::expression::{Expression, Parameters, Term};
+use crate::expression::{Expression, Parameters, States, Term};
 use crate::graph::Graph;
 use crate::names::{NO_VALUE, Names};
 use crate::node::{Node, uses};
@@ -43,11 +43,7 @@ impl Formulas {
     /// [`Error::Number`] for a number that is not finite; [`Error::TooLarge`] for more than a million parts.
     pub fn new<const N: usize>(
         names: Names,
-        closure: impl for<'g> Fn(
-            Expression<'g>,
-            &[Expression<'g>],
-            &Parameters<'g>,
-        ) -> [Expression<'g>; N],
+        closure: impl for<'g> Fn(Expression<'g>, &States<'g>, &Parameters<'g>) -> [Expression<'g>; N],
     ) -> Result<Formulas, Error> {
         Formulas::of_vector(names, |time, state, parameters| {
             closure(time, state, parameters).into()
@@ -60,20 +56,18 @@ impl Formulas {
     /// As [`Formulas::new`].
     pub fn of_vector(
         names: Names,
-        closure: impl for<'g> Fn(
-            Expression<'g>,
-            &[Expression<'g>],
-            &Parameters<'g>,
-        ) -> Vec<Expression<'g>>,
+        closure: impl for<'g> Fn(Expression<'g>, &States<'g>, &Parameters<'g>) -> Vec<Expression<'g>>,
     ) -> Result<Formulas, Error> {
         names.check()?;
         let graph = RefCell::new(Graph::default());
         let symbol = |node| Expression::of(&graph, node);
-        let state: Vec<_> = (0..names.states.len()).map(|at| symbol(Node::State(at))).collect();
+        let zero = symbol(Node::Constant(0.0.into()));
+        let symbols = (0..names.states.len()).map(|at| symbol(Node::State(at))).collect();
+        let state = States { symbols, zero };
         let parameters = Parameters {
             names: &names.parameters,
             symbols: (0..names.parameters.len()).map(|at| symbol(Node::Parameter(at))).collect(),
-            zero: symbol(Node::Constant(0.0.into())),
+            zero,
         };
         let outputs = closure(symbol(Node::Time), &state, &parameters);
         let outputs: Vec<usize> =

@@ -16,7 +16,7 @@
 //! | [`JetSeries`], [`Jet`] | derivatives of any order in one direction, of values and of motions, as polynomials |
 //! | [`Formulas::texts`], [`Formulas::latex`] | the formulas, written |
 //! | [`Formulas::to_json`], [`Formulas::from_json`], [`Formulas::content_hash`] | the formulas as data, with exact numbers |
-//! | [`Expression`], [`Term`], [`Parameters`] | what a closure computes with |
+//! | [`Expression`], [`Term`], [`States`], [`Parameters`] | what a closure computes with |
 //! | [`Function`], [`Names::with_functions`] | a function of the user's own, with its derivative and its enclosure |
 //! | [`Constant`], [`Decimal`] | a number of a formula: the decimal that is written, or a double |
 //!
@@ -68,7 +68,7 @@ pub use columns::Columns;
 pub use constant::{Constant, Decimal};
 pub use error::Error;
 pub use evaluate::Evaluator;
-pub use expression::{Expression, Parameters, Term};
+pub use expression::{Expression, Parameters, States, Term};
 pub use formulas::Formulas;
 pub use function::Function;
 pub use interval_arithmetic::Enclosure;

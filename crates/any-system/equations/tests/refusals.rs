@@ -177,3 +177,18 @@ fn lengths_and_names_are_checked() {
     let other = Formulas::from_text(names, &["x"]).unwrap();
     assert!(matches!(Series::new(&field, Some(&other)), Err(Error::Name { .. })));
 }
+
+/// A component that the state does not have is an error value, as a parameter that there is none: no panic.
+#[test]
+fn components_beyond_the_state_are_refused() {
+    let names = || Names::new(&["x", "v"], &[]).unwrap();
+    let refused = |formulas: Result<Formulas, Error>| formulas.unwrap_err().to_string();
+    let one = refused(Formulas::new(names(), |_, x, _| [x[1] + x[5]]));
+    assert!(one.contains('6') && one.contains('2'), "{one}");
+    let some = refused(Formulas::new(names(), |_, x, p| [p.sum(x[1..4].iter().copied())]));
+    assert!(some.contains('4') && some.contains('2'), "{some}");
+    assert!(
+        refused(Formulas::new(names(), |_, x, p| [p.sum(x[3..].iter().copied())])).contains('4')
+    );
+    assert!(Formulas::new(names(), |_, x, p| [p.sum(x[..=1].iter().copied()) + x[1]]).is_ok());
+}

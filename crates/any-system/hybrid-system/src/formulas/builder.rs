@@ -4,7 +4,7 @@ use super::equations::{Equations, GuardEquations, Jump, ModeEquations, NO_MODE};
 use super::label::Label;
 use crate::error::Error;
 use crate::guard::{Direction, Guard, Role, Touch};
-use equations::{Expression, Formulas, Parameters};
+use equations::{Expression, Formulas, Parameters, States};
 
 const NO_GUARD: &str = "what an event does stands behind its guard, and no guard has been declared";
 
@@ -16,7 +16,7 @@ macro_rules! guards {
         pub fn $name(
             self,
             surface: &str,
-            function: impl for<'g> Fn(Expression<'g>, &[Expression<'g>], &Parameters<'g>) -> Expression<'g>,
+            function: impl for<'g> Fn(Expression<'g>, &States<'g>, &Parameters<'g>) -> Expression<'g>,
         ) -> Self {
             if self.wrong.is_some() {
                 return self;
@@ -45,11 +45,7 @@ impl Equations {
     pub fn mode<const N: usize>(
         self,
         name: &str,
-        field: impl for<'g> Fn(
-            Expression<'g>,
-            &[Expression<'g>],
-            &Parameters<'g>,
-        ) -> [Expression<'g>; N],
+        field: impl for<'g> Fn(Expression<'g>, &States<'g>, &Parameters<'g>) -> [Expression<'g>; N],
     ) -> Self {
         self.mode_vector(name, |t, x, p| field(t, x, p).into())
     }
@@ -66,11 +62,7 @@ impl Equations {
     pub fn mode_vector(
         self,
         name: &str,
-        field: impl for<'g> Fn(
-            Expression<'g>,
-            &[Expression<'g>],
-            &Parameters<'g>,
-        ) -> Vec<Expression<'g>>,
+        field: impl for<'g> Fn(Expression<'g>, &States<'g>, &Parameters<'g>) -> Vec<Expression<'g>>,
     ) -> Self {
         // A closure that is called with names that were refused would find no components.
         if self.wrong.is_some() {
@@ -229,11 +221,7 @@ impl Equations {
     #[must_use]
     pub fn resets<const N: usize>(
         self,
-        state: impl for<'g> Fn(
-            Expression<'g>,
-            &[Expression<'g>],
-            &Parameters<'g>,
-        ) -> [Expression<'g>; N],
+        state: impl for<'g> Fn(Expression<'g>, &States<'g>, &Parameters<'g>) -> [Expression<'g>; N],
     ) -> Self {
         self.resets_vector(|t, x, p| state(t, x, p).into())
     }
@@ -242,11 +230,7 @@ impl Equations {
     #[must_use]
     pub fn resets_vector(
         self,
-        state: impl for<'g> Fn(
-            Expression<'g>,
-            &[Expression<'g>],
-            &Parameters<'g>,
-        ) -> Vec<Expression<'g>>,
+        state: impl for<'g> Fn(Expression<'g>, &States<'g>, &Parameters<'g>) -> Vec<Expression<'g>>,
     ) -> Self {
         if self.wrong.is_some() {
             return self;
