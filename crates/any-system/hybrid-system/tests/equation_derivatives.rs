@@ -252,3 +252,56 @@ fn derivatives_have_the_error_of_the_state() {
         );
     }
 }
+
+/// A ball falls from h = 1 under g = 2 for √(2h/g): its second derivatives are −1/4, −1/8 and 3/16. The mixed one is a third of three
+/// directions.
+#[test]
+fn second_derivatives_by_start_and_parameter_are_the_known_ones() {
+    let ball = Equations::new(&["height", "speed"], &[("gravity", "2")])
+        .mode("flight", |_, x, p| [x[1], -p["gravity"]])
+        .falling("floor", |_, x, _| x[0])
+        .model::<State<2>>()
+        .unwrap();
+    let arc = ball.start("flight", [1.0, 0.0], 9.0).unwrap().next().unwrap().unwrap();
+    let second = |along: &Along| 2.0 * ball.jet::<3>(&[arc], along).unwrap().time.0[2];
+    let by_height = second(&Along::start(&[1.0, 0.0]));
+    let by_gravity = second(&Along::parameter("gravity"));
+    let by_both = second(&Along::start(&[1.0, 0.0]).and_parameter("gravity", 1.0));
+    let mixed = 0.5 * (by_both - by_height - by_gravity);
+    for (found, known) in [(by_height, -0.25), (mixed, -0.125), (by_gravity, 0.1875)] {
+        assert!((found - known).abs() < 1e-14, "{found} {known}");
+    }
+}
+
+/// ẋ = cos t from x = 0 at t₀ meets x = ½ where sin t = ½ + sin t₀. The time since the start has at t₀ = 0 the derivatives 2/√3 − 1 and
+/// 4/(3√3) by t₀.
+#[test]
+fn derivatives_by_the_start_time_are_the_known_ones() {
+    let model = Equations::new(&["x"], &[])
+        .mode("moves", |t, _, _| [t.cos()])
+        .rising("half", |_, x, _| x[0] - 0.5)
+        .model::<State<2>>()
+        .unwrap();
+    let arc = model.start("moves", [0.0, 0.0], 3.0).unwrap().next().unwrap().unwrap();
+    let found = model.jet::<3>(&[arc], &Along::start(&[0.0, 1.0])).unwrap().time;
+    let root = 3f64.sqrt();
+    for (k, known) in
+        [std::f64::consts::FRAC_PI_6, 2.0 / root - 1.0, 2.0 / (3.0 * root)].iter().enumerate()
+    {
+        assert!((found.0[k] - known).abs() < 1e-13, "{k}: {found:?} {known}");
+    }
+}
+
+/// Where a guard is crossed at 10⁻¹³ of the size of its terms, three digits of a derivative would be left: refused.
+#[test]
+fn a_slow_crossing_has_no_derivative() {
+    let model = Equations::new(&["x", "y"], &[])
+        .mode("moves", |_, x, _| [x[0].number(1.0 + 1e-13), x[0].number(1.0)])
+        .rising("meets", |_, x, _| x[0] - x[1])
+        .model::<State<2>>()
+        .unwrap();
+    let arc = model.start("moves", [0.0, 1e-13], 9.0).unwrap().next().unwrap().unwrap();
+    assert!(arc.event().is_some());
+    let found = model.jet::<2>(&[arc], &Along::start(&[1.0, 0.0]));
+    assert!(matches!(found, Err(Error::GrazingSensitivity { .. })), "{found:?}");
+}
