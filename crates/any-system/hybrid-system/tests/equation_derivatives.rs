@@ -216,7 +216,7 @@ fn an_event_at_the_limit_has_no_derivative_there() {
     }
 }
 
-/// The error of derivatives is no larger than ten times that of the state, or the tolerance: over twelve impacts of a nonlinear oscillator, in
+/// The error of derivatives is no larger than ten times that of the state: over twelve impacts of a nonlinear oscillator, in
 /// which errors grow, against the run at the smallest tolerance.
 #[test]
 fn derivatives_have_the_error_of_the_state() {
@@ -238,14 +238,14 @@ fn derivatives_have_the_error_of_the_state() {
     let exact = run(1e-16);
     for tolerance in [1e-6, 1e-8, 1e-10, 1e-12, 1e-14] {
         let found = run(tolerance);
-        // Relative to the largest component of each order.
+        // Relative to the largest component of each order. The phase is the time, and has no error.
         let errors: [f64; 4] = std::array::from_fn(|order| {
-            let pairs = || found.state.iter().zip(&exact.state).take(3);
+            let pairs = || found.state.iter().zip(&exact.state).take(2);
             let off = pairs().map(|(a, b)| (a.0[order] - b.0[order]).abs()).fold(0.0, f64::max);
             off / pairs().map(|(_, b)| b.0[order].abs()).fold(0.0, f64::max)
         });
-        // Below 2e-14 rounding adds up, over a hundred steps and twelve quotients by the rate of the guard.
-        let of_state = errors[0].max(tolerance).max(2e-14);
+        // Below 5e-14 rounding adds up, over a hundred steps and twelve quotients by the rate of the guard.
+        let of_state = errors[0].max(5e-14);
         assert!(
             errors[1..].iter().all(|error| *error <= 10.0 * of_state),
             "{tolerance:e}: {errors:?}"
