@@ -199,6 +199,16 @@ impl States<'_> {
     }
 }
 
+/// The number of components that a range needs.
+fn needed(range: &impl RangeBounds<usize>) -> usize {
+    let of = |end| match end {
+        Bound::Included(last) => usize::saturating_add(last, 1),
+        Bound::Excluded(length) => length,
+        Bound::Unbounded => 0,
+    };
+    of(range.start_bound().cloned()).max(of(range.end_bound().cloned()))
+}
+
 impl<'g> Deref for States<'g> {
     type Target = [Expression<'g>];
     fn deref(&self) -> &[Expression<'g>] {
@@ -216,20 +226,15 @@ impl<'g> Index<usize> for States<'g> {
     }
 }
 
-/// Parts of the state, by each kind of range between brackets.
+// Parts of the state, by each kind of range between brackets.
 macro_rules! index_by {
     ($($range:ty),*) => {$(
         impl<'g> Index<$range> for States<'g> {
             type Output = [Expression<'g>];
             fn index(&self, components: $range) -> &[Expression<'g>] {
-                self.symbols.get(components.clone()).unwrap_or_else(|| {
-                    let ends = [components.start_bound().cloned(), components.end_bound().cloned()];
-                    let needed = ends.into_iter().map(|end| match end {
-                        Bound::Included(last) => last.saturating_add(1),
-                        Bound::Excluded(length) => length,
-                        Bound::Unbounded => 0,
-                    });
-                    self.refuse(needed.max().unwrap_or(0));
+                let needed = needed(&components);
+                self.symbols.get(components).unwrap_or_else(|| {
+                    self.refuse(needed);
                     &[]
                 })
             }

@@ -35,7 +35,8 @@ impl JetSeries {
         if !duration.is_finite() {
             return Err(Error::Time { time: 0.0, end: duration });
         }
-        // The k-th derivative of the last term of a series is some order^k times larger: one order more for each, e⁻² in a step.
+        // The k-th derivative of the last term of a series is some order^k times larger: one order more for each, which is
+        // e⁻² in a step.
         let order = order_of(relative) + T.saturating_sub(1);
         let (mut state, mut time) = (start.to_vec(), 0.0);
         for _ in 0..MOST_STEPS {

@@ -115,17 +115,13 @@ impl From<hybrid_system::QuasiPolynomial> for QuasiPolynomial {
     }
 }
 
-/// The names of directions.
-const DIRECTIONS: [(&str, Direction); 3] =
-    [("rising", Direction::Rising), ("falling", Direction::Falling), ("either", Direction::Either)];
-
 /// A direction by its name.
 ///
 /// # Errors
 /// ValueError for other words.
 pub(crate) fn direction_of(name: &str) -> PyResult<Direction> {
-    let found = DIRECTIONS.iter().find(|(known, _)| *known == name);
-    found.map(|(_, direction)| *direction).ok_or_else(|| {
+    let all = [Direction::Rising, Direction::Falling, Direction::Either];
+    all.into_iter().find(|direction| name_of(*direction) == name).ok_or_else(|| {
         PyValueError::new_err(format!(
             "a direction is 'rising', 'falling' or 'either', not {name:?}"
         ))
@@ -134,5 +130,9 @@ pub(crate) fn direction_of(name: &str) -> PyResult<Direction> {
 
 /// The name of a direction.
 pub(crate) fn name_of(direction: Direction) -> &'static str {
-    DIRECTIONS.iter().find(|(_, known)| *known == direction).map_or("", |(name, _)| name)
+    match direction {
+        Direction::Rising => "rising",
+        Direction::Falling => "falling",
+        Direction::Either => "either",
+    }
 }

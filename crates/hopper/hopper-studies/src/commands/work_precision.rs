@@ -34,7 +34,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
     folder.write("work_precision.svg", rendered.svg.as_bytes())?;
     folder.write("work_precision.png", &rendered.png)?;
     let (methods, scenes) = (table::methods(&scores, unit), table::scenes(&scenes));
-    let sin_cos = duration(unit);
+    let sin_cos = duration(unit.as_secs_f64());
     say(format_args!(
         "f64::sin_cos: {sin_cos}\n\n{methods}\n{scenes}\n{}",
         folder.path().display()

@@ -4,7 +4,6 @@ use super::verdict::{End, Verdict};
 use crate::error::Error;
 use crate::text::{digit, duration, markdown_table};
 use journal_figures::{DataFile, csv_text};
-use std::time::Duration;
 
 /// A table, scene by scene.
 pub(crate) fn markdown<'a>(verdicts: &'a [Verdict]) -> String {
@@ -13,7 +12,7 @@ pub(crate) fn markdown<'a>(verdicts: &'a [Verdict]) -> String {
         // The name of the scene stands in its first row only.
         let scene = if verdict.scene == before { "" } else { verdict.scene.as_str() };
         before = &verdict.scene;
-        let time = duration(Duration::from_secs_f64(verdict.seconds));
+        let time = duration(verdict.seconds);
         let (exact, missed) = (verdict.exact, verdict.exact - verdict.right);
         let (error, end) = (digit(verdict.error), end(verdict.end));
         let Verdict { program, wrong, lines, .. } = verdict;

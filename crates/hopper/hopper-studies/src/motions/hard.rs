@@ -148,7 +148,7 @@ pub(crate) fn markdown() -> String {
         // A refusal is a result, and has a time.
         let Ok((found, least)) = least_seconds(SHARE, || Ok::<_, Infallible>(run().ok()));
         let error = found.map_or("refused".to_owned(), digit);
-        format!("{error} | {}", duration(Duration::from_secs_f64(least)))
+        format!("{error} | {}", duration(least))
     };
     let rows = ALL
         .iter()

@@ -4,13 +4,12 @@ use super::measured::Point;
 use crate::error::Error;
 use crate::text::{digit, duration, markdown_table};
 use journal_figures::{DataFile, csv_text};
-use std::time::Duration;
 
 /// The errors at which times are compared.
 const ERRORS: [f64; 5] = [1e-6, 1e-8, 1e-10, 1e-12, 1e-14];
 
-/// A table, scene by scene: the least time of a start at which a program's error is no larger, over its tolerances. Behind it the
-/// least error at all, with its time.
+/// A table, scene by scene: the least time of a start at which a program's error is no larger, over its tolerances.
+/// Behind it the least error at all, with its time.
 pub(crate) fn markdown(points: &[Point]) -> String {
     let mut rows = Vec::new();
     let mut scenes: Vec<&str> = points.iter().map(|point| point.scene.as_str()).collect();
@@ -21,16 +20,15 @@ pub(crate) fn markdown(points: &[Point]) -> String {
         dedup(&mut programs);
         for (at, program) in programs.into_iter().enumerate() {
             let own = || own.iter().filter(|point| point.program == program);
-            let time = |seconds: f64| duration(Duration::from_secs_f64(seconds));
             let cell = |error: f64| {
                 let right = own().filter(|point| point.error <= error);
                 let least = right.map(|point| point.seconds).min_by(f64::total_cmp);
-                least.map_or("–".to_owned(), time)
+                least.map_or("–".to_owned(), duration)
             };
             let best = own()
                 .min_by(|a, b| a.error.total_cmp(&b.error).then(a.seconds.total_cmp(&b.seconds)));
             let best = best.map_or("–".to_owned(), |best| {
-                format!("{} in {}", digit(best.error), time(best.seconds))
+                format!("{} in {}", digit(best.error), duration(best.seconds))
             });
             let cells = ERRORS.map(cell).join(" | ");
             let name = if at == 0 { scene } else { "" };

@@ -4,14 +4,13 @@ use super::peer::Peer;
 use crate::error::Error;
 use crate::text::{digit, duration, markdown_table};
 use journal_figures::{DataFile, csv_text};
-use std::time::Duration;
 
 /// A table with the slowest program first; ratios are to the fastest one.
 pub(crate) fn markdown(peers: &[Peer]) -> String {
     let fastest = fastest(peers);
     let row = |peer: &Peer| {
         let Peer { name, seconds, compared, wrong, errors, .. } = peer;
-        let time = duration(Duration::from_secs_f64(*seconds));
+        let time = duration(*seconds);
         let ratio = seconds / fastest;
         // Two digits: 9.95 is where one decimal would round to 10.0.
         let ratio = if ratio < 9.95 { format!("{ratio:.1}") } else { format!("{ratio:.0}") };

@@ -61,7 +61,7 @@ pub(crate) fn methods(scores: &[Score], unit: Duration) -> String {
             Some(time) => {
                 let units = time.as_secs_f64() / unit.as_secs_f64();
                 let digits = usize::from(units < 9.95);
-                (duration(time), format!("{units:.digits$}"))
+                (duration(time.as_secs_f64()), format!("{units:.digits$}"))
             }
             None => ("–".into(), "–".into()),
         };
@@ -113,7 +113,7 @@ fn cell(score: &Score) -> String {
 pub(crate) fn scenes(scenes: &[Scene]) -> String {
     let row = |scene: &Scene| {
         let Scene { question, model, call, time, per, error } = scene;
-        let time = duration(*time);
+        let time = duration(time.as_secs_f64());
         format!("{question} | {model} | {call} | {time} {per} | {error}")
     };
     markdown_table("question | model only | call | time: | error", scenes.iter().map(row))
