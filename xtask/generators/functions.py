@@ -26,11 +26,20 @@ FUNCTIONS = {
     "asinh": mpmath.asinh,
     "acosh": mpmath.acosh,
     "atanh": mpmath.atanh,
+    "sech": mpmath.sech,
     "cube": lambda x: x**3,
     "inverse_square": lambda x: x**-2,
     "power": lambda x, y: x**y,
     "quotient": lambda x, y: x / y,
     "atan2": mpmath.atan2,
+    # Formulas with a decimal. Powers of 1/2 and 3/2 are computed as products of a root.
+    "x^0.5": lambda x: x ** (mpf(1) / 2),
+    "x^-0.5": lambda x: x ** (-mpf(1) / 2),
+    "x^1.5": lambda x: x ** (mpf(3) / 2),
+    "x^-1.5": lambda x: x ** (-mpf(3) / 2),
+    "x^0.3": lambda x: x ** (mpf(3) / 10),
+    "2^x": lambda x: mpf(2) ** x,
+    "x/3": lambda x: x / 3,
 }
 
 
