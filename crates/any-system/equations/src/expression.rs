@@ -12,6 +12,12 @@ use std::ops::{Range, RangeBounds, RangeFrom, RangeInclusive, RangeTo, RangeToIn
 ///
 /// It has no value, so that it cannot be compared: `if x[0] > 0.0` does not compile. Make the comparison a guard between
 /// two modes, or write [`min`](Self::min), [`max`](Self::max) or [`abs`](Self::abs).
+///
+/// ```compile_fail,E0369
+/// # use equations::{Formulas, Names};
+/// Formulas::new(Names::new(&["x"], &[])?, |_, x, _| [if x[0] > 0.0 { x[0] } else { -x[0] }])?;
+/// # Ok::<(), equations::Error>(())
+/// ```
 #[derive(Clone, Copy)]
 pub struct Expression<'g> {
     pub(crate) graph: &'g RefCell<Graph>,
@@ -40,6 +46,11 @@ impl<'g> Expression<'g> {
     /// π, which is no `f64`.
     pub fn pi(self) -> Self {
         Self::of(self.graph, Node::Constant(Constant::Pi))
+    }
+
+    /// e, which is no `f64`.
+    pub fn e(self) -> Self {
+        Self::of(self.graph, Node::Constant(Constant::Euler))
     }
 
     /// The power with an integer exponent, by products.

@@ -75,7 +75,7 @@ impl<T: HybridSystem> Execution<'_, T> {
                 check_dimension("the state after a reset", &state, &after)?;
                 if !after.is_finite()
                     && let Some(error) =
-                        self.system.reset_error(self.at.mode, surface, &state, time.value())
+                        self.system.reset_error(self.at.mode, Some(surface), &state, time.value())
                 {
                     return Err(error);
                 }
@@ -341,8 +341,17 @@ impl<T: HybridSystem> Execution<'_, T> {
         &mut self,
         limit: ZenoLimit<T::State>,
         passing: &[Passing<T::Surface>],
-    ) -> AnArc<T> {
+    ) -> Result<AnArc<T>, Error> {
         let after = self.system.rest(self.at.mode, &limit.state);
+        if let Some((_, after)) = &after {
+            check_dimension("the state after a Zeno limit", &limit.state, after)?;
+            let time = self.at.time.plus(limit.remainder).value();
+            if !after.is_finite()
+                && let Some(error) = self.system.reset_error(self.at.mode, None, &limit.state, time)
+            {
+                return Err(error);
+            }
+        }
         let (remainder, state) = (limit.remainder, limit.state.clone());
         let passed = passing.iter().map(|guard| (guard.surface, guard.from)).collect();
         let arrival = Arrival::at_zeno(self.at.mode, &state, limit.time_error, passed);
@@ -371,7 +380,7 @@ impl<T: HybridSystem> Execution<'_, T> {
                 self.stop = Some(Stop::Zeno);
             }
         }
-        arc
+        Ok(arc)
     }
 }
 

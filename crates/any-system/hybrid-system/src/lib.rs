@@ -34,16 +34,19 @@
 //!
 //! A ball that loses half of its speed at every bounce:
 //!
-//! ```
-//! use hybrid_system::*;
+#![cfg_attr(feature = "ode", doc = "```")]
+#![cfg_attr(not(feature = "ode"), doc = "```ignore")]
+//! use hybrid_system::{Certainty, Equations, State};
 //!
-//! let restitution = 0.5;
-//! let ball = Model::closed_form(|(), x: &State<2>, t| [x[0] + t * (x[1] - t / 2.0), x[1] - t])
-//!     .falling((), |x| x[0], |x| ((), [0.0, -restitution * x[1]]))
-//!     .sampled(1e-2);
+//! let ball = Equations::new(&["height", "speed"], &[("restitution", "0.5")])
+//!     .mode("flight", |t, x, _| [x[1], t.number(-1.0)])
+//!     .falling("floor", |_, x, _| x[0])
+//!     .resets(|t, x, p| [t.number(0.0), -p["restitution"] * x[1]])
+//!     .model::<State<2>>()?;
 //! let mut times = Vec::new();
-//! for arc in ball.run((), [0.5, 0.0], 2.8) {
+//! for arc in ball.start("flight", [0.5, 0.0], 2.8)? {
 //!     if let Some(event) = arc?.event() {
+//!         assert_eq!(event.certainty, Certainty::Certain);
 //!         times.push(event.time);
 //!     }
 //! }
@@ -52,7 +55,7 @@
 //! for (time, exact) in times.iter().zip([1.0, 2.0, 2.5, 2.75]) {
 //!     assert!((time - exact).abs() < 1e-14);
 //! }
-//! # Ok::<(), Error>(())
+//! # Ok::<(), hybrid_system::Error>(())
 //! ```
 //!
 //! More: [what happens at a surface](semantics), [sliding](sliding_motion), [the mathematics](mathematics), [which

@@ -75,13 +75,14 @@ pub trait HybridSystem {
         before: &Self::State,
     ) -> Reset<Self::Mode, Self::State>;
 
-    /// Why the state after an event at this time is not finite, if the model knows more than that.
+    /// Why the state after an event at this time is not finite, if the model knows more than that. Without a surface: the
+    /// state after a Zeno limit.
     ///
     /// Default: `None`, and the execution names the state.
     fn reset_error(
         &self,
         mode: Self::Mode,
-        surface: Self::Surface,
+        surface: Option<Self::Surface>,
         before: &Self::State,
         time: f64,
     ) -> Option<Error> {

@@ -138,6 +138,40 @@ fn a_ball_comes_to_rest() {
     assert_eq!(arcs.last().unwrap().mode, "floor");
 }
 
+/// A ball comes to rest on a belt of the speed 2, which takes it away. A file says the same. A root of a negative number
+/// is an error.
+#[test]
+fn a_rest_may_have_a_state_of_its_own() {
+    let belt = |root: f64| {
+        Equations::new(&["height", "speed", "place", "along"], &[])
+            .mode("flight", |t, x, _| [x[1], t.number(-1.0), x[3], t.number(0.0)])
+            .falling("floor", |_, x, _| x[0])
+            .resets(|t, x, _| [t.number(0.0), -0.5 * x[1], x[2], x[3]])
+            .rests_at("belt", move |t, x, _| {
+                [t.number(0.0), t.number(0.0), x[2], t.number(root).sqrt()]
+            })
+            .mode("belt", |t, x, _| [t.number(0.0), t.number(0.0), x[3], t.number(0.0)])
+    };
+    let read = Equations::from_json(&belt(4.0).to_json().unwrap()).unwrap();
+    assert_eq!(read, belt(4.0));
+    let model = read.model::<State<4>>().unwrap();
+    let last = model.start("flight", [0.5, 0.0, 0.0, 1.0], 9.0).unwrap().last().unwrap().unwrap();
+    // Three units of time at the speed 1, six at 2.
+    assert_eq!(last.mode, "belt");
+    let end = last.state(&model, last.duration).unwrap();
+    assert!((end[2] - 15.0).abs() < 1e-9, "{end:?}");
+    let refused = belt(-4.0).model::<State<4>>();
+    let error = match refused {
+        Err(error) => Some(error),
+        Ok(model) => model
+            .start("flight", [0.5, 0.0, 0.0, 1.0], 9.0)
+            .unwrap()
+            .find_map(Result::err),
+    };
+    let message = error.unwrap().to_string();
+    assert!(message.contains("sqrt"), "{message}");
+}
+
 /// The limits on time of models in which the time is a component, and a motion backward.
 #[test]
 fn motions_go_back() {

@@ -1,4 +1,6 @@
 //! Sine, cosine and arc tangent of intervals.
+//!
+//! What is taken as given, and how wide the results are: see `elementary.rs`.
 
 use crate::enclosure::Enclosure;
 use crate::rounding::{down, up};

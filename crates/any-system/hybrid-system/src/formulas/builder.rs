@@ -293,11 +293,31 @@ impl Equations {
 
     /// After infinitely many events of the last mode in finite time the execution goes on in this mode, at the limit.
     #[must_use]
-    pub fn rests(mut self, mode: &str) -> Self {
+    pub fn rests(self, mode: &str) -> Self {
+        self.with_rest(mode, None)
+    }
+
+    /// The same, from another state than the limit, of which the closure makes it.
+    #[must_use]
+    pub fn rests_at<const N: usize>(
+        self,
+        mode: &str,
+        state: impl for<'g> Fn(Expression<'g>, &States<'g>, &Parameters<'g>) -> [Expression<'g>; N],
+    ) -> Self {
+        if self.wrong.is_some() {
+            return self;
+        }
+        match Formulas::new(self.names.clone(), state) {
+            Ok(state) => self.functions(&state.names().functions).with_rest(mode, Some(state)),
+            Err(error) => self.refused(error),
+        }
+    }
+
+    fn with_rest(mut self, mode: &str, state: Option<Formulas>) -> Self {
         match (Label::new(mode), self.modes.last_mut()) {
             (Err(error), _) => self.refused(error),
             (Ok(mode), Some(last)) => {
-                last.after_limit = Some(Jump { mode: Some(mode), state: None });
+                last.after_limit = Some(Jump { mode: Some(mode), state });
                 self
             }
             (Ok(mode), None) => {

@@ -105,8 +105,18 @@ impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
         }))
     }
 
-    fn reset_error(&self, mode: Label, surface: Label, before: &X, time: f64) -> Option<Error> {
-        let jump = self.0.mode(mode)?.of_surface(surface)?.jump.as_ref()?;
+    fn reset_error(
+        &self,
+        mode: Label,
+        surface: Option<Label>,
+        before: &X,
+        time: f64,
+    ) -> Option<Error> {
+        let mode = self.0.mode(mode)?;
+        let jump = match surface {
+            Some(surface) => mode.of_surface(surface)?.jump.as_ref()?,
+            None => mode.after_limit.as_ref()?,
+        };
         Some(jump.state.as_ref()?.values(0.0, before.components()).err()?.later(time).into())
     }
 

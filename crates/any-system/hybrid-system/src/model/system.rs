@@ -50,7 +50,7 @@ where
         self.parts.reset(mode, surface, before).unwrap_or(Reset::Stop)
     }
 
-    fn reset_error(&self, mode: M, surface: S, before: &X, time: f64) -> Option<Error> {
+    fn reset_error(&self, mode: M, surface: Option<S>, before: &X, time: f64) -> Option<Error> {
         self.parts.reset_error(mode, surface, before, time)
     }
 
