@@ -17,7 +17,7 @@ const TOLERANCE: f64 = 1e-12;
 /// Time for the runs of one motion; one that takes longer is followed once.
 const SHARE: Duration = Duration::from_millis(100);
 
-/// Periods of the oscillator whose events are counted: a million events.
+/// Periods whose events are counted: a million events.
 const TURNS: f64 = 500_000.0;
 
 /// A motion: what is hard about it, and the relative error by each of both.
@@ -27,7 +27,7 @@ struct Hard {
     runge_kutta: fn() -> Result<f64, Error>,
 }
 
-const ALL: [Hard; 8] = [
+const ALL: [Hard; 9] = [
     Hard {
         what: "ẋ = √x from x = 0, where two motions begin",
         taylor: || taylor("sqrt(x)", 0.0, (0.0, 1.0), 0.0),
@@ -65,10 +65,18 @@ const ALL: [Hard; 8] = [
     },
     Hard {
         what: "a million events of an oscillator",
-        taylor: || million_events(true),
-        runge_kutta: || million_events(false),
+        taylor: || million_events("-x", (1.0, std::f64::consts::TAU)),
+        runge_kutta: || million_events_by_runge_kutta(|x| -x, (1.0, std::f64::consts::TAU)),
+    },
+    Hard {
+        what: "a million events of a pendulum",
+        taylor: || million_events("-sin(x)", (1.0, PENDULUM)),
+        runge_kutta: || million_events_by_runge_kutta(|x| -f_sin(x), (1.0, PENDULUM)),
     },
 ];
+
+/// The period of a pendulum from rest at 1 rad, 4 K(sin ½) (mpmath).
+const PENDULUM: f64 = 6.699_975_664_370_453;
 
 /// 10⁻⁶ before 1.
 const POLE: f64 = 1.0 - 1e-6;
@@ -127,18 +135,25 @@ fn event_at_limit(by_taylor: bool) -> Result<f64, Error> {
     Ok(found.first().map_or(1.0, |time| relative(*time, 1.0, 0.0)))
 }
 
-/// ẍ = −x from (1, 0): the last of a million zeros of x.
-fn million_events(by_taylor: bool) -> Result<f64, Error> {
-    let end = TURNS * std::f64::consts::TAU;
-    let found = if by_taylor {
-        let model = Equations::new(&["x", "v"], &[]).mode_text("m", &["v", "-x"]);
-        let model = model.either_text("zero", "x").model::<State<2>>()?.tolerance(TOLERANCE);
-        last_event(model.start("m", [1.0, 0.0], end)?)?
-    } else {
-        let model = Model::integrated(|(), x: &State<2>| [x[1], -x[0]]).tolerance(TOLERANCE);
-        last_event(model.either((), |x| x[0], |x| ((), *x)).run((), [1.0, 0.0], end))?
-    };
-    let exact = (2.0 * TURNS - 0.5) * std::f64::consts::PI;
+/// ẍ = f(x) from rest at `start`: the last of a million zeros of x, two in each period.
+fn million_events(rate: &str, (start, period): (f64, f64)) -> Result<f64, Error> {
+    let model = Equations::new(&["x", "v"], &[]).mode_text("m", &["v", rate]);
+    let model = model.either_text("zero", "x").model::<State<2>>()?.tolerance(TOLERANCE);
+    error_of_last(last_event(model.start("m", [start, 0.0], TURNS * period)?)?, period)
+}
+
+fn million_events_by_runge_kutta(
+    rate: fn(f64) -> f64,
+    (start, period): (f64, f64),
+) -> Result<f64, Error> {
+    let model = Model::integrated(|(), x: &State<2>| [x[1], rate(x[0])]).tolerance(TOLERANCE);
+    let model = model.either((), |x| x[0], |x| ((), *x));
+    error_of_last(last_event(model.run((), [start, 0.0], TURNS * period))?, period)
+}
+
+/// The error of a missed event is 1.
+fn error_of_last(found: Vec<f64>, period: f64) -> Result<f64, Error> {
+    let exact = (TURNS - 0.25) * period;
     Ok(found.first().map_or(1.0, |time| relative(*time, exact, 0.0)))
 }
 

@@ -27,7 +27,17 @@ pub(super) fn runs(
     tolerance: f64,
 ) -> Result<Vec<(&'static str, usize, Run)>, Error> {
     let runge_kutta = ("ours, Runge–Kutta", 1, runge_kutta(scene, tolerance)?);
-    Ok(match scene.guard {
+    Ok(match &scene.guard {
+        Some(_) if scene.reset.is_some() => {
+            // The term without effect keeps the field from having a closed form.
+            let mut integrated = scene.clone();
+            integrated.field.iter_mut().for_each(|rate| rate.push_str(" + 0*x^2"));
+            vec![
+                ("ours, equations", 1, events(scene, tolerance)?),
+                ("ours, equations, by Taylor series", 1, events(&integrated, tolerance)?),
+                runge_kutta,
+            ]
+        }
         Some(_) => vec![("ours, equations", 1, events(scene, tolerance)?), runge_kutta],
         None => {
             let (one, all) = taylor(scene, tolerance)?;
