@@ -5,7 +5,7 @@ use crate::arrival::{Arrival, DurationOfArc, PLACES};
 use crate::before_limit::Passing;
 use crate::crossing::{Certainty, Crossing, EventKind, GuardedFlow, LeavingGuards};
 use crate::error::Error;
-use crate::execution::{AnArc, Execution};
+use crate::execution::{AnArc, Execution, Piece};
 use crate::guard::Role;
 use crate::limits::Stop;
 use crate::missed::check_missed;
@@ -31,7 +31,8 @@ impl<T: HybridSystem> Execution<'_, T> {
         crossing: Crossing<T::Surface, T::State>,
         (horizon, clock): (f64, Option<ClockEvent<T::Surface>>),
         leaving: LeavingGuards<T::Surface>,
-    ) -> Result<AnArc<T>, Error> {
+    ) -> Result<Piece<T>, Error> {
+        let counts = self.counts(&crossing)?;
         let Crossing {
             surface,
             time: duration,
@@ -71,6 +72,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         self.at.chain.push(self.at.mode, surface);
         self.at.chain.check(time.value())?;
         let after = match self.system.reset(self.at.mode, surface, &state) {
+            _ if !counts => Some((self.at.mode, state.clone())),
             Reset::Jump { mode, state: after } => {
                 check_dimension("the state after a reset", &state, &after)?;
                 if !after.is_finite()
@@ -118,7 +120,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         let same = |(mode, after): &(T::Mode, T::State)| *mode == self.at.mode && *after == state;
         let changes_nothing = after.as_ref().is_some_and(same);
         self.at.time = time;
-        self.at.jump += 1;
+        self.at.jump += usize::from(counts);
         self.at.initial = false;
         match after {
             Some((mode, after)) => {
@@ -140,7 +142,7 @@ impl<T: HybridSystem> Execution<'_, T> {
                 self.stop = Some(Stop::Terminal);
             }
         }
-        Ok(arc)
+        Ok(if counts { Piece::Ends(arc) } else { Piece::Passes(arc) })
     }
 
     /// The error of the time of an event by the rounding of the state at which a stop or an observer has divided its

@@ -99,6 +99,30 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
+    /// An event at which the sign of its condition is lost in its error.
+    #[error(
+        "whether the event of {surface} at {time} counts is not decided: its condition is {value}, with an error of {error}; \
+         move the condition away from the event, or give what happens at both a guard of its own",
+        time = Number(*.time), value = Number(*.value), error = Number(*.error)
+    )]
+    UndecidedCondition {
+        /// The surface.
+        surface: String,
+        /// The time of the event.
+        time: f64,
+        /// The value of the condition.
+        value: f64,
+        /// Its error: by rounding, and by the time of the event.
+        error: f64,
+    },
+    /// A guard with a condition that is no crossing: beyond its surface its mode would not flow.
+    #[error(
+        "the guard of {surface} has a condition, so that its mode flows on both sides: make it a crossing"
+    )]
+    ConditionOfBound {
+        /// The surface.
+        surface: String,
+    },
     /// An enclosure whose lower bound is above its upper bound, or whose bounds are NaN.
     #[error(
         "the enclosure of derivative {order} of the guard on [{from}, {to}] is no interval: [{low}, {high}]",

@@ -53,8 +53,29 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         self.stop
     }
 
-    /// The next arc. The state of the execution moves to the end of the arc.
+    /// The next arc. The state of the execution moves to the end of the arc. Events that do not count are passed on it.
     fn arc(&mut self) -> Result<AnArc<T>, Error> {
+        let mut first: Option<AnArc<T>> = None;
+        loop {
+            let (piece, ends) = match self.piece()? {
+                Piece::Ends(piece) => (piece, true),
+                Piece::Passes(piece) => (piece, false),
+            };
+            let arc = match first {
+                Some(first) => {
+                    Arc { duration: first.duration + piece.duration, end: piece.end, ..first }
+                }
+                None => piece,
+            };
+            if ends {
+                return Ok(arc);
+            }
+            first = Some(arc);
+        }
+    }
+
+    /// The arc up to the next event.
+    fn piece(&mut self) -> Result<Piece<T>, Error> {
         self.check()?;
         let horizon = self.at.time.up_to(self.limits.time);
         // Events before a limit on time, a clock or another event that comes before the Zeno limit are followed.
@@ -92,19 +113,20 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 }
                 if crossing.time > horizon + rounding {
                     let certainty = crossing.certainty;
-                    return self.arc_without_event(horizon, None, certainty, leaving);
+                    let arc = self.arc_without_event(horizon, None, certainty, leaving);
+                    return arc.map(Piece::Ends);
                 }
                 // A crossing that takes no time, or only the error of its own time, is at once as well.
                 let at_once = crossing.kind == EventKind::AtStart
                     || crossing.kind == EventKind::Crossing
                         && crossing.time <= rounding.max(f64::EPSILON * self.at.time.value());
                 if at_once && let Some(sliding) = self.sliding(crossing.surface) {
-                    return Ok(self.sliding_arc(sliding));
+                    return Ok(Piece::Ends(self.sliding_arc(sliding)));
                 }
                 self.event_arc(crossing, (horizon, clock), leaving)
             }
             NextEvent::None { state, certainty } => {
-                self.arc_without_event(horizon, state, certainty, leaving)
+                self.arc_without_event(horizon, state, certainty, leaving).map(Piece::Ends)
             }
             // Going on with the same budgets would never end.
             NextEvent::Unfinished { time, .. } if !(time > 0.0) => {
@@ -116,7 +138,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 let arc = self.new_arc(time, end);
                 self.stop = Some(Stop::Unfinished);
                 self.advance(time, state, leaving);
-                Ok(arc)
+                Ok(Piece::Ends(arc))
             }
         }
     }
@@ -137,6 +159,14 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         let (jumps, state) = (self.at.jump, state.components().to_vec());
         Err(Error::StateNotFinite { time, jumps, state })
     }
+}
+
+/// An arc, or a part of it.
+pub(crate) enum Piece<T: HybridSystem> {
+    /// The arc ends here.
+    Ends(AnArc<T>),
+    /// The event at its end does not count: the arc goes on.
+    Passes(AnArc<T>),
 }
 
 /// An arc of a system.

@@ -101,6 +101,7 @@ mod checkpoint;
 #[cfg(feature = "serde")]
 mod checkpoint_file;
 mod clock;
+mod condition;
 #[cfg(feature = "serde")]
 mod count;
 mod crossing;

@@ -38,6 +38,10 @@ impl<T: HybridSystem> HybridSystem for Searched<T> {
         self.0.reset(mode, surface, before)
     }
 
+    fn condition(&self, mode: T::Mode, surface: T::Surface, before: &T::State) -> Option<f64> {
+        self.0.condition(mode, surface, before)
+    }
+
     fn next_time(&self, mode: T::Mode, surface: T::Surface, after: f64) -> Option<f64> {
         self.0.next_time(mode, surface, after)
     }

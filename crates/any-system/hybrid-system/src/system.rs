@@ -75,6 +75,21 @@ pub trait HybridSystem {
         before: &Self::State,
     ) -> Reset<Self::Mode, Self::State>;
 
+    /// The condition of an event of this surface, at the state before it. The event counts where the value is positive.
+    /// Where it is negative the flow goes on as if there were no guard. Such a guard is a
+    /// [`Role::Crossing`](crate::Role::Crossing): the mode flows on both sides.
+    ///
+    /// Default: `None`, and every event counts.
+    fn condition(
+        &self,
+        mode: Self::Mode,
+        surface: Self::Surface,
+        before: &Self::State,
+    ) -> Option<f64> {
+        let _ = (mode, surface, before);
+        None
+    }
+
     /// Why the state after an event at this time is not finite, if the model knows more than that. Without a surface: the
     /// state after a Zeno limit.
     ///

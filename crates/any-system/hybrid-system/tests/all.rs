@@ -9,6 +9,7 @@ mod checkpoint;
 mod clocks;
 mod clocks_beside_events;
 mod closed_forms;
+mod conditions;
 mod cradles;
 mod ends_of_arcs;
 mod equation_derivatives;

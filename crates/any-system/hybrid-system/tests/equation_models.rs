@@ -163,10 +163,9 @@ fn a_rest_may_have_a_state_of_its_own() {
     let refused = belt(-4.0).model::<State<4>>();
     let error = match refused {
         Err(error) => Some(error),
-        Ok(model) => model
-            .start("flight", [0.5, 0.0, 0.0, 1.0], 9.0)
-            .unwrap()
-            .find_map(Result::err),
+        Ok(model) => {
+            model.start("flight", [0.5, 0.0, 0.0, 1.0], 9.0).unwrap().find_map(Result::err)
+        }
     };
     let message = error.unwrap().to_string();
     assert!(message.contains("sqrt"), "{message}");

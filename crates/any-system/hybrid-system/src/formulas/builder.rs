@@ -163,7 +163,8 @@ impl Equations {
                 // An observer, until something else is said.
                 let guard = Guard { surface, direction, role: Role::Crossing, touch: Touch::Error };
                 self = self.functions(&function.names().functions);
-                let added = GuardEquations { guard, function, jump: Some(Jump::default()) };
+                let jump = Some(Jump::default());
+                let added = GuardEquations { guard, function, condition: None, jump };
                 match self.modes.last_mut() {
                     Some(mode) => mode.guards.push(added),
                     None => self.everywhere.push(added),
@@ -201,11 +202,64 @@ impl Equations {
     fn with_jump(self, change: impl FnOnce(&mut Jump)) -> Self {
         self.with_last(|guard| {
             let observes = guard.jump.as_ref().is_some_and(|jump| *jump == Jump::default());
-            if observes && guard.guard.role == Role::Crossing {
+            if observes && guard.condition.is_none() && guard.guard.role == Role::Crossing {
                 guard.guard.role = Role::Switch;
             }
             change(guard.jump.get_or_insert_default());
         })
+    }
+
+    /// The events of the last guard count only where h(t, x), at the state before the event, is positive. Where it is negative
+    /// the flow goes on as if there were no guard. The guard becomes a [crossing](Self::crossing).
+    ///
+    /// An event at which the sign of h is lost in rounding is [`Error::UndecidedCondition`].
+    ///
+    /// ```
+    /// use hybrid_system::{Equations, State};
+    /// // A ball rolls off a table that ends at x = 1, and falls to the floor below.
+    /// let ball = Equations::new(&["x", "y", "u", "v"], &[])
+    ///     .mode_text("flight", &["u", "v", "0", "-1"])
+    ///     .falling_text("table", "y")
+    ///     .only_where_text("1 - x")
+    ///     .resets_text(&["x", "y", "u", "-v"])
+    ///     .falling_text("floor", "y + 1")
+    ///     .resets_text(&["x", "y", "u", "-v"])
+    ///     .model::<State<4>>()?;
+    /// let mut surfaces = Vec::new();
+    /// for arc in ball.start("flight", [0.0, 0.5, 0.3, 0.0], 9.0)? {
+    ///     surfaces.extend(arc?.event().map(|event| event.surface));
+    /// }
+    /// assert_eq!(surfaces, ["table", "table", "floor", "floor"]);
+    /// # Ok::<(), hybrid_system::Error>(())
+    /// ```
+    #[must_use]
+    pub fn only_where(
+        self,
+        condition: impl for<'g> Fn(Expression<'g>, &States<'g>, &Parameters<'g>) -> Expression<'g>,
+    ) -> Self {
+        if self.wrong.is_some() {
+            return self;
+        }
+        let condition = Formulas::new(self.names.clone(), |t, x, p| [condition(t, x, p)]);
+        self.with_condition(condition)
+    }
+
+    /// The same, from text.
+    #[must_use]
+    pub fn only_where_text(self, condition: &str) -> Self {
+        let condition = Formulas::from_text(self.names.clone(), &[condition]);
+        self.with_condition(condition)
+    }
+
+    fn with_condition(self, condition: Result<Formulas, equations::Error>) -> Self {
+        match condition {
+            _ if self.wrong.is_some() => self,
+            Ok(condition) => {
+                let known = self.functions(&condition.names().functions);
+                known.with_last(|guard| guard.condition = Some(condition)).crossing()
+            }
+            Err(error) => self.refused(error),
+        }
     }
 
     /// The event of the last guard leads to this mode.

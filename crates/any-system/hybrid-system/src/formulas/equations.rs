@@ -75,6 +75,8 @@ pub(super) struct ModeEquations {
 pub(super) struct GuardEquations {
     pub(super) guard: Guard<Label>,
     pub(super) function: Formulas,
+    /// Its events count where this is positive.
+    pub(super) condition: Option<Formulas>,
     /// What its event does; `None` ends the execution.
     pub(super) jump: Option<Jump>,
 }
@@ -104,6 +106,13 @@ impl GuardEquations {
     }
 
     fn check(&self) -> Result<(), Error> {
+        if self.condition.as_ref().is_some_and(|condition| condition.count() != 1) {
+            return self.bad("a condition has one formula");
+        }
+        if self.condition.is_some() && self.guard.role.bounds_flow() {
+            return self
+                .bad("a guard with a condition is a crossing: its mode flows on both sides");
+        }
         match self.function.count() {
             _ if self.guard.role == Role::Clock => self.times().map(|_| ()),
             1 => Ok(()),
@@ -241,5 +250,5 @@ impl Equations {
 /// The formulas of a guard.
 fn of_guard(guard: &mut GuardEquations) -> impl Iterator<Item = &mut Formulas> {
     let state = guard.jump.as_mut().and_then(|jump| jump.state.as_mut());
-    [Some(&mut guard.function), state].into_iter().flatten()
+    [Some(&mut guard.function), guard.condition.as_mut(), state].into_iter().flatten()
 }

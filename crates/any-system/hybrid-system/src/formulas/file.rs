@@ -30,6 +30,10 @@ const ROLES: [(&str, Role); 4] = [
 const TOUCHES: [(&str, Touch); 3] =
     [("error", Touch::Error), ("event", Touch::Event), ("ignore", Touch::Ignore)];
 
+/// The entries of a guard.
+const OF_GUARD: [&str; 7] =
+    ["surface", "direction", "role", "touch", "function", "condition", "jump"];
+
 impl Equations {
     /// The equations as JSON, with exact numbers. The same equations have the same bytes.
     ///
@@ -139,8 +143,23 @@ fn guards(value: &Value, names: &Names) -> Result<Vec<GuardEquations>, Error> {
             touch: word(value, "touch", &TOUCHES)?,
         };
         let place = format!("guard {}", guard.surface);
+        // What this version does not know may change what the guard means.
+        if value
+            .as_object()
+            .is_some_and(|entries| entries.keys().any(|key| !OF_GUARD.contains(&&**key)))
+        {
+            return bad(&place, "it has an entry that this version does not know");
+        }
         let function = formulas(&value["function"], names, &place)?;
-        Ok(GuardEquations { guard, function, jump: jump(&value["jump"], names, &place)? })
+        let condition = value.get("condition");
+        let condition = condition
+            .map(|condition| formulas(condition, names, &format!("the condition of {place}")));
+        Ok(GuardEquations {
+            guard,
+            function,
+            condition: condition.transpose()?,
+            jump: jump(&value["jump"], names, &place)?,
+        })
     };
     list(value, "guards")?.iter().map(guard).collect()
 }
@@ -195,14 +214,18 @@ impl ModeEquations {
 
 impl GuardEquations {
     fn to_value(&self) -> Value {
-        json!({
+        let mut guard = json!({
             "surface": self.guard.surface.as_str(),
             "direction": name(&self.guard.direction, &DIRECTIONS),
             "role": name(&self.guard.role, &ROLES),
             "touch": name(&self.guard.touch, &TOUCHES),
             "function": self.function.to_value(),
             "jump": self.jump.as_ref().map(Jump::to_value),
-        })
+        });
+        if let Some(condition) = &self.condition {
+            guard["condition"] = condition.to_value();
+        }
+        guard
     }
 }
 

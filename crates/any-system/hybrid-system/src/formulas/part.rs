@@ -105,6 +105,12 @@ impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
         }))
     }
 
+    /// Without a value it is NaN, which the execution reports.
+    fn condition(&self, mode: Label, surface: Label, before: &X) -> Option<f64> {
+        let condition = self.0.mode(mode)?.of_surface(surface)?.condition.as_ref()?;
+        Some(condition.first_value(0.0, before.components()))
+    }
+
     fn reset_error(
         &self,
         mode: Label,

@@ -113,6 +113,7 @@ impl ModeProgram {
 pub(super) struct GuardProgram {
     pub(super) surface: Label,
     pub(super) function: Formulas,
+    pub(super) condition: Option<Formulas>,
     pub(super) jump: Option<Jump>,
     value_jets: Jets,
     reset_jets: Jets,
@@ -164,17 +165,25 @@ impl Jump {
 
 impl GuardEquations {
     fn uses_time(&self) -> bool {
-        self.function.uses_time() || self.jump.as_ref().is_some_and(Jump::uses_time)
+        self.function.uses_time()
+            || self.condition.as_ref().is_some_and(Formulas::uses_time)
+            || self.jump.as_ref().is_some_and(Jump::uses_time)
     }
 
     fn program(&self, uses_time: bool) -> GuardProgram {
         let jump = self.jump.as_ref().map(|jump| jump.program(uses_time));
-        let function = match uses_time {
-            true => self.function.with_time_as_state(None),
-            false => self.function.clone(),
+        let timed = |formulas: &Formulas| match uses_time {
+            true => formulas.with_time_as_state(None),
+            false => formulas.clone(),
         };
-        let (value_jets, reset_jets) = (Jets::new(), Jets::new());
-        GuardProgram { surface: self.guard.surface, function, jump, value_jets, reset_jets }
+        GuardProgram {
+            surface: self.guard.surface,
+            function: timed(&self.function),
+            condition: self.condition.as_ref().map(timed),
+            jump,
+            value_jets: Jets::new(),
+            reset_jets: Jets::new(),
+        }
     }
 }
 

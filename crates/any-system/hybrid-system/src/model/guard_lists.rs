@@ -88,6 +88,16 @@ impl<M: Copy + Eq, S: Copy + Eq + Debug> GuardLists<M, S> {
         }
     }
 
+    /// Gives the guards of a surface this role, in all modes.
+    pub(super) fn declare(&mut self, surface: S, role: Role) {
+        let lists = self.modes.iter_mut().map(|(_, list)| list).chain([&mut self.elsewhere]);
+        for guard in lists.flatten() {
+            if guard.surface == surface && guard.role != Role::Clock {
+                guard.role = role;
+            }
+        }
+    }
+
     /// A clock has times, and no function.
     fn note_clock(&mut self, guard: Guard<S>) {
         if guard.role == Role::Clock {

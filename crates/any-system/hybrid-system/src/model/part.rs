@@ -59,6 +59,8 @@ methods! {
     fn unknown_surface(known: &dyn Fn(S) -> bool) -> S;
     /// Mode and state after an event.
     fn reset(mode: M, surface: S, before: &X) -> Reset<M, X>;
+    /// Where an event counts: at the states at which this is positive.
+    fn condition(mode: M, surface: S, before: &X) -> f64;
     /// Why the state after an event, or a Zeno limit, is not finite.
     fn reset_error(mode: M, surface: Option<S>, before: &X, time: f64) -> Error;
     /// The next preset time. The outer `None` means that the surface belongs to another part.

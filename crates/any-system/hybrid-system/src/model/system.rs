@@ -50,6 +50,11 @@ where
         self.parts.reset(mode, surface, before).unwrap_or(Reset::Stop)
     }
 
+    #[inline]
+    fn condition(&self, mode: M, surface: S, before: &X) -> Option<f64> {
+        self.parts.condition(mode, surface, before)
+    }
+
     fn reset_error(&self, mode: M, surface: Option<S>, before: &X, time: f64) -> Option<Error> {
         self.parts.reset_error(mode, surface, before, time)
     }

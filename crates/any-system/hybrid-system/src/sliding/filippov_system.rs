@@ -177,6 +177,18 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
         self.system.guard_error(surface, state)
     }
 
+    fn condition(
+        &self,
+        mode: Self::Mode,
+        surface: Self::Surface,
+        before: &T::State,
+    ) -> Option<f64> {
+        let (FilippovMode::Free(mode), FilippovSurface::Model(surface)) = (mode, surface) else {
+            return None;
+        };
+        self.system.condition(mode, surface, before)
+    }
+
     fn leaving_side(
         &self,
         mode: Self::Mode,

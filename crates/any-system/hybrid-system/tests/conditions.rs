@@ -1,0 +1,167 @@
+//! Guards whose events count only where another function is positive.
+
+#![cfg(feature = "ode")]
+
+use hybrid_system::*;
+
+/// A ball rolls off a table that ends at 1, and falls to the floor, a unit below it.
+fn table() -> Equations {
+    Equations::new(&["x", "y", "u", "v"], &[("end", "1")])
+        .mode_text("flight", &["u", "v", "0", "-1"])
+        .falling_text("table", "y")
+        .only_where_text("end - x")
+        .resets_text(&["x", "y", "u", "-v"])
+        .falling_text("floor", "y + 1")
+        .stops()
+}
+
+/// Thrown up from the table it lands at 2, beyond the end or not. From there it falls a unit.
+#[test]
+fn an_event_without_its_condition_is_none() {
+    let model = table().model::<State<4>>().unwrap();
+    let start = |speed: f64| State::from([0.0, 0.0, speed, 1.0]);
+    let near: Vec<_> = model
+        .start("flight", start(0.3), 5.0)
+        .unwrap()
+        .map(|arc| arc.unwrap().event().map(|event| (event.surface.to_string(), event.time)))
+        .collect();
+    // It lands on the table at 2, at x = 0.6, and comes down beside it at 4, at x = 1.2.
+    assert_eq!(near.len(), 2);
+    assert_eq!(near[0].as_ref().unwrap().0, "table");
+    assert!((near[0].as_ref().unwrap().1 - 2.0).abs() < 1e-14);
+    let fall = 4.0 + 3f64.sqrt() - 1.0;
+    assert!((near[1].as_ref().unwrap().1 - fall).abs() < 1e-12, "{near:?}");
+
+    // One arc leads over the level of the table.
+    let mut run = model.start("flight", start(0.6), 9.0).unwrap();
+    let arcs: Vec<_> = run.by_ref().map(Result::unwrap).collect();
+    let [arc] = &arcs[..] else { panic!("{arcs:?}") };
+    let event = arc.event().unwrap();
+    assert_eq!((event.surface.to_string(), event.jump), ("floor".to_owned(), 0));
+    assert_eq!(event.certainty, Certainty::Certain);
+    assert!((event.time - (1.0 + 3f64.sqrt())).abs() < 1e-14);
+    assert!((arc.duration - event.time).abs() < 1e-15);
+    for time in [0.5, 1.9, 2.0, 2.1, 2.7] {
+        let height = arc.state(&model, time).unwrap()[1];
+        assert!((height - time * (1.0 - time / 2.0)).abs() < 1e-14, "{time} {height}");
+    }
+}
+
+/// A landing exactly at the end of the table: no rounding decides it.
+#[test]
+fn a_condition_lost_in_rounding_is_an_error() {
+    let model = table().model::<State<4>>().unwrap();
+    for off in [0.0, 1e-17, -1e-17] {
+        let mut run = model.start("flight", [0.0, 0.0, 0.5 + off, 1.0], 9.0).unwrap();
+        let error = run.next().unwrap().unwrap_err();
+        assert!(matches!(error, Error::UndecidedCondition { .. }), "{error}");
+        assert!(error.to_string().contains("table"), "{error}");
+    }
+    for (off, expected) in [(1e-12, "floor"), (-1e-12, "table")] {
+        let mut run = model.start("flight", [0.0, 0.0, 0.5 + off, 1.0], 9.0).unwrap();
+        assert_eq!(run.next().unwrap().unwrap().event().unwrap().surface, expected);
+    }
+    // Without a value, nothing is decided.
+    let broken = table()
+        .rising_text("side", "x - 0.1")
+        .only_where_text("ln(-x)")
+        .model::<State<4>>()
+        .unwrap();
+    let mut run = broken.start("flight", State::from([0.0, 0.0, 0.5, 1.0]), 9.0).unwrap();
+    assert!(matches!(run.next(), Some(Err(Error::UndecidedCondition { .. }))));
+}
+
+/// The zeros of an oscillator that count only after a time, and a clock that counts only on one side of it.
+#[test]
+fn conditions_of_time_and_of_clocks() {
+    let equations = Equations::new(&["x", "v"], &[])
+        .mode("m", |_, x, _| [x[1], -x[0]])
+        .rising("zero", |_, x, _| x[0])
+        .only_where(|t, _, _| t - 9.0)
+        .clock("tick", |p| [p.number(1.0), p.number(1.0)])
+        .only_where(|_, x, _| x[0]);
+    let again = Equations::from_json(&equations.to_json().unwrap()).unwrap();
+    assert_eq!(again, equations);
+    // The time is the last component.
+    let model = again.model::<State<3>>().unwrap();
+    let mut zeros = Vec::new();
+    let mut ticks = Vec::new();
+    for arc in model.start("m", [0.0, 1.0, 0.0], 16.0).unwrap() {
+        let arc = arc.unwrap();
+        let Some(event) = arc.event() else { continue };
+        match event.surface == "zero" {
+            true => zeros.push(event.time),
+            false => ticks.push(event.time),
+        }
+    }
+    // sin t rises at 2π and 4π, and is positive at these whole numbers.
+    assert_eq!(zeros.len(), 1);
+    assert!((zeros[0] - 4.0 * std::f64::consts::PI).abs() < 1e-12);
+    assert_eq!(ticks, [1.0, 2.0, 3.0, 7.0, 8.0, 9.0, 13.0, 14.0, 15.0]);
+}
+
+/// A condition that never holds leaves one arc, whatever the number of crossings, for closures, bounds and formulas.
+#[test]
+fn a_thousand_crossings_that_do_not_count() {
+    let end = 3000.0;
+    let turn = |x: &State<2>, t: f64| {
+        let (sine, cosine) = t.sin_cos();
+        [x[0] * cosine + x[1] * sine, x[1] * cosine - x[0] * sine]
+    };
+    let sampled = Model::closed_form(|(), x: &State<2>, t| turn(x, t))
+        .either((), |x| x[0], |_| ((), [f64::NAN; 2]))
+        .only_where(0, |x| x[0] - 2.0)
+        .sampled(0.5);
+    let integrated = Model::integrated(|(), x: &State<2>| [x[1], -x[0]])
+        .either((), |x| x[0], |_| ((), [f64::NAN; 2]))
+        .only_where(0, |x| x[0] - 2.0);
+    fn check<T: HybridSystem<State = State<2>>>(run: Execution<'_, T>, end: f64) {
+        let arcs: Vec<_> = run.map(Result::unwrap).collect();
+        assert_eq!(arcs.len(), 1);
+        assert!((arcs[0].duration - end).abs() < 1e-9 && arcs[0].event().is_none());
+    }
+    check(sampled.run((), [1.0, 0.0], end), end);
+    check(integrated.run((), [1.0, 0.0], end), end);
+    let formulas = Equations::new(&["x", "v"], &[])
+        .mode("m", |_, x, _| [x[1], -x[0]])
+        .either("zero", |_, x, _| x[0])
+        .only_where(|_, x, _| x[0] - 2.0)
+        .stops()
+        .model::<State<2>>()
+        .unwrap();
+    check(formulas.start("m", [1.0, 0.0], end).unwrap(), end);
+}
+
+/// A surface that no guard has, and an entry of a file that this version does not know.
+#[test]
+fn wrong_conditions_are_refused() {
+    let model = Model::integrated(|(), x: &State<2>| [x[1], -x[0]])
+        .either((), |x| x[0], |x| ((), *x))
+        .only_where(7, |x| x[1]);
+    let error = model.run((), [1.0, 0.0], 9.0).next().unwrap().unwrap_err();
+    assert!(matches!(error, Error::NoSuchGuard { .. }), "{error}");
+    let model = Model::integrated(|(), x: &State<2>| [x[1], -x[0]])
+        .either((), |x| x[0], |x| ((), *x))
+        .only_where(0, |x| x[1])
+        .contact();
+    let error = model.run((), [1.0, 0.0], 9.0).next().unwrap().unwrap_err();
+    assert!(matches!(error, Error::ConditionOfBound { .. }), "{error}");
+    let bound = table().rising_text("side", "x").only_where_text("y").contact().check();
+    let bound = bound.unwrap_err().to_string();
+    assert!(bound.contains("side") && bound.contains("crossing"), "{bound}");
+    let file = table().to_json().unwrap().replace("\"condition\"", "\"conditions\"");
+    let error = Equations::from_json(&file).unwrap_err().to_string();
+    assert!(error.contains("guard table"), "{error}");
+    let early = Equations::new(&["x"], &[]).mode_text("m", &["1"]).only_where_text("x").check();
+    assert!(early.is_err());
+}
+
+/// The jets of an execution pass an event that does not count.
+#[test]
+fn derivatives_pass_an_event_that_does_not_count() {
+    let model = table().model::<State<4>>().unwrap();
+    let arc = model.start("flight", [0.0, 0.0, 0.6, 1.0], 9.0).unwrap().next().unwrap().unwrap();
+    let jet = model.jet::<2>(&[arc], &Along::start(&[0.0, 0.0, 0.0, 1.0])).unwrap();
+    // v + √(v² + 2), at v = 1.
+    assert!((jet.time.0[1] - (1.0 + 1.0 / 3f64.sqrt())).abs() < 1e-12);
+}
