@@ -10,6 +10,7 @@ use crate::zeno::ZenoLimit;
 
 /// A jump between two arcs.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Event<M, S, X> {
     /// The surface that was crossed.
     pub surface: S,
@@ -17,13 +18,16 @@ pub struct Event<M, S, X> {
     pub time: f64,
     /// How far the event may be from the zero of the guard along the computed trajectory, by rounding: see
     /// [`Crossing::time_rounding`](crate::Crossing::time_rounding).
+    #[cfg_attr(feature = "serde", serde(with = "crate::infinite"))]
     pub time_rounding: f64,
     /// The error of the duration of the arc before the event: a bound for closed forms, an estimate from the tolerances
     /// for integrated flows. Errors of earlier events are not contained.
+    #[cfg_attr(feature = "serde", serde(with = "crate::infinite"))]
     pub time_error: f64,
     /// True if the limit on time lies within `time_error` of the event.
     pub at_time_limit: bool,
     /// Number of jumps before this one, j.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::count::read_count"))]
     pub jump: usize,
     /// The state before the jump, x⁻.
     pub before: X,
@@ -39,6 +43,7 @@ pub struct Event<M, S, X> {
 
 /// How an arc ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ArcEnd<M, S, X> {
     /// The arc ends in an event.
     Event(Event<M, S, X>),
@@ -75,16 +80,19 @@ pub enum ArcEnd<M, S, X> {
 
 /// A piece of continuous motion in one mode, between two events.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Arc<M, S, X> {
     /// The mode.
     pub mode: M,
     /// Continuous time t at which the arc starts.
     pub time: f64,
     /// Number of jumps before the arc, j; (t, j) is the hybrid time.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::count::read_count"))]
     pub jump: usize,
     /// The state at the start.
     pub start: X,
     /// Duration; infinite if the arc [never](ArcEnd::Never) ends.
+    #[cfg_attr(feature = "serde", serde(with = "crate::infinite"))]
     pub duration: f64,
     /// How it ends.
     pub end: ArcEnd<M, S, X>,

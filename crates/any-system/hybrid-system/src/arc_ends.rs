@@ -6,7 +6,7 @@ use crate::before_limit::Passing;
 use crate::crossing::{Certainty, Crossing, EventKind, GuardedFlow, LeavingGuards};
 use crate::error::Error;
 use crate::execution::{AnArc, Execution, Piece};
-use crate::guard::Role;
+use crate::guard::{Direction, Role};
 use crate::limits::Stop;
 use crate::missed::check_missed;
 use crate::next_event::{ClockEvent, flow_to};
@@ -19,6 +19,14 @@ use crate::zeno::ZenoLimit;
 /// The rate of a guard at its crossing is taken over this part of its flight, along the flow behind it. Over a shorter
 /// part rounding would show, over a longer one the bend.
 const NEXT_PART: f64 = 0.01;
+
+/// How far before and behind an event a guard is looked at, in errors of its time. There a guard that is continuous has
+/// moved by as many times its value at the event.
+const LOOK: f64 = 64.0;
+
+/// The least of it that still counts as such a move: an eighth, for rates that change. A jump moves by nothing on one of
+/// both sides, and a pole by less than its value on one.
+const LEAST_MOVE: f64 = 8.0;
 
 /// A flight whose duration is wrong by so much of itself is lost. A larger number would take the next flights for what
 /// they were without the error; a smaller one would give up a limit that is still known.
@@ -182,11 +190,14 @@ impl<T: HybridSystem> Execution<'_, T> {
         match kind {
             EventKind::Crossing => {
                 let arrival = arrival(Some(surface), length);
-                if let Some(guard) = guard {
-                    let value = flow.guard_value(surface, state);
+                let residue = self.residue(surface, state, length);
+                if let (Some(guard), Some(value)) = (guard, residue) {
                     self.at.residues.push(guard, value, arrival.from());
                 }
-                self.at.arrival = Some(arrival);
+                // What a contact that jumps does after its event is told by the motion.
+                let passes = guard.is_some_and(|guard| guard.direction == Direction::Either);
+                let has_left = passes && residue.is_none();
+                self.at.arrival = Some(if has_left { arrival.by_leaving() } else { arrival });
             }
             EventKind::Touch => {
                 self.at.arrival = Some(arrival(Some(surface), length).by_touch());
@@ -209,6 +220,34 @@ impl<T: HybridSystem> Execution<'_, T> {
                 }
                 arrival => *arrival = None,
             },
+        }
+    }
+
+    /// The value of a guard at its event, if that is the error of the event. A guard that jumps there, or has a pole, has
+    /// left its surface.
+    fn residue(&self, surface: T::Surface, state: &T::State, length: DurationOfArc) -> Option<f64> {
+        let flow = self.flow();
+        let value = flow.guard_value(surface, state);
+        let look = LOOK * length.time_error.max(f64::EPSILON * length.duration);
+        let [before, behind] = [-look, look].map(|time| {
+            let beside = self.beside(state, (length.duration, time));
+            flow.guard_value(surface, &beside)
+        });
+        let change = (before - value).abs().min((behind - value).abs());
+        let has_left =
+            LEAST_MOVE * value.abs() > change && value.abs() > flow.rounding_at(surface, state);
+        (!has_left).then_some(value)
+    }
+
+    /// The state of the present flow beside that at a duration, so much later or earlier.
+    pub(crate) fn beside(&self, state: &T::State, (duration, time): (f64, f64)) -> T::State {
+        match self.system.vector_field(self.at.mode, state) {
+            Some(rate) => {
+                let mut moved = state.clone();
+                moved.add_scaled(time, &rate);
+                moved
+            }
+            None => flow_to(&self.flow(), (duration + time).max(0.0)),
         }
     }
 

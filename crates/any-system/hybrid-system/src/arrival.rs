@@ -78,6 +78,8 @@ pub(crate) struct Arrival<M, S, X> {
     surface: Option<S>,
     /// True if the guard has touched the surface, and not crossed it.
     touched: bool,
+    /// True if the guard has jumped over its surface, or has a pole there: its value is no error.
+    has_left: bool,
     /// The side from which the guard of this surface came, ±1; 0 if there is none.
     from: f64,
     /// The state before the reset.
@@ -118,6 +120,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         let mut arrival = Arrival {
             surface,
             touched: false,
+            has_left: false,
             from: 0.0,
             before: before.clone(),
             mode: arc.mode,
@@ -160,6 +163,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         Arrival {
             surface: None,
             touched: false,
+            has_left: false,
             from: 0.0,
             before: state.clone(),
             mode,
@@ -258,6 +262,12 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         (self.time_rounding, self.time_error)
     }
 
+    /// The arrival at a jump or a pole of the guard.
+    pub(crate) fn by_leaving(mut self) -> Self {
+        self.has_left = true;
+        self
+    }
+
     /// The arrival at a touch in place of a crossing.
     pub(crate) fn by_touch(mut self) -> Self {
         self.touched = true;
@@ -320,7 +330,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         let value = next.guard_value(surface, next.start);
         let (_, change) = self.earlier(next.system, surface);
         let same = || value == next.guard_value(surface, &self.before);
-        if Some(surface) == self.surface && same() && !self.is_beyond_jump(next) {
+        let on_surface = Some(surface) == self.surface && !self.has_left;
+        if on_surface && same() && !self.is_beyond_jump(next) {
             change.max(value.abs())
         } else {
             change

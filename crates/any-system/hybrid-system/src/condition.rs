@@ -3,7 +3,6 @@
 use crate::crossing::{Crossing, EventKind, stated_or_measured};
 use crate::error::Error;
 use crate::execution::Execution;
-use crate::state::StateVector;
 use crate::system::HybridSystem;
 
 impl<T: HybridSystem> Execution<'_, T> {
@@ -23,7 +22,10 @@ impl<T: HybridSystem> Execution<'_, T> {
         let of = |state: &T::State| condition(state).unwrap_or(f64::NAN);
         let by_time = match crossing.kind {
             EventKind::Clock => 0.0,
-            _ => (of(&self.later(crossing, crossing.time_error)) - value).abs(),
+            _ => {
+                let later = self.beside(state, (crossing.time, crossing.time_error));
+                (of(&later) - value).abs()
+            }
         };
         let error = stated_or_measured(None, state, &of) + by_time;
         // NaN decides nothing.
@@ -32,17 +34,5 @@ impl<T: HybridSystem> Execution<'_, T> {
         }
         let (surface, time) = (format!("{surface:?}"), self.at.time.value() + crossing.time);
         Err(Error::UndecidedCondition { surface, time, value, error })
-    }
-
-    /// The state so much later than an event, as if the flow went on.
-    fn later(&self, crossing: &Crossing<T::Surface, T::State>, time: f64) -> T::State {
-        match self.system.vector_field(self.at.mode, &crossing.state) {
-            Some(rate) => {
-                let mut moved = crossing.state.clone();
-                moved.add_scaled(time, &rate);
-                moved
-            }
-            None => self.system.flow(self.at.mode, &self.at.state, crossing.time + time),
-        }
     }
 }

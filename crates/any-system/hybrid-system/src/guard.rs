@@ -2,6 +2,7 @@
 
 /// The side from which a crossing counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Direction {
     /// From negative to positive.
     Rising,

@@ -21,6 +21,8 @@
 //! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, up to limits on time and events |
 //! | [`Arc`], [`Event`], [`ArcEnd`] | the parts of an execution, with the states before and after each event |
 //! | [`Trajectory`] | an execution as arrays: states on a grid of times, events in columns |
+//! | [`Solution`] | an execution as a function of time, with its limits from both sides |
+//! | [`many`], [`Fate`] | many runs at once, and where each one ends |
 //! | [`Checkpoint`] | an execution between two arcs, to be restored or saved (feature `serde`) |
 //! | [`PeriodicTimes`], [`PresetTimes`] | the times of clock guards |
 //! | [`ZenoLimit`] | the limit of infinitely many events in finite time |
@@ -65,7 +67,7 @@
 //!
 //! # Features
 //! `ode`: models by their equations, modes given as ẋ = f(x), and sliding modes. `serde`: checkpoints, and with `ode` runs of
-//! equations, that can be saved and loaded. Both are off by default.
+//! equations, that can be saved and loaded. `parallel`: [`many`] runs on all processors. All are off by default.
 //!
 //! # Accuracy
 //! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard given
@@ -109,9 +111,12 @@ mod delay;
 mod durations;
 mod error;
 mod execution;
+mod fate;
 #[cfg(feature = "ode")]
 mod formulas;
 mod guard;
+#[cfg(feature = "serde")]
+mod infinite;
 mod lands_beyond;
 mod limits;
 mod looked;
@@ -128,6 +133,7 @@ mod searched;
 mod sensitivity;
 mod series_fit;
 mod sliding;
+mod solution;
 mod start_rule;
 mod state;
 mod system;
@@ -146,6 +152,7 @@ pub use crossing::{
 pub use equations::Function;
 pub use error::Error;
 pub use execution::Execution;
+pub use fate::{End, Fate, FateOf, many};
 #[cfg(all(feature = "ode", feature = "serde"))]
 pub use formulas::SavedRun;
 #[cfg(feature = "ode")]
@@ -169,6 +176,7 @@ pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensit
 pub use sliding::Sliding;
 #[cfg(feature = "ode")]
 pub use sliding::{Filippov, FilippovMode, FilippovSurface};
+pub use solution::{Place, Solution};
 pub use state::{State, StateVector};
 pub use system::{HybridSystem, Reset, default_search};
 pub use trajectory::{EventColumns, Trajectory};

@@ -110,7 +110,9 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             && reached.is_none()
             && !arrival.has_touched(flow, surface)
         {
-            let passed = arrival.passed_to(surface).filter(|_| !switch);
+            // A guard that counts both ways passes through its surface, whatever its role.
+            let passes = !switch || direction == Direction::Either;
+            let passed = arrival.passed_to(surface).filter(|_| passes);
             if passed.is_none()
                 && let Some(still) = arrival.still_leaves(flow, surface, now)
             {

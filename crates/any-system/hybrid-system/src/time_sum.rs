@@ -9,11 +9,32 @@
 /// must be below 10³⁰⁰ in size, so that no sum overflows; an infinite time is kept as it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Parts"))]
 pub(crate) struct TimeSum {
     /// The nearest double.
     pub(crate) high: f64,
     /// t − high.
     pub(crate) low: f64,
+}
+
+/// What stands in a file.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Parts {
+    high: f64,
+    low: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Parts> for TimeSum {
+    type Error = String;
+
+    fn try_from(Parts { high, low }: Parts) -> Result<Self, String> {
+        match high + low == high {
+            true => Ok(TimeSum { high, low }),
+            false => Err(format!("the time {high} with the rest {low} is damaged")),
+        }
+    }
 }
 
 /// a + b as the nearest double and the exact rest (Knuth's TwoSum).

@@ -110,7 +110,7 @@ fn check_grid(grid: &[f64]) -> Result<(), Error> {
 }
 
 /// Time at the end of an arc.
-fn end_of<M, S, X>(arc: &Arc<M, S, X>) -> f64 {
+pub(crate) fn end_of<M, S, X>(arc: &Arc<M, S, X>) -> f64 {
     match &arc.end {
         ArcEnd::Event(event) => event.time,
         ArcEnd::Zeno { limit, .. } => limit.time,

@@ -25,6 +25,7 @@ use smallvec::SmallVec;
 /// fall only a little faster, such as 1/(k ln² k), cannot be told from them: the execution goes on to its limits
 /// then.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ZenoLimit<X> {
     /// Time of the limit: the sum of all durations.
     pub time: f64,
@@ -33,6 +34,7 @@ pub struct ZenoLimit<X> {
     /// law go on to converge. And the errors of the single events, which the bound contains, act on later durations
     /// as in a bounce: an error δ of an event after the duration T changes the later durations by 2δ/T of their
     /// size, and moves the limit by (1 + 1/q) δ or more if they fall by the factor q there.
+    #[cfg_attr(feature = "serde", serde(with = "crate::infinite"))]
     pub time_error: f64,
     /// Time from the start of the arc to the limit, with all its digits. The arc starts at the last event, or at a
     /// limit on time at which the execution had stopped since.
@@ -40,11 +42,13 @@ pub struct ZenoLimit<X> {
     /// The state at the limit, extrapolated.
     pub state: X,
     /// The change of the state over the last period, divided by 1 − `ratio`: an estimate of the error of `state`.
+    #[cfg_attr(feature = "serde", serde(with = "crate::infinite"))]
     pub state_error: f64,
     /// The factor by which the time to the limit shrinks in one period. Durations shrink by the same factor if they
     /// are a geometric series.
     pub ratio: f64,
     /// Number of events in one period.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::count::read_count"))]
     pub period: usize,
 }
 

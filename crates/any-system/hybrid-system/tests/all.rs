@@ -43,6 +43,7 @@ mod sliding_derivatives;
 mod sliding_detection;
 mod sliding_surfaces;
 mod sliding_undecided;
+mod solutions;
 mod spring_leg;
 mod stops_and_levels;
 mod stops_beside_events;

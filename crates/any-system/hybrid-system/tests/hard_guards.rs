@@ -182,3 +182,134 @@ fn horizons_may_be_infinite() {
         }
     }
 }
+
+/// A guard that jumps over its surface, or has a pole, has all its events, whatever its role, and however often the run stops.
+#[test]
+fn jumps_and_poles_keep_their_later_events() {
+    let circle = |k: usize, first: f64| first + PI * k as f64;
+    let known: [(&str, Vec<f64>, f64); 3] =
+        [
+            // Rising at 1 rad, falling at its jump.
+            ("atan2(y, x) - 1", vec![3.338_991, 5.480_582, 9.622_176, 11.763_767], 1e-5),
+            ("1/x", (0..4).map(|k| circle(k, 1.768_192)).collect(), 1e-2),
+            (
+                "x/y - 0.3",
+                (0..9)
+                    .map(|k| {
+                        if k % 2 == 0 { circle(k / 2, 0.197_396) } else { circle(k / 2, 2.059_736) }
+                    })
+                    .collect(),
+                1e-2,
+            ),
+        ];
+    for (guard, exact, error) in known {
+        for role in 0..4 {
+            let equations = Equations::new(&["x", "y"], &[])
+                .mode_text("m", &["y", "-x"])
+                .either_text("a", guard);
+            let equations = match role {
+                0 => equations,
+                1 => equations.contact(),
+                2 => equations.to("m"),
+                _ => equations.resets_text(&["x", "y"]).crossing(),
+            };
+            let model = equations.rising_text("o", "y - 0.3").model::<State<2>>().unwrap();
+            for stops in [1, 26] {
+                let mut run = model.start("m", [0.5, 0.1], 0.0).unwrap();
+                let mut found = Vec::new();
+                for stop in 1..=stops {
+                    for arc in run.run_until(13.0 * f64::from(stop) / f64::from(stops)) {
+                        let event = arc.unwrap().event().map(|event| (event.surface, event.time));
+                        found.extend(event.filter(|(surface, _)| *surface == "a").map(|e| e.1));
+                    }
+                }
+                assert_eq!(found.len(), exact.len(), "{guard} {role} {stops} {found:?}");
+                for (found, exact) in found.iter().zip(&exact) {
+                    assert!((found - exact).abs() < error, "{guard} {role} {found} {exact}");
+                }
+            }
+        }
+    }
+}
+
+/// A switch whose guard jumps: a later jump beyond its surface is an error, and not lost.
+#[test]
+fn a_start_beyond_a_guard_that_has_jumped_is_an_error() {
+    let model = Equations::new(&["x", "y"], &[])
+        .mode_text("m", &["y", "-x"])
+        .rising_text("a", "atan2(y, x) - 1")
+        .to("n")
+        .mode_text("n", &["y", "-x"])
+        .rising_text("c", "x + 0.3")
+        .to("m")
+        .model::<State<2>>()
+        .unwrap();
+    let arcs: Vec<_> = model.start("m", [0.5, 0.1], 13.0).unwrap().collect();
+    assert!(matches!(arcs.last(), Some(Err(Error::LandsBeyond(_)))), "{arcs:?}");
+}
+
+/// ẍ = −x − cẋ: the slow root of a strong damping keeps its digits. x at 2c is e^(−2 − 2/c²) (1 + 1/c²), nearly.
+#[test]
+fn strong_dampings_have_their_slow_root() {
+    for damping in [1e3, 1e5, 1e8] {
+        let value = format!("{damping:e}");
+        let model = Equations::new(&["x", "v"], &[("c", &value)])
+            .mode_text("m", &["v", "-x - c*v"])
+            .falling_text("half", "x - 0.5")
+            .model::<State<2>>()
+            .unwrap();
+        let mode = Label::new("m").unwrap();
+        let found = model.flow(mode, &State::from([1.0, 0.0]), 2.0 * damping)[0];
+        let small = damping.powi(-2);
+        let exact = (-2.0 * (1.0 + small)).exp() * (1.0 + small);
+        assert!((found / exact - 1.0).abs() < 1e-11, "{damping:e}: {found} {exact}");
+        let mut run = model.start("m", [1.0, 0.0], 2.0 * damping).unwrap();
+        let time = run.next().unwrap().unwrap().event().unwrap().time;
+        let exact = damping * 2f64.ln() * (1.0 - small);
+        assert!((time / exact - 1.0).abs() < 1e-5, "{damping:e}: {time} {exact}");
+    }
+}
+
+/// A zero of third order has no derivatives, whichever way its rounded time falls. Nor has a crossing that nearly grazes.
+#[test]
+fn jets_at_multiple_zeros_are_refused() {
+    for k in 0..40 {
+        let level = format!("{}", 1.02 + 0.001 * f64::from(k));
+        let model = Equations::new(&["x"], &[("a", &level)])
+            .mode_text("m", &["x^2"])
+            .rising_text("g", "(x - a)^3")
+            .model::<State<1>>()
+            .unwrap();
+        let arc = model.start("m", [0.5], 1.95).unwrap().next().unwrap().unwrap();
+        if arc.event().is_some() {
+            let found = model.jet::<4>(&[arc], &Along::start(&[1.0]));
+            assert!(matches!(found, Err(Error::GrazingSensitivity { .. })), "{level} {found:?}");
+        }
+    }
+    // The rate of sin t at a level 1 − δ is √(2δ): six digits are known at 10⁻⁷, and not at 10⁻¹⁴.
+    for (level, known) in [("0.9999999", true), ("0.99999999999999", false)] {
+        let model = Equations::new(&["x", "v"], &[("level", level)])
+            .mode_text("m", &["v", "-x"])
+            .rising_text("g", "x - level")
+            .model::<State<2>>()
+            .unwrap();
+        let arc = model.start("m", [0.0, 1.0], 2.0).unwrap().next().unwrap().unwrap();
+        let found = model.jet::<2>(&[arc], &Along::start(&[1.0, 0.0]));
+        assert_eq!(known, found.is_ok(), "{level} {found:?}");
+        // dτ/dx₀ = −cos τ/cos τ of x = x₀ cos t + sin t.
+        if let Ok(found) = found {
+            assert!((found.time.0[1] + 1.0).abs() < 1e-6, "{found:?}");
+        }
+    }
+}
+
+/// Times that are not in order are refused, with a closed form and without.
+#[test]
+fn states_at_times_without_order_are_refused() {
+    for field in ["-x", "-x^3"] {
+        let model = Equations::new(&["x"], &[]).mode_text("m", &[field]).model::<State<1>>();
+        let (model, mode) = (model.unwrap(), Label::new("m").unwrap());
+        let found = model.flow_at(mode, &State::from([1.0]), &[0.0, 2.0, 1.0]);
+        assert!(matches!(found, Err(Error::BadLimit { .. })), "{field}");
+    }
+}

@@ -2,6 +2,7 @@
 
 /// How certain it is that no event comes before a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Certainty {
     /// The model solved for the crossing itself.
     Exact,

@@ -4,6 +4,7 @@ use super::certainty::Certainty;
 
 /// What kind of event it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum EventKind {
     /// A guard changes sign in its direction.
     Crossing,

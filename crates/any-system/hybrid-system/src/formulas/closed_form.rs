@@ -157,8 +157,8 @@ const LOOKS: [f64; 8] = [0.0, 1.0, 0.382, 0.764, 0.146, 0.528, 0.910, 0.292];
 
 /// True if the errors of a function up to a time are small beside its size there, or below the absolute tolerance.
 ///
-/// The errors of rates and frequencies do not count: they are those of the model's own numbers, and an integration has them
-/// too.
+/// The errors of rates and frequencies do not count: they are some roundings, as those of the model's own numbers, and an
+/// integration has these too.
 pub(super) fn is_sharp(function: &QuasiPolynomial, time: f64, absolute: f64) -> bool {
     let error = function.error_until(time);
     LOOKS.iter().any(|part| error <= SHARP * function.value(part * time).abs() + absolute)
@@ -291,6 +291,23 @@ fn root(square: Enclosure) -> Option<Enclosure> {
     if product(near, near) == square { Some(near) } else { square.sqrt() }
 }
 
+/// The roots τ ± r. The smaller one, in which τ and r cancel, is the determinant over the larger one.
+fn real_roots(matrix: &[Enclosure], middle: Enclosure, root: Enclosure) -> [Enclosure; 2] {
+    let (mut upper, mut lower) = (sum(middle, root), difference(middle, root));
+    let &[a, b, c, d] = matrix else { return [upper, lower] };
+    let determinant = difference(product(a, d), product(b, c));
+    let narrower = |direct: Enclosure, large: Enclosure| {
+        let by_product = quotient(determinant, large);
+        if by_product.width() < direct.width() { by_product } else { direct }
+    };
+    if middle.is_negative() {
+        upper = narrower(upper, lower);
+    } else if middle.is_positive() {
+        lower = narrower(lower, upper);
+    }
+    [upper, lower]
+}
+
 /// e^(Bt) u.
 fn free(matrix: &[Enclosure], u: [Enclosure; 2]) -> Option<[QuasiPolynomial; 2]> {
     let &[a, b, c, d] = matrix else { return None };
@@ -315,9 +332,10 @@ fn free(matrix: &[Enclosure], u: [Enclosure; 2]) -> Option<[QuasiPolynomial; 2]>
         if square.is_positive() {
             let root = root(square)?;
             let other = quotient(bent, root);
+            let [upper, lower] = real_roots(matrix, middle, root);
             return Some(vec![
-                term(sum(middle, root), zero, (vec![half(sum(u, other))], vec![])),
-                term(difference(middle, root), zero, (vec![half(difference(u, other))], vec![])),
+                term(upper, zero, (vec![half(sum(u, other))], vec![])),
+                term(lower, zero, (vec![half(difference(u, other))], vec![])),
             ]);
         }
         None

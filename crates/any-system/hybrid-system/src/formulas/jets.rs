@@ -14,6 +14,13 @@ use equations::{Arithmetic, Coefficients, Jet, jet_horner};
 /// a derivative are left. A slower one is a grazing.
 const SMALLEST_RATE: f64 = 1e-12;
 
+/// The largest change of a guard's rate within the error of the time of its event, in parts of the rate, is this many times the
+/// tolerance, between two bounds: six digits of a derivative are left, or one where the tolerance is that large. A rate that
+/// changes more is that of a grazing.
+const ROUNDINGS: f64 = 1e4;
+const KNOWN_RATE: f64 = 1e-6;
+const LEAST_KNOWN_RATE: f64 = 0.1;
+
 /// A crossing after this part of the present time is at the same instant as the event before.
 const SAME_INSTANT: f64 = 4.0 * f64::EPSILON;
 
@@ -199,7 +206,10 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         let guard = motion.watched(place);
         let size = rate_size(&program.guards[place], &state, motion.states())?;
         let rate = guard.get(1).map_or(0.0, Jet::value);
-        if !(rate.abs() > SMALLEST_RATE * size) {
+        let change = change_of_rate(guard, event.time_error) / rate.abs();
+        let known =
+            (ROUNDINGS * self.motion.tolerances.relative).clamp(KNOWN_RATE, LEAST_KNOWN_RATE);
+        if !(rate.abs() > SMALLEST_RATE * size && change <= known) {
             return Err(Error::GrazingSensitivity { time: event.time, rate });
         }
         let ended = Jet::sum(time, &Jet::number(arc.duration));
@@ -290,6 +300,12 @@ fn rate_size<'c, const T: usize>(
         }
     }
     Ok(size)
+}
+
+/// How much the rate of a guard changes within the error of the time of its event.
+fn change_of_rate<const T: usize>(guard: &[Jet<T>], time_error: f64) -> f64 {
+    let terms = guard.iter().enumerate().skip(2);
+    terms.map(|(k, c)| k as f64 * c.value().abs() * time_error.powi(k as i32 - 1)).sum()
 }
 
 /// The rate of a guard.

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::execution::Execution;
 use crate::guard::Role;
 use crate::model::{Model, ModelPart, Motion};
-use crate::ode::{Tolerances, taylor_crossing, taylor_states};
+use crate::ode::{Tolerances, last_time, taylor_crossing, taylor_states};
 use crate::state::StateVector;
 use crate::system::{HybridSystem, default_search};
 use equations::Series;
@@ -51,7 +51,7 @@ impl<X: StateVector> Motion<Label, X> for TaylorMotion {
         T: HybridSystem<Mode = Label, State = X>,
     {
         let program = self.mode(mode)?;
-        let last = times.last().copied().unwrap_or(0.0);
+        let last = last_time(times)?.unwrap_or(0.0);
         let motion = program.closed_form(start.components());
         let Some(motion) = motion.filter(|own| own.is_sharp_until(last, &self.tolerances)) else {
             let of = |series: &Series| taylor_states(series, start, times, &self.tolerances);

@@ -81,7 +81,7 @@ fn visit_states<T: HybridSystem + ?Sized>(
 }
 
 /// The last of some times, none of none; an error unless they are in one order from zero on.
-pub(super) fn last_time(times: &[f64]) -> Result<Option<f64>, Error> {
+pub(crate) fn last_time(times: &[f64]) -> Result<Option<f64>, Error> {
     let Some(&end) = times.last() else { return Ok(None) };
     let mut before = 0.0;
     for &time in times {

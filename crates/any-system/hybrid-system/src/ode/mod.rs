@@ -31,6 +31,7 @@ mod tolerances;
 mod variation;
 mod vector;
 
+pub(crate) use flow::last_time;
 pub use flow::{integrated_crossing, integrated_flow, integrated_states};
 pub use integration::Integration;
 pub(crate) use taylor::{taylor_crossing, taylor_states};

@@ -5,6 +5,7 @@
 /// The execution cannot leave the surface to either side. Filippov's convention gives it the field f_s, the mean of
 /// both fields that is tangent to the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sliding<M, S, X> {
     /// The surface.
     pub surface: S,
