@@ -149,7 +149,7 @@ pub use crossing::{
     QuasiPolynomialPart, Search,
 };
 #[cfg(feature = "ode")]
-pub use equations::Function;
+pub use equations::{Expression, Function, Parameters, States};
 pub use error::Error;
 pub use execution::Execution;
 pub use fate::{End, Fate, FateOf, many};

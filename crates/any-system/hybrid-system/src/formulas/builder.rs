@@ -160,8 +160,8 @@ impl Equations {
             (Err(error), _) => self.refused(error),
             (_, Err(error)) => self.refused(error),
             (Ok(surface), Ok(function)) => {
-                // An observer, until something else is said.
-                let guard = Guard { surface, direction, role: Role::Crossing, touch: Touch::Error };
+                // A switch, once its event does something.
+                let guard = Guard { surface, direction, role: Role::Switch, touch: Touch::Error };
                 self = self.functions(&function.names().functions);
                 let jump = Some(Jump::default());
                 let added = GuardEquations { guard, function, condition: None, jump };
@@ -197,16 +197,9 @@ impl Equations {
         }
     }
 
-    /// Changes what the event of the guard that was added last does. A state beyond the surface cannot go on then, unless
-    /// the guard is a [crossing](Self::crossing).
+    /// Changes what the event of the guard that was added last does.
     fn with_jump(self, change: impl FnOnce(&mut Jump)) -> Self {
-        self.with_last(|guard| {
-            let observes = guard.jump.as_ref().is_some_and(|jump| *jump == Jump::default());
-            if observes && guard.condition.is_none() && guard.guard.role == Role::Crossing {
-                guard.guard.role = Role::Switch;
-            }
-            change(guard.jump.get_or_insert_default());
-        })
+        self.with_last(|guard| change(guard.jump.get_or_insert_default()))
     }
 
     /// The events of the last guard count only where h(t, x), at the state before the event, is positive. Where it is negative
@@ -326,8 +319,7 @@ impl Equations {
     /// The last guard is crossed in flight alone: see [`Role::Crossing`].
     #[must_use]
     pub fn crossing(self) -> Self {
-        // An observer is one already; the event of another one may still be declared.
-        self.with_jump(|_| ()).with_role(Role::Crossing)
+        self.with_role(Role::Crossing)
     }
 
     /// A clock stays one.

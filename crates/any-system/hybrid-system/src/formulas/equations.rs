@@ -91,6 +91,15 @@ pub(super) struct Jump {
 }
 
 impl GuardEquations {
+    /// The guard as a model lists it: an observer bounds no flow.
+    fn declared(&self) -> Guard<Label> {
+        let observes = self.jump.as_ref().is_some_and(|jump| *jump == Jump::default());
+        match self.guard.role {
+            Role::Switch if observes => self.guard.crossing(),
+            _ => self.guard,
+        }
+    }
+
     /// The times of a clock.
     pub(super) fn times(&self) -> Result<PeriodicTimes, Error> {
         let function = &self.function;
@@ -232,11 +241,11 @@ impl Equations {
     pub fn model<X: StateVector>(&self) -> Result<EquationsModel<X>, Error> {
         self.check()?;
         let programs = Arc::new(Programs::new(self)?);
-        let guards = self.everywhere.iter().map(|guard| (None, guard.guard));
+        let guards = self.everywhere.iter().map(|guard| (None, guard.declared()));
         let of_modes = self
             .modes
             .iter()
-            .flat_map(|mode| mode.guards.iter().map(|guard| (Some(mode.name), guard.guard)));
+            .flat_map(|mode| mode.guards.iter().map(|guard| (Some(mode.name), guard.declared())));
         // Modes without guards of their own have those of all modes.
         let guards: Vec<_> = guards.chain(of_modes).collect();
         Ok(Model::of_equations(

@@ -3,6 +3,7 @@
 mod eccentric_cylinder;
 mod forced_oscillator;
 mod guards;
+mod published;
 mod scene_panel;
 mod semantics;
 mod semantics_motion;
@@ -23,5 +24,6 @@ pub(crate) const ALL: &[(&str, Draw)] = &[
     ("semantics_motion", semantics_motion::figure),
     ("eccentric_cylinder", eccentric_cylinder::figure),
     ("forced_oscillator", forced_oscillator::figure),
+    ("published", published::figure),
     ("valve", valve::figure),
 ];
