@@ -46,7 +46,7 @@ fn ball() -> Result<Panel, Error> {
 fn oscillator() -> Result<Panel, Error> {
     let forcing = 1.01 * grazing_forcing();
     let model = impact_oscillator(&format!("{forcing}"));
-    let panel = Panel::new("c: an oscillator behind its grazing", 40.0, (-0.8, 0.6), "$x$");
+    let panel = Panel::new("c: an oscillator behind its grazing", 40.0, (-1.4, 0.6), "$x$");
     run(panel.surface(0.5), &model, ("free", steady_start(forcing)))
 }
 
