@@ -145,6 +145,25 @@ impl PresetTimes {
     }
 }
 
+/// The times of a clock.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg(feature = "ode")]
+pub(crate) enum ClockTimes {
+    Periodic(PeriodicTimes),
+    Preset(PresetTimes),
+}
+
+#[cfg(feature = "ode")]
+impl ClockTimes {
+    /// The first of the times later than `after`.
+    pub(crate) fn next_after(&self, after: f64) -> Option<f64> {
+        match self {
+            ClockTimes::Periodic(times) => times.next_after(after),
+            ClockTimes::Preset(times) => times.next_after(after),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -18,6 +18,11 @@ pub struct Limits {
     /// hold as well: the steps of the tolerances of a flow, a million by default, and a billion samples of one
     /// search.
     pub steps: usize,
+    /// True if a clock whose preset time is the start of the execution has its event there. Default: false.
+    pub ticks_at_start: bool,
+    /// True if a clock whose preset time is the limit on time has its event there. Default: true. Without it the event is the
+    /// first one of an execution that goes on.
+    pub ticks_at_end: bool,
 }
 
 impl Limits {
@@ -29,6 +34,8 @@ impl Limits {
             sampling_interval: None,
             intervals: MOST_INTERVALS,
             steps: usize::MAX,
+            ticks_at_start: false,
+            ticks_at_end: true,
         }
     }
 

@@ -128,10 +128,13 @@ impl<T: HybridSystem> Execution<'_, T> {
     pub(crate) fn next_clock(&self, horizon: f64) -> Result<Option<ClockEvent<T::Surface>>, Error> {
         let now = self.at.time.value();
         let guards = self.system.guards(self.at.mode).iter();
+        let end = self.limits.time;
+        let latest = if self.limits.ticks_at_end { end } else { end.next_down() };
         let mut earliest: Option<ClockEvent<T::Surface>> = None;
         for guard in guards.filter(|guard| guard.role == Role::Clock) {
             // A clock whose time is now, and that has not had its event yet, must not be lost.
-            let had_its_event = self.at.initial || self.at.chain.contains(guard.surface);
+            let before_all = self.at.initial && !self.limits.ticks_at_start;
+            let had_its_event = before_all || self.at.chain.contains(guard.surface);
             let after = if had_its_event { now } else { now.next_down() };
             let Some(time) = self.system.next_time(self.at.mode, guard.surface, after) else {
                 continue;
@@ -145,7 +148,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             let until = self.at.time.up_to(time);
             if time.is_finite()
                 && until <= horizon
-                && time <= self.limits.time
+                && time <= latest
                 && earliest.is_none_or(|first| time < first.time)
             {
                 earliest = Some(ClockEvent { surface: guard.surface, until, time });

@@ -141,6 +141,32 @@ impl Equations {
         self.add_clock(surface, times)
     }
 
+    /// Adds a clock: events at these times, which follow from the parameters and rise. A time that is not later than the start
+    /// has no event.
+    #[must_use]
+    pub fn ticks(
+        self,
+        surface: &str,
+        times: impl for<'g> Fn(&Parameters<'g>) -> Vec<Expression<'g>>,
+    ) -> Self {
+        if self.wrong.is_some() {
+            return self;
+        }
+        let times = Formulas::of_vector(self.names.clone(), |_, _, p| times(p));
+        self.add_ticks(surface, times)
+    }
+
+    /// The same, from texts.
+    #[must_use]
+    pub fn ticks_text(self, surface: &str, times: &[&str]) -> Self {
+        let times = Formulas::from_text(self.names.clone(), times);
+        self.add_ticks(surface, times)
+    }
+
+    fn add_ticks(self, surface: &str, times: Result<Formulas, equations::Error>) -> Self {
+        self.add_clock(surface, times).with_last(|guard| guard.listed = true)
+    }
+
     fn add_clock(self, surface: &str, times: Result<Formulas, equations::Error>) -> Self {
         self.guard(surface, Direction::Either, times).with_last(|guard| {
             guard.guard.role = Role::Clock;
@@ -164,7 +190,8 @@ impl Equations {
                 let guard = Guard { surface, direction, role: Role::Switch, touch: Touch::Error };
                 self = self.functions(&function.names().functions);
                 let jump = Some(Jump::default());
-                let added = GuardEquations { guard, function, condition: None, jump };
+                let added =
+                    GuardEquations { guard, function, listed: false, condition: None, jump };
                 match self.modes.last_mut() {
                     Some(mode) => mode.guards.push(added),
                     None => self.everywhere.push(added),

@@ -4,7 +4,7 @@ use super::label::Label;
 use super::motion::TaylorMotion;
 use super::part::FormulaPart;
 use super::programs::Programs;
-use crate::clock::PeriodicTimes;
+use crate::clock::{ClockTimes, PeriodicTimes, PresetTimes};
 use crate::error::Error;
 use crate::guard::{Guard, Role};
 use crate::model::Model;
@@ -75,6 +75,8 @@ pub(super) struct ModeEquations {
 pub(super) struct GuardEquations {
     pub(super) guard: Guard<Label>,
     pub(super) function: Formulas,
+    /// Of a clock: true if the formulas are all its times, false if they are the first one and the period.
+    pub(super) listed: bool,
     /// Its events count where this is positive.
     pub(super) condition: Option<Formulas>,
     /// What its event does; `None` ends the execution.
@@ -101,17 +103,20 @@ impl GuardEquations {
     }
 
     /// The times of a clock.
-    pub(super) fn times(&self) -> Result<PeriodicTimes, Error> {
+    pub(super) fn times(&self) -> Result<ClockTimes, Error> {
         let function = &self.function;
         let moves = |node: &Node| matches!(node, Node::Time | Node::State(_));
         if function.nodes().0.iter().any(moves) {
             return self.bad("the times of a clock follow from numbers and parameters alone");
         }
         let found = function.values(0.0, &vec![0.0; function.names().states.len()])?;
+        if self.listed {
+            return PresetTimes::new(found).map(ClockTimes::Preset);
+        }
         let [first, period] = found[..] else {
             return self.bad("a clock has two formulas, its first time and its period");
         };
-        PeriodicTimes::new(first, period)
+        PeriodicTimes::new(first, period).map(ClockTimes::Periodic)
     }
 
     fn check(&self) -> Result<(), Error> {

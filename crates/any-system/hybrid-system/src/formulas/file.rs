@@ -31,8 +31,11 @@ const TOUCHES: [(&str, Touch); 3] =
     [("error", Touch::Error), ("event", Touch::Event), ("ignore", Touch::Ignore)];
 
 /// The entries of a guard.
-const OF_GUARD: [&str; 7] =
-    ["surface", "direction", "role", "touch", "function", "condition", "jump"];
+const OF_GUARD: [&str; 8] =
+    ["surface", "direction", "role", "touch", "function", "times", "condition", "jump"];
+
+/// The times of a clock, if they are not a first one and a period.
+const LISTED: &str = "listed";
 
 impl Equations {
     /// The equations as JSON, with exact numbers. The same equations have the same bytes.
@@ -157,6 +160,11 @@ fn guards(value: &Value, names: &Names) -> Result<Vec<GuardEquations>, Error> {
         Ok(GuardEquations {
             guard,
             function,
+            listed: match &value["times"] {
+                Value::Null => false,
+                Value::String(word) if word == LISTED => true,
+                _ => return bad(&place, "its times are listed, or a first one and a period"),
+            },
             condition: condition.transpose()?,
             jump: jump(&value["jump"], names, &place)?,
         })
@@ -222,6 +230,9 @@ impl GuardEquations {
             "function": self.function.to_value(),
             "jump": self.jump.as_ref().map(Jump::to_value),
         });
+        if self.listed {
+            guard["times"] = json!(LISTED);
+        }
         if let Some(condition) = &self.condition {
             guard["condition"] = condition.to_value();
         }

@@ -4,6 +4,7 @@ use super::label::Label;
 use super::motion::TaylorMotion;
 use super::programs::{GuardProgram, ModeProgram};
 use crate::arc::{Arc, ArcEnd, Event};
+use crate::clock::ClockTimes;
 use crate::crossing::EventKind;
 use crate::error::Error;
 use crate::model::Model;
@@ -216,7 +217,7 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         after_jump(&program.guards[place], &motion, (&ended, &zero(guard)))
     }
 
-    /// State and time after a tick of a clock, whose times are first + k·period.
+    /// State and time after a tick of a clock.
     fn after_tick<const T: usize>(
         &self,
         program: &ModeProgram,
@@ -225,20 +226,31 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         time: &Jet<T>,
     ) -> Result<(Vec<Jet<T>>, Jet<T>), Error> {
         let clock = program.clocks.iter().find(|(clock, _)| clock.surface == event.surface);
-        let Some((clock, _)) = clock else { return Err(Error::NoSensitivity { time: arc.time }) };
+        let Some((clock, times)) = clock else {
+            return Err(Error::NoSensitivity { time: arc.time });
+        };
         if arc.jump > 0 && arc.duration <= SAME_INSTANT * event.time.abs() {
             return Err(corner(event));
         }
-        let times = clock.value_jets()?.values(start)?;
-        let [first, period] = [0, 1].map(|k| times.get(k).copied().unwrap_or(Jet::zero()));
-        let ticks = ((event.time - first.value()) / period.value()).round();
-        let tick = Jet::sum(&first, &Jet::times(&period, ticks));
+        let tick = tick(&clock.value_jets()?.values(start)?, times, event.time);
         let flown = self.jet_flow(program, start, arc.duration)?;
         let motion = program.jets()?.coefficients(&flown, T)?;
         let mut since = Jet::difference(&tick, time);
         put_value(&mut since, 0.0);
         let ended = Jet::sum(time, &Jet::number(arc.duration));
         after_jump(clock, &motion, (&ended, &since))
+    }
+}
+
+/// The time of a tick: first + k·period, or one of a list.
+fn tick<const T: usize>(formulas: &[Jet<T>], times: &ClockTimes, time: f64) -> Jet<T> {
+    let of = |k: usize| formulas.get(k).copied().unwrap_or(Jet::zero());
+    match times {
+        ClockTimes::Periodic(_) => {
+            let ticks = ((time - of(0).value()) / of(1).value()).round();
+            Jet::sum(&of(0), &Jet::times(&of(1), ticks))
+        }
+        ClockTimes::Preset(times) => of(times.times().partition_point(|tick| *tick < time)),
     }
 }
 

@@ -4,7 +4,7 @@ use super::closed_form::{ClosedForm, is_sharp};
 use super::equations::{Equations, GuardEquations, Jump, ModeEquations};
 use super::label::Label;
 use super::quasi_values::quasi_value;
-use crate::clock::PeriodicTimes;
+use crate::clock::ClockTimes;
 use crate::crossing::QuasiPolynomial;
 use crate::error::Error;
 use crate::guard::Role;
@@ -29,8 +29,8 @@ pub(super) struct ModeProgram {
     /// The field with the guards as watched formulas, in their order.
     pub(super) series: Series,
     pub(super) guards: Vec<GuardProgram>,
-    /// The clocks: their first time and their period, and the times these are.
-    pub(super) clocks: Vec<(GuardProgram, PeriodicTimes)>,
+    /// The clocks: the formulas of their times, and the times these are.
+    pub(super) clocks: Vec<(GuardProgram, ClockTimes)>,
     pub(super) after_limit: Option<Jump>,
     /// The closed form of the motion, if it has one.
     closed_form: Option<ClosedForm>,
