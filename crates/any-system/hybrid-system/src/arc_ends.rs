@@ -82,17 +82,20 @@ impl<T: HybridSystem> Execution<'_, T> {
         let after = match self.system.reset(self.at.mode, surface, &state) {
             _ if !counts => Some((self.at.mode, state.clone())),
             Reset::Jump { mode, state: after } => {
-                check_dimension("the state after a reset", &state, &after)?;
-                if !after.is_finite()
-                    && let Some(error) =
-                        self.system.reset_error(self.at.mode, Some(surface), &state, time.value())
-                {
-                    return Err(error);
-                }
+                check_dimension("the state after a reset that is no `Resize`", &state, &after)?;
                 Some((mode, after))
             }
+            Reset::Resize { mode, state: after } => Some((mode, after)),
             Reset::Stop => None,
         };
+        if after.as_ref().is_some_and(|(_, after)| !after.is_finite())
+            && let Some(error) =
+                self.system.reset_error(self.at.mode, Some(surface), &state, time.value())
+        {
+            return Err(error);
+        }
+        let dimension = |(_, after): &(T::Mode, T::State)| after.dimension();
+        let resizes = after.as_ref().map(dimension).is_some_and(|own| own != state.dimension());
         let direction = self.direction(surface, (kind, from), &leaving);
         let end = ArcEnd::Event(Event {
             surface,
@@ -116,7 +119,9 @@ impl<T: HybridSystem> Execution<'_, T> {
         let length =
             DurationOfArc { duration, since_event, time_rounding, time_error, solved, from };
         self.remember((kind, surface), &state, (length, leaving), time_passes);
-        if let Some((_, after)) = &after {
+        if let Some((_, after)) = &after
+            && !resizes
+        {
             // A reset that moves a guard off its surface leaves no residue.
             self.forget_residues(None, after, 0.0);
             let next = FlowFrom { system: self.system, mode: self.at.mode, start: after };
@@ -133,7 +138,9 @@ impl<T: HybridSystem> Execution<'_, T> {
         match after {
             Some((mode, after)) => {
                 // An event that changes nothing, as that of an observer, divides one flow in two.
-                if changes_nothing {
+                if resizes {
+                    self.forget_guards();
+                } else if changes_nothing {
                     self.at.history.pass(duration);
                 } else {
                     let by_division = match kind {
@@ -151,6 +158,13 @@ impl<T: HybridSystem> Execution<'_, T> {
             }
         }
         Ok(if counts { Piece::Ends(arc) } else { Piece::Passes(arc) })
+    }
+
+    /// Forgets what guards were on states of another dimension.
+    fn forget_guards(&mut self) {
+        self.at.history.clear();
+        self.at.residues.clear();
+        self.at.arrival = None;
     }
 
     /// The error of the time of an event by the rounding of the state at which a stop or an observer has divided its

@@ -18,6 +18,15 @@ pub enum Reset<M, X> {
         /// The state after the jump, x⁺.
         state: X,
     },
+    /// The execution continues in `mode` from a `state` that may have another number of components: a cell divides, a contact
+    /// adds a coordinate, two bodies become one. What the guards were before the event says nothing about those after it: a
+    /// guard that is zero at the new state has the side to which it leaves.
+    Resize {
+        /// The next mode.
+        mode: M,
+        /// The state after the event.
+        state: X,
+    },
     /// The execution ends here.
     Stop,
 }

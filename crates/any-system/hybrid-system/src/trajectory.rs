@@ -75,7 +75,8 @@ impl<T: HybridSystem> Execution<'_, T> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::BadLimit`] for a grid that is not in ascending order, or not finite; the errors of the execution, and
+    /// [`Error::BadLimit`] for a grid that is not in ascending order, or not finite; [`Error::Dimension`] if an event changes
+    /// the number of components, for which a [`Solution`](crate::Solution) has no such limit; the errors of the execution, and
     /// those of [`Arc::states`].
     pub fn trajectory(&mut self, grid: &[f64]) -> Result<Trajectory<T::Mode, T::Surface>, Error> {
         check_grid(grid)?;
@@ -86,6 +87,10 @@ impl<T: HybridSystem> Execution<'_, T> {
         let mut last_end = None;
         for arc in self.by_ref() {
             let arc = arc?;
+            let (expected, found) = (rows.dimension, arc.start.dimension());
+            if expected != found {
+                return Err(Error::Dimension { what: "a state of the run", expected, found });
+            }
             let end = end_of(&arc);
             rows.arc(system, &arc, end, &grid[next..])?;
             // Grid times at the end belong to the next arc, if there is one.

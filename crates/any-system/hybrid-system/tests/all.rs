@@ -11,6 +11,7 @@ mod clocks_beside_events;
 mod closed_forms;
 mod conditions;
 mod cradles;
+mod dimensions;
 mod ends_of_arcs;
 mod equation_derivatives;
 mod equation_models;

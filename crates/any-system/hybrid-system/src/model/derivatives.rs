@@ -72,7 +72,7 @@ where
 /// The state after a reset, NaN in all components if the reset ends the execution.
 pub(super) fn state_after<M, const N: usize>(reset: Reset<M, State<N>>) -> State<N> {
     match reset {
-        Reset::Jump { state, .. } => state,
+        Reset::Jump { state, .. } | Reset::Resize { state, .. } => state,
         Reset::Stop => State::repeat(f64::NAN),
     }
 }

@@ -73,7 +73,9 @@ pub(super) fn after_crossing<T: HybridSystem>(
         match named.or_else(placed) {
             None => Side::Unaffected,
             Some(guard) => match system.reset(mode, guard.surface, state) {
-                Reset::Jump { mode, state } => Side::Jump(mode, state),
+                Reset::Jump { mode, state } | Reset::Resize { mode, state } => {
+                    Side::Jump(mode, state)
+                }
                 Reset::Stop => Side::Stop,
             },
         }

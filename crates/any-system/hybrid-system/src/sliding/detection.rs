@@ -107,7 +107,7 @@ fn leads_to<T: HybridSystem>(
 ) -> bool {
     match system.reset(mode, surface, state) {
         Reset::Jump { mode, state: after } => mode == to && is_unchanged(state, &after),
-        Reset::Stop => false,
+        Reset::Resize { .. } | Reset::Stop => false,
     }
 }
 

@@ -98,6 +98,9 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
             (FilippovMode::Free(mode), FilippovSurface::Model(surface)) => {
                 match self.system.reset(mode, surface, before) {
                     Reset::Jump { mode, state } => free(mode, state),
+                    Reset::Resize { mode, state } => {
+                        Reset::Resize { mode: FilippovMode::Free(mode), state }
+                    }
                     Reset::Stop => Reset::Stop,
                 }
             }

@@ -54,7 +54,9 @@ impl<const N: usize> HybridSystem for OfDimension<'_, '_, N> {
 
     fn reset(&self, mode: Mode, surface: Surface, before: &Fixed<N>) -> Reset<Mode, Fixed<N>> {
         match self.0.reset(mode, surface, &dynamic(before)) {
-            Reset::Jump { mode, state } => Reset::Jump { mode, state: fixed(&state) },
+            Reset::Jump { mode, state } | Reset::Resize { mode, state } => {
+                Reset::Jump { mode, state: fixed(&state) }
+            }
             Reset::Stop => Reset::Stop,
         }
     }
