@@ -61,7 +61,7 @@
 //! ```
 //!
 //! More: [what happens at a surface](semantics), [sliding](sliding_motion), [the mathematics](mathematics), [which
-//! certainty do I have?](certainty), and [a model of your own in 20 lines](guide). In the examples `bouncing_ball`,
+//! certainty do I have?](certainty), [a model of your own in 20 lines](guide), and [models of legs](legged_models). In the examples `bouncing_ball`,
 //! `plastic_landing` and `eccentric_cylinder` bodies come to rest on another one and are released; in
 //! `dry_friction` a mass sticks to a belt.
 //!
@@ -209,6 +209,9 @@ pub mod sliding_motion {}
 
 #[doc = include_str!("../docs/stiff.md")]
 pub mod stiff {}
+
+#[cfg_attr(feature = "ode", doc = include_str!("../docs/legged.md"))]
+pub mod legged_models {}
 
 #[doc = include_str!("../docs/guide.md")]
 pub mod guide {}

@@ -249,7 +249,7 @@ impl Equations {
     /// for arc in ball.start("flight", [0.0, 0.5, 0.3, 0.0], 9.0)? {
     ///     surfaces.extend(arc?.event().map(|event| event.surface));
     /// }
-    /// assert_eq!(surfaces, ["table", "table", "floor", "floor"]);
+    /// assert_eq!(surfaces, ["table", "table", "floor"]);
     /// # Ok::<(), hybrid_system::Error>(())
     /// ```
     #[must_use]

@@ -295,7 +295,7 @@ where
     ///     .run((), [0.0, 0.5, 0.3, 0.0], 9.0)
     ///     .filter_map(|arc| arc.ok()?.event().map(|event| event.surface))
     ///     .collect();
-    /// assert_eq!(surfaces, [0, 0, 1, 1]);
+    /// assert_eq!(surfaces, [0, 0, 1]);
     /// # Ok::<(), hybrid_system::Error>(())
     /// ```
     pub fn only_where<H>(
