@@ -13,6 +13,16 @@ pub enum Direction {
 }
 
 impl Direction {
+    /// The direction in which a guard changes its sign backward in time.
+    #[cfg(feature = "ode")]
+    pub(crate) fn backward(self) -> Self {
+        match self {
+            Direction::Rising => Direction::Falling,
+            Direction::Falling => Direction::Rising,
+            Direction::Either => Direction::Either,
+        }
+    }
+
     /// True if a change of sign from `before` to `after`, both non-zero, counts.
     pub fn admits(self, before: f64, after: f64) -> bool {
         match self {

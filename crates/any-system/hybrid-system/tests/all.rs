@@ -36,6 +36,7 @@ mod parameter_sensitivity;
 mod peer_events;
 mod peer_scene;
 mod planted_roots;
+mod reversed;
 mod semantics;
 mod semantics_observers;
 mod sensitivity;

@@ -331,6 +331,38 @@ impl Equations {
         }
     }
 
+    /// The state before the event of the last guard, from the state after it: the inverse of its [`resets`](Self::resets), for
+    /// [`reversed`](Self::reversed).
+    #[must_use]
+    pub fn inverse<const N: usize>(
+        self,
+        state: impl for<'g> Fn(Expression<'g>, &States<'g>, &Parameters<'g>) -> [Expression<'g>; N],
+    ) -> Self {
+        if self.wrong.is_some() {
+            return self;
+        }
+        let state = Formulas::new(self.names.clone(), state);
+        self.with_inverse(state)
+    }
+
+    /// The same, from texts.
+    #[must_use]
+    pub fn inverse_text(self, state: &[&str]) -> Self {
+        let state = Formulas::from_text(self.names.clone(), state);
+        self.with_inverse(state)
+    }
+
+    fn with_inverse(self, state: Result<Formulas, equations::Error>) -> Self {
+        match state {
+            _ if self.wrong.is_some() => self,
+            Ok(state) => {
+                let known = self.functions(&state.names().functions);
+                known.with_jump(|jump| jump.inverse = Some(state))
+            }
+            Err(error) => self.refused(error),
+        }
+    }
+
     /// The event of the last guard ends the execution.
     #[must_use]
     pub fn stops(self) -> Self {
@@ -390,7 +422,7 @@ impl Equations {
         match (Label::new(mode), self.modes.last_mut()) {
             (Err(error), _) => self.refused(error),
             (Ok(mode), Some(last)) => {
-                last.after_limit = Some(Jump { mode: Some(mode), state });
+                last.after_limit = Some(Jump { mode: Some(mode), state, inverse: None });
                 self
             }
             (Ok(mode), None) => {

@@ -90,6 +90,8 @@ pub(super) struct Jump {
     pub(super) mode: Option<Label>,
     /// The next state, if it is another one.
     pub(super) state: Option<Formulas>,
+    /// The state before, from the next one.
+    pub(super) inverse: Option<Formulas>,
 }
 
 impl GuardEquations {
@@ -134,7 +136,7 @@ impl GuardEquations {
         }
     }
 
-    fn bad<T>(&self, reason: &'static str) -> Result<T, Error> {
+    pub(super) fn bad<T>(&self, reason: &'static str) -> Result<T, Error> {
         Err(Error::BadEquations { what: self.guard.surface.to_string(), reason })
     }
 }
@@ -187,9 +189,11 @@ impl Equations {
 
     fn all_formulas(&mut self) -> impl Iterator<Item = &mut Formulas> {
         let modes = self.modes.iter_mut().flat_map(|mode| {
-            let limit = mode.after_limit.as_mut().and_then(|jump| jump.state.as_mut());
-            let own = [Some(&mut mode.field), limit].into_iter().flatten();
-            own.chain(mode.guards.iter_mut().flat_map(of_guard))
+            let limit = mode.after_limit.iter_mut().flat_map(of_jump);
+            [&mut mode.field]
+                .into_iter()
+                .chain(limit)
+                .chain(mode.guards.iter_mut().flat_map(of_guard))
         });
         modes.chain(self.everywhere.iter_mut().flat_map(of_guard))
     }
@@ -221,9 +225,8 @@ impl Equations {
             if let Some(mode) = jump.mode.as_ref().filter(unknown) {
                 return bad(mode.to_string(), NO_MODE);
             }
-            jump.state
-                .as_ref()
-                .map_or(Ok(()), |state| check_length("the state after an event", state))
+            let states = [&jump.state, &jump.inverse].into_iter().flatten();
+            states.clone().try_for_each(|state| check_length("the state after an event", state))
         };
         for (place, mode) in self.modes.iter().enumerate() {
             if self.modes[..place].iter().any(|other| other.name == mode.name) {
@@ -263,6 +266,11 @@ impl Equations {
 
 /// The formulas of a guard.
 fn of_guard(guard: &mut GuardEquations) -> impl Iterator<Item = &mut Formulas> {
-    let state = guard.jump.as_mut().and_then(|jump| jump.state.as_mut());
-    [Some(&mut guard.function), guard.condition.as_mut(), state].into_iter().flatten()
+    let own = [Some(&mut guard.function), guard.condition.as_mut()].into_iter().flatten();
+    own.chain(guard.jump.iter_mut().flat_map(of_jump))
+}
+
+/// The formulas of a jump.
+fn of_jump(jump: &mut Jump) -> impl Iterator<Item = &mut Formulas> {
+    [jump.state.as_mut(), jump.inverse.as_mut()].into_iter().flatten()
 }

@@ -193,9 +193,13 @@ fn jump(value: &Value, names: &Names, part: &str) -> Result<Option<Jump>, Error>
         };
     };
     let mode = entries.contains_key("mode").then(|| label(value, "mode")).transpose()?;
-    let state = entries.get("state");
-    let state = state.map(|state| formulas(state, names, &format!("the state after {part}")));
-    Ok(Some(Jump { mode, state: state.transpose()? }))
+    let state = |key: &str, what: &str| {
+        let state = entries.get(key);
+        state.map(|state| formulas(state, names, &format!("{what} {part}"))).transpose()
+    };
+    let (state, inverse) =
+        (state("state", "the state after")?, state("inverse", "the inverse of")?);
+    Ok(Some(Jump { mode, state, inverse }))
 }
 
 /// The entry of a table whose name stands under a key.
@@ -243,7 +247,10 @@ impl GuardEquations {
 impl Jump {
     fn to_value(&self) -> Value {
         let mode = self.mode.map(|mode| ("mode".to_owned(), json!(mode.as_str())));
-        let state = self.state.as_ref().map(|state| ("state".to_owned(), state.to_value()));
-        Value::Object(mode.into_iter().chain(state).collect::<Map<_, _>>())
+        let formulas = [("state", &self.state), ("inverse", &self.inverse)];
+        let formulas = formulas.into_iter().filter_map(|(key, formulas)| {
+            formulas.as_ref().map(|formulas| (key.to_owned(), formulas.to_value()))
+        });
+        Value::Object(mode.into_iter().chain(formulas).collect::<Map<_, _>>())
     }
 }

@@ -3,7 +3,7 @@
 //! [`Equations`] are what a user writes (`equations`, `builder`), as data, with [`Label`]s for modes and surfaces. `programs` has what
 //! is evaluated of them: a Taylor series for each mode, with its guards as watched formulas. `closed_form`
 //! solves linear fields, in functions of time that `quasi_values` computes with. `motion` and `part` are the
-//! motion and the part of a [`Model`](crate::Model). `jets` has the derivatives of whole executions, `derivatives` those of
+//! motion and the part of a [`Model`](crate::Model). `reversed` are equations backward in time. `jets` has the derivatives of whole executions, `derivatives` those of
 //! [`Differentiable`](crate::Differentiable). `file` is the JSON of equations,
 //! `saved_run` that of an execution.
 
@@ -19,6 +19,7 @@ mod motion;
 mod part;
 mod programs;
 mod quasi_values;
+mod reversed;
 #[cfg(feature = "serde")]
 mod saved_run;
 

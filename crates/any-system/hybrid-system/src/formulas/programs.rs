@@ -159,7 +159,7 @@ impl Jump {
 
     fn program(&self, uses_time: bool) -> Jump {
         let state = self.state.as_ref().map(|state| with_time(state, uses_time, Node::Time));
-        Jump { mode: self.mode, state }
+        Jump { mode: self.mode, state, inverse: None }
     }
 }
 

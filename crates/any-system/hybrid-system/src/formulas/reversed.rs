@@ -1,0 +1,156 @@
+//! Equations backward in time.
+//!
+//! With s = −t the field is −f(−s, x). An event that leads from a mode m to m′ by x⁺ = R(x⁻) is, backward, one that leads from
+//! m′ to m by R⁻¹, where the guard is zero at R⁻¹(x⁺).
+
+use super::equations::{Equations, GuardEquations, Jump, ModeEquations};
+use super::label::Label;
+use crate::error::Error;
+use crate::guard::{Direction, Role};
+use equations::Formulas;
+
+impl Equations {
+    /// The same system backward: its time is s = −t, so that an execution from t₀ starts at −t₀, and its events are at −t. Each
+    /// jump that changes the state needs its [`inverse`](Self::inverse).
+    ///
+    /// - An event of a jump happens in the mode to which the jump leads, where the guard is zero at the state before it. It counts
+    ///   both ways.
+    /// - Where a state may have come by such a jump or by the flow alone, it has come by the jump: the past need not be unique.
+    /// - An observer has its events at the same points: a guard that rises in t falls in s.
+    /// - An event that ends a run, or that no jump leads to, ends the run backward: no run forward comes from beyond it.
+    /// - A rest after a Zeno limit has no past, and neither have the ticks of a periodic clock, whose last one is not known.
+    ///
+    /// ```
+    /// use hybrid_system::{Equations, State};
+    /// let ball = Equations::new(&["height", "speed"], &[])
+    ///     .mode_text("flight", &["speed", "-1"])
+    ///     .falling_text("floor", "height")
+    ///     .resets_text(&["height", "-0.5*speed"])
+    ///     .inverse_text(&["height", "-2*speed"]);
+    /// let forward = ball.model::<State<2>>()?;
+    /// let end = forward.start("flight", [0.5, 0.0], 1.5)?.fate();
+    /// let back = ball.reversed()?.model::<State<2>>()?;
+    /// // From t = 1.5 back to 0: through the landing at 1, up to where it was dropped.
+    /// let start = back.start("flight", end.state, 0.0)?.starting_at(-1.5);
+    /// let first = start.fate();
+    /// assert!((first.state - State::from([0.5, 0.0])).norm() < 1e-12);
+    /// assert_eq!(first.events, 1);
+    /// # Ok::<(), hybrid_system::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`check`](Self::check); [`Error::BadEquations`] for a jump without an inverse, and for a periodic clock.
+    pub fn reversed(&self) -> Result<Equations, Error> {
+        self.check()?;
+        let back = Formulas::of_vector(self.names.clone(), |t, x, _| {
+            [-t].into_iter().chain(x.iter().copied()).collect()
+        })?;
+        let mut reversed = Equations::of_names(self.names.clone());
+        for mode in &self.modes {
+            let field = mode.field.composed(&back)?.negative();
+            let (guards, after_limit) = (Vec::new(), None);
+            reversed.modes.push(ModeEquations { name: mode.name, field, guards, after_limit });
+        }
+        // Those that lead to a mode first: they are its past.
+        for leads in [true, false] {
+            for mode in &self.modes {
+                for guard in self.everywhere.iter().chain(&mode.guards) {
+                    let changes = guard.jump.as_ref().is_some_and(|jump| *jump != Jump::default());
+                    if changes == leads {
+                        reversed.add_reversed(&back, mode.name, guard)?;
+                    } else if changes {
+                        reversed.add_end(&back, mode.name, guard)?;
+                    }
+                }
+            }
+        }
+        Ok(reversed)
+    }
+
+    /// Adds the guard backward: to the mode to which its jump leads.
+    fn add_reversed(
+        &mut self,
+        back: &Formulas,
+        mode: Label,
+        guard: &GuardEquations,
+    ) -> Result<(), Error> {
+        let jump = guard.jump.as_ref();
+        let inverse = match jump.map(|jump| (&jump.state, &jump.inverse)) {
+            Some((Some(_), None)) => {
+                return guard.bad("a jump backward needs the inverse of its state: give it");
+            }
+            Some((Some(_), Some(inverse))) => Some(inverse.composed(back)?),
+            _ => None,
+        };
+        let inner = match &inverse {
+            // The time is the same before the jump.
+            Some(inverse) => Formulas::new(self.names.clone(), |t, _, _| [-t])?.and(inverse)?,
+            None => back.clone(),
+        };
+        let mut guard = guard.clone();
+        if guard.guard.role == Role::Clock {
+            guard.function = guard.times_backward()?;
+        } else {
+            guard.function = guard.function.composed(&inner)?;
+            guard.condition =
+                guard.condition.map(|condition| condition.composed(&inner)).transpose()?;
+        }
+        let to = jump.and_then(|jump| jump.mode).unwrap_or(mode);
+        guard.jump = match jump {
+            Some(jump) if *jump != Jump::default() => {
+                guard.guard.direction = Direction::Either;
+                if guard.guard.role != Role::Clock {
+                    guard.guard.role = Role::Crossing;
+                }
+                let forward = jump.state.as_ref().map(|state| state.composed(back)).transpose()?;
+                Some(Jump { mode: (to != mode).then_some(mode), state: inverse, inverse: forward })
+            }
+            other => {
+                guard.guard.direction = guard.guard.direction.backward();
+                other.cloned()
+            }
+        };
+        self.push_guard(to, guard);
+        Ok(())
+    }
+
+    /// Adds the end of the past at an event that leads out of a mode, unless the same surface leads into it.
+    fn add_end(
+        &mut self,
+        back: &Formulas,
+        mode: Label,
+        guard: &GuardEquations,
+    ) -> Result<(), Error> {
+        if guard.guard.role == Role::Clock {
+            return Ok(());
+        }
+        let mut guard = guard.clone();
+        guard.function = guard.function.composed(back)?;
+        guard.condition = guard.condition.map(|condition| condition.composed(back)).transpose()?;
+        guard.guard.direction = guard.guard.direction.backward();
+        guard.guard.role = Role::Crossing;
+        guard.jump = None;
+        self.push_guard(mode, guard);
+        Ok(())
+    }
+
+    fn push_guard(&mut self, mode: Label, guard: GuardEquations) {
+        let modes = self.modes.iter_mut().filter(|known| known.name == mode);
+        for known in modes {
+            if !known.guards.iter().any(|own| own.guard.surface == guard.guard.surface) {
+                known.guards.push(guard.clone());
+            }
+        }
+    }
+}
+
+impl GuardEquations {
+    /// The times of a list, from the last one on.
+    fn times_backward(&self) -> Result<Formulas, Error> {
+        if !self.listed {
+            return self.bad("a periodic clock has no last tick, at which it would begin backward");
+        }
+        let negative = self.function.negative();
+        Ok(negative.reordered((0..negative.count()).rev()))
+    }
+}
