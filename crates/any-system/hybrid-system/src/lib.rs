@@ -156,7 +156,7 @@ pub use fate::{End, Fate, FateOf, many};
 #[cfg(all(feature = "ode", feature = "serde"))]
 pub use formulas::SavedRun;
 #[cfg(feature = "ode")]
-pub use formulas::{Along, Equations, EquationsModel, ExecutionJet, Label};
+pub use formulas::{Along, Equations, EquationsModel, ExecutionJet, Label, Start};
 pub use guard::{Direction, Guard, Role, Touch};
 pub use interval_arithmetic::Enclosure;
 pub use lands_beyond::LandsBeyond;

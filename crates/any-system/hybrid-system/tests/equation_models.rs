@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use std::f64::consts::{PI, TAU};
 
 /// Times of the events of a run, with their surfaces.
-fn events<X: StateVector>(
+fn events<X: StateVector + Start<X>>(
     equations: &Equations,
     tolerance: f64,
     (mode, start, time): (&str, X, f64),
@@ -321,4 +321,36 @@ fn events_at_ends_and_far_away() {
     for (k, (_, time)) in found.iter().enumerate() {
         assert!((time - 0.75 - k as f64).abs() < 1e-6, "{time}");
     }
+}
+
+/// A start may leave the time out where the formulas use it, and nothing else.
+#[test]
+fn a_start_may_leave_the_time_out() {
+    let ramp = Equations::new(&["x"], &[]).mode("m", |t, _, _| [t]);
+    let model = ramp.model::<State<2>>().unwrap();
+    // x = (9 − t₀²)/2 at 3.
+    for (run, exact) in [
+        (model.start("m", [0.0], 3.0), 4.5),
+        (model.start("m", [0.0, 0.0], 3.0), 4.5),
+        (model.start("m", State::from([0.0, 1.0]), 2.0), 4.0),
+        (model.start_at("m", [0.0], (1.0, 3.0)), 4.0),
+        (model.start_at("m", State::from([0.0, 7.0]), (1.0, 3.0)), 4.0),
+        (model.start_at("m", [0.0], (-1.0, 3.0)), 4.0),
+    ] {
+        let end = run.unwrap().fate().state;
+        assert!((end[0] - exact).abs() < 1e-12, "{end} {exact}");
+    }
+    let dynamic = ramp.model::<DVector<f64>>().unwrap();
+    let end = dynamic.start("m", vec![0.0], 3.0).unwrap().fate().state;
+    assert!((end[0] - 4.5).abs() < 1e-12);
+    for wrong in [vec![], vec![0.0; 3]] {
+        let refused = dynamic.start("m", wrong, 3.0).map(drop);
+        assert!(matches!(refused, Err(Error::Dimension { expected: 2, .. })));
+    }
+    // Without the time nothing is added.
+    let two = Equations::new(&["x", "y"], &[]).mode_text("m", &["y", "x"]);
+    let model = two.model::<State<2>>().unwrap();
+    assert!(matches!(model.start("m", [1.0], 3.0).map(drop), Err(Error::Dimension { .. })));
+    let clock = model.start_at("m", [1.0, 0.0], (5.0, 6.0)).unwrap().fate();
+    assert!((clock.time - 6.0).abs() < 1e-15 && (clock.state[0] - 1f64.cosh()).abs() < 1e-12);
 }

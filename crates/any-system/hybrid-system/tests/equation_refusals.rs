@@ -61,8 +61,8 @@ fn wrong_equations_are_refused() {
     let model = names().mode("m", |t, x, _| [x[0] + t]).model::<DVector<f64>>().unwrap();
     assert!(model.start("n", DVector::zeros(2), 1.0).is_err());
     assert!(matches!(
-        model.start("m", DVector::zeros(1), 1.0).err(),
-        Some(Error::Dimension { expected: 2, found: 1, .. })
+        model.start("m", DVector::zeros(3), 1.0).err(),
+        Some(Error::Dimension { expected: 2, found: 3, .. })
     ));
 }
 

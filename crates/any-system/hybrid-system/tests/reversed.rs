@@ -15,8 +15,7 @@ fn there_and_back<const N: usize>(
     // A file has the inverses too.
     let read = Equations::from_json(&equations.to_json().unwrap()).unwrap();
     let back = read.reversed().unwrap().model::<State<N>>().unwrap();
-    let run = back.start(end.mode.as_str(), end.state, 0.0).unwrap().starting_at(-time);
-    let first = run.fate();
+    let first = back.start_at(end.mode.as_str(), end.state, (-time, 0.0)).unwrap().fate();
     assert_eq!(first.end, End::Stopped(Stop::TimeLimit), "{first:?}");
     assert_eq!(first.mode, mode);
     ((first.state - State::from(start)).norm(), end.events, first.events)
@@ -68,9 +67,7 @@ fn an_oscillator_with_a_stop_goes_back() {
     let model = oscillator.model::<State<3>>().unwrap();
     let end = model.start("free", [0.0, 1.0, 0.0], 30.0).unwrap().fate();
     let back = oscillator.reversed().unwrap().model::<State<3>>().unwrap();
-    let mut start = end.state;
-    start[2] = -start[2];
-    let mut run = back.start("free", start, 0.0).unwrap().starting_at(-30.0);
+    let mut run = back.start_at("free", end.state, (-30.0, 0.0)).unwrap();
     let mut times = Vec::new();
     for arc in run.by_ref() {
         times.extend(arc.unwrap().event().map(|event| event.time));

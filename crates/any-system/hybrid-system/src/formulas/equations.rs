@@ -45,8 +45,8 @@ use std::sync::Arc;
 /// [`to`](Self::to) leads to another mode, [`resets`](Self::resets) gives the state after it, [`stops`](Self::stops) ends
 /// the execution. A guard without any of these is an observer. Names of modes and surfaces have at most 31 bytes.
 ///
-/// If a formula needs the time, the time is the last component of the state, behind those that have names: the start gives
-/// its value.
+/// If a formula uses the time t, the state of the model has one component more than names, the time: of two names it is
+/// [`State<3>`](crate::State). Derivatives know it then. [`start`](Model::start) and [`start_at`](Model::start_at) give its value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Equations {
     pub(super) names: Names,

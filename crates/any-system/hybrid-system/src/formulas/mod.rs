@@ -22,6 +22,7 @@ mod quasi_values;
 mod reversed;
 #[cfg(feature = "serde")]
 mod saved_run;
+mod start;
 
 pub use self::equations::{Equations, EquationsModel};
 pub use jets::{Along, ExecutionJet};
@@ -30,3 +31,4 @@ pub use motion::TaylorMotion;
 pub use part::FormulaPart;
 #[cfg(feature = "serde")]
 pub use saved_run::SavedRun;
+pub use start::Start;

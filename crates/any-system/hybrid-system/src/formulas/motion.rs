@@ -3,6 +3,7 @@
 use super::label::Label;
 use super::part::vector;
 use super::programs::{ModeProgram, Programs};
+use super::start::Start;
 use crate::crossing::{NextEvent, Search};
 use crate::error::Error;
 use crate::execution::Execution;
@@ -28,6 +29,17 @@ pub struct TaylorMotion {
 impl TaylorMotion {
     pub(super) fn new(programs: Arc<Programs>) -> Self {
         TaylorMotion { programs, tolerances: Tolerances::both(TOLERANCE) }
+    }
+
+    /// The error of a state with another number of components.
+    fn other_dimension(&self, found: usize) -> Error {
+        let expected = self.programs.dimension;
+        let timed = expected > self.programs.equations.names().states.len();
+        let what = match timed {
+            true => "the state of the model, with the time as its last component,",
+            false => "the state of the model",
+        };
+        Error::Dimension { what, expected, found }
     }
 
     pub(super) fn mode(&self, mode: Label) -> Result<&ModeProgram, Error> {
@@ -123,12 +135,7 @@ impl<X: StateVector> Motion<Label, X> for TaylorMotion {
         self.mode(mode)?;
         let (expected, found) = (self.programs.dimension, start.dimension());
         if expected != found {
-            let timed = expected > self.programs.equations.names().states.len();
-            let what = match timed {
-                true => "the state of the model, with the time as its last component,",
-                false => "the state of the model",
-            };
-            return Err(Error::Dimension { what, expected, found });
+            return Err(self.other_dimension(found));
         }
         self.tolerances.check(found)
     }
@@ -172,7 +179,7 @@ where
     P: ModelPart<Label, Label, X>,
 {
     /// The execution from `start` in the mode with this name, up to the time `time` and at most a million events: an
-    /// iterator over its arcs.
+    /// iterator over its arcs. It begins at the time zero.
     ///
     /// # Errors
     /// [`Error::NoVectorField`] for a mode that the equations do not have; [`Error::Dimension`] for a start with another
@@ -180,11 +187,52 @@ where
     pub fn start(
         &self,
         mode: &str,
-        start: impl Into<X>,
+        start: impl Start<X>,
         time: f64,
     ) -> Result<Execution<'_, Self>, Error> {
-        let (mode, start) = (Label::new(mode)?, start.into());
+        let (mode, start) = (Label::new(mode)?, self.start_state(start, 0.0)?);
         self.validate(mode, &start)?;
         Ok(self.run(mode, start, time))
+    }
+
+    /// The same from a time on, up to another one. Formulas have this time, also if the start has another one.
+    ///
+    /// ```
+    /// use hybrid_system::{Equations, State};
+    /// let ramp = Equations::new(&["x"], &[]).mode("m", |t, _, _| [t]).model::<State<2>>()?;
+    /// let end = ramp.start_at("m", [0.0], (1.0, 3.0))?.fate();
+    /// // ∫ t dt from 1 to 3.
+    /// assert!((end.state[0] - 4.0).abs() < 1e-12 && end.time == 3.0);
+    /// # Ok::<(), hybrid_system::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`start`](Self::start).
+    pub fn start_at(
+        &self,
+        mode: &str,
+        start: impl Start<X>,
+        (from, to): (f64, f64),
+    ) -> Result<Execution<'_, Self>, Error> {
+        let (mode, mut start) = (Label::new(mode)?, self.start_state(start, from)?);
+        if self.is_timed()
+            && let Some(time) = start.components_mut().last_mut()
+        {
+            *time = from;
+        }
+        self.validate(mode, &start)?;
+        Ok(self.run(mode, start, to).starting_at(from))
+    }
+
+    /// True if the time is the last component of the state.
+    fn is_timed(&self) -> bool {
+        self.motion.programs.dimension > self.equations().names().states.len()
+    }
+
+    fn start_state(&self, start: impl Start<X>, time: f64) -> Result<X, Error> {
+        let dimension = self.motion.programs.dimension;
+        start
+            .state(dimension, self.is_timed().then_some(time))
+            .map_err(|found| self.motion.other_dimension(found))
     }
 }

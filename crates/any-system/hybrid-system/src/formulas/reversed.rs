@@ -31,8 +31,7 @@ impl Equations {
     /// let end = forward.start("flight", [0.5, 0.0], 1.5)?.fate();
     /// let back = ball.reversed()?.model::<State<2>>()?;
     /// // From t = 1.5 back to 0: through the landing at 1, up to where it was dropped.
-    /// let start = back.start("flight", end.state, 0.0)?.starting_at(-1.5);
-    /// let first = start.fate();
+    /// let first = back.start_at("flight", end.state, (-1.5, 0.0))?.fate();
     /// assert!((first.state - State::from([0.5, 0.0])).norm() < 1e-12);
     /// assert_eq!(first.events, 1);
     /// # Ok::<(), hybrid_system::Error>(())
