@@ -12,6 +12,7 @@ mod closed_forms;
 mod conditions;
 mod cradles;
 mod dimensions;
+mod domains;
 mod ends_of_arcs;
 mod equation_derivatives;
 mod equation_models;
