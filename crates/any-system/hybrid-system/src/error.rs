@@ -1,5 +1,6 @@
 //! The errors of this crate.
 
+use crate::condition_error::ConditionError;
 use crate::lands_beyond::LandsBeyond;
 use crate::looked::Looked;
 use crate::number::{Number, Numbers};
@@ -99,30 +100,9 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
-    /// An event at which the sign of its condition is lost in its error.
-    #[error(
-        "whether the event of {surface} at {time} counts is not decided: its condition is {value}, with an error of {error}; \
-         move the condition away from the event, or give what happens at both a guard of its own",
-        time = Number(*.time), value = Number(*.value), error = Number(*.error)
-    )]
-    UndecidedCondition {
-        /// The surface.
-        surface: String,
-        /// The time of the event.
-        time: f64,
-        /// The value of the condition.
-        value: f64,
-        /// Its error: by rounding, and by the time of the event.
-        error: f64,
-    },
-    /// A guard with a condition that is no crossing: beyond its surface its mode would not flow.
-    #[error(
-        "the guard of {surface} has a condition, so that its mode flows on both sides: make it a crossing"
-    )]
-    ConditionOfBound {
-        /// The surface.
-        surface: String,
-    },
+    /// An event of which it is not known whether it counts.
+    #[error(transparent)]
+    Condition(#[from] ConditionError),
     /// An enclosure whose lower bound is above its upper bound, or whose bounds are NaN.
     #[error(
         "the enclosure of derivative {order} of the guard on [{from}, {to}] is no interval: [{low}, {high}]",
@@ -232,8 +212,7 @@ pub enum Error {
     /// Two surfaces, or a surface and the limit on time, are reached at one instant: there is no derivative.
     #[error(
         "no sensitivity at time {time}: the surface {surface} is reached at the same instant as another one or as the \
-         limit on time, and nearby orbits reach them in either order. Take the derivative from another start, or up to \
-         another time",
+         limit on time, and nearby orbits reach them in either order. Take another start, or another time",
         time = Number(*.time)
     )]
     CornerSensitivity {
@@ -242,10 +221,9 @@ pub enum Error {
         /// Name of the surface, the second one of two.
         surface: String,
     },
-    /// A derivative by parameters through an event at a preset time, which may depend on the parameters.
+    /// A derivative by parameters through an event at a preset time.
     #[error(
-        "no derivative by parameters through the clock at time {time}: its times may depend on them. Let time be a \
-         component of the state, and the clock a guard",
+        "no derivative by parameters through the clock at time {time}: let time be a component, and the clock a guard",
         time = Number(*.time)
     )]
     ClockSensitivity {
@@ -304,8 +282,7 @@ pub enum Error {
     },
     /// A search under bounds reached its budget of intervals.
     #[error(
-        "no zero up to time {time}; the search up to {horizon} needs more than {intervals} intervals: set a larger \
-         budget, or a shorter horizon",
+        "no zero up to {time}; up to {horizon} it takes more than {intervals} intervals: a larger budget, or less time",
         time = Number(*.time), horizon = Number(*.horizon)
     )]
     IntervalBudget {
@@ -318,8 +295,7 @@ pub enum Error {
     },
     /// The budgets of an execution end before its search for the next event makes any progress.
     #[error(
-        "a budget of {intervals} intervals and {steps} steps ends before the search up to {horizon} makes progress: \
-         set larger budgets, or a shorter horizon",
+        "{intervals} intervals and {steps} steps are too few for any progress up to {horizon}: set larger budgets",
         horizon = Number(*.horizon)
     )]
     BudgetTooSmall {

@@ -94,6 +94,7 @@
 //! pages of 2024 (<https://www.sfu.ca/~jverner/>).
 
 mod advance;
+mod after_event;
 mod arc;
 mod arc_ends;
 mod arrival;
@@ -104,6 +105,7 @@ mod checkpoint;
 mod checkpoint_file;
 mod clock;
 mod condition;
+mod condition_error;
 #[cfg(feature = "serde")]
 mod count;
 mod crossing;
@@ -144,6 +146,7 @@ mod zeno;
 pub use arc::{Arc, ArcEnd, Event};
 pub use checkpoint::Checkpoint;
 pub use clock::{PeriodicTimes, PresetTimes};
+pub use condition_error::ConditionError;
 pub use crossing::{
     Certainty, Crossing, EventKind, FirstCrossing, Leaving, NextEvent, QuasiPolynomial,
     QuasiPolynomialPart, Search,
@@ -190,8 +193,8 @@ pub mod model_parts {
     #[cfg(feature = "ode")]
     pub use crate::model::Integrated;
     pub use crate::model::{
-        Clock, ClosedForm, Field, GuardEnclosure, Jump, JumpEverywhere, ModelPart, Motion, Outcome,
-        Rest, Signal, Slide, Terminal, Watch,
+        Clock, ClosedForm, Condition, Field, GuardEnclosure, Jump, JumpEverywhere, ModelPart,
+        Motion, Outcome, Rest, Signal, Slide, Terminal, Watch,
     };
 }
 

@@ -54,7 +54,7 @@ fn a_condition_lost_in_rounding_is_an_error() {
     for off in [0.0, 1e-17, -1e-17] {
         let mut run = model.start("flight", [0.0, 0.0, 0.5 + off, 1.0], 9.0).unwrap();
         let error = run.next().unwrap().unwrap_err();
-        assert!(matches!(error, Error::UndecidedCondition { .. }), "{error}");
+        assert!(matches!(error, Error::Condition(ConditionError::Undecided { .. })), "{error}");
         assert!(error.to_string().contains("table"), "{error}");
     }
     for (off, expected) in [(1e-12, "floor"), (-1e-12, "table")] {
@@ -68,7 +68,7 @@ fn a_condition_lost_in_rounding_is_an_error() {
         .model::<State<4>>()
         .unwrap();
     let mut run = broken.start("flight", State::from([0.0, 0.0, 0.5, 1.0]), 9.0).unwrap();
-    assert!(matches!(run.next(), Some(Err(Error::UndecidedCondition { .. }))));
+    assert!(matches!(run.next(), Some(Err(Error::Condition(ConditionError::Undecided { .. })))));
 }
 
 /// The zeros of an oscillator that count only after a time, and a clock that counts only on one side of it.
@@ -145,7 +145,7 @@ fn wrong_conditions_are_refused() {
         .only_where(0, |x| x[1])
         .contact();
     let error = model.run((), [1.0, 0.0], 9.0).next().unwrap().unwrap_err();
-    assert!(matches!(error, Error::ConditionOfBound { .. }), "{error}");
+    assert!(matches!(error, Error::Condition(ConditionError::OfBound { .. })), "{error}");
     let bound = table().rising_text("side", "x").only_where_text("y").contact().check();
     let bound = bound.unwrap_err().to_string();
     assert!(bound.contains("side") && bound.contains("crossing"), "{bound}");

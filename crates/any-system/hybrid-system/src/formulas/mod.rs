@@ -1,6 +1,6 @@
 //! How is a model of equations written, stored and run? (feature `ode`)
 //!
-//! [`Equations`] are what a user writes (`equations`, `builder`), as data, with [`Label`]s for modes and surfaces. `programs` has what
+//! [`Equations`] are what a user writes (`equations`, `builder`, `jumps`), as data, with [`Label`]s for modes and surfaces. `programs` has what
 //! is evaluated of them: a Taylor series for each mode, with its guards as watched formulas. `closed_form`
 //! solves linear fields, in functions of time that `quasi_values` computes with. `motion` and `part` are the
 //! motion and the part of a [`Model`](crate::Model). `reversed` are equations backward in time. `jets` has the derivatives of whole executions, `derivatives` those of
@@ -14,6 +14,7 @@ mod equations;
 mod exact;
 mod file;
 mod jets;
+mod jumps;
 mod label;
 mod motion;
 mod part;

@@ -103,27 +103,6 @@ where
     }
 }
 
-/// The condition of a guard.
-#[derive(Debug, Clone, Copy)]
-pub struct Condition<S, H> {
-    pub(super) surface: S,
-    pub(super) condition: H,
-}
-
-impl<M, S, X, H> ModelPart<M, S, X> for Condition<S, H>
-where
-    S: Copy + Eq,
-    H: Fn(&X) -> f64,
-{
-    fn unknown_surface(&self, known: &dyn Fn(S) -> bool) -> Option<S> {
-        (!known(self.surface)).then_some(self.surface)
-    }
-    #[inline]
-    fn condition(&self, _: M, surface: S, before: &X) -> Option<f64> {
-        (surface == self.surface).then(|| (self.condition)(before))
-    }
-}
-
 /// Events at preset times, in one mode, or in all modes if `mode` is `None`.
 #[derive(Debug, Clone, Copy)]
 pub struct Clock<M, S, T, R> {

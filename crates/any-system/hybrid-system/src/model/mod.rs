@@ -1,7 +1,7 @@
 //! How is a model written with closures?
 //!
 //! A [`Model`] has a motion (`motion`: a flow in closed form, or a field that is integrated) and parts: guards with
-//! their resets and clocks (`guarded`), bounds on guards (`bounds`), the modes after Zeno limits and sliding points
+//! their resets and clocks (`guarded`), their conditions (`condition`), bounds on guards (`bounds`), the modes after Zeno limits and sliding points
 //! (`continued`). Each part has a type of its own, and a model contains the nested pairs of its parts (`part`). The
 //! compiler therefore sees every closure: no call goes through a pointer. `guard_lists` has the guards of each
 //! mode. `system` implements [`HybridSystem`](crate::HybridSystem), `derivatives` and `integrated_derivatives`
@@ -9,6 +9,7 @@
 //! by parameters.
 
 mod bounds;
+mod condition;
 mod continued;
 mod declared;
 mod derivatives;
@@ -31,6 +32,7 @@ mod part;
 mod system;
 
 pub use bounds::{GuardEnclosure, Signal};
+pub use condition::Condition;
 pub use continued::{Field, Rest, Slide};
 pub use derivatives::{gradient_by_differences, jacobian_by_differences, reset_by_differences};
 pub use family::Family;

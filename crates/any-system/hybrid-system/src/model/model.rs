@@ -3,7 +3,7 @@
 use super::bounds::{GuardEnclosure, Signal};
 use super::continued::{Field, Rest, Slide};
 use super::guard_lists::GuardLists;
-use super::guarded::{Clock, Condition, Jump, JumpEverywhere, Terminal, Watch};
+use super::guarded::{Clock, Jump, JumpEverywhere, Terminal, Watch};
 #[cfg(feature = "ode")]
 use super::integrated::Integrated;
 use super::motion::{ClosedForm, Motion};
@@ -11,7 +11,7 @@ use super::outcome::Outcome;
 use super::part::ModelPart;
 use crate::crossing::QuasiPolynomial;
 use crate::execution::Execution;
-use crate::guard::{Guard, Role};
+use crate::guard::Guard;
 use crate::limits::Limits;
 #[cfg(feature = "ode")]
 use crate::ode::Tolerances;
@@ -210,7 +210,7 @@ where
     M: Copy + Eq,
     S: Copy + Eq + Debug,
 {
-    fn with<A>(self, part: A) -> Model<M, S, X, F, (A, P)> {
+    pub(super) fn with<A>(self, part: A) -> Model<M, S, X, F, (A, P)> {
         Model {
             motion: self.motion,
             parts: (part, self.parts),
@@ -276,38 +276,6 @@ where
     {
         self.guards.add_observer(watched);
         self.with(Watch { surface: watched.surface, guard })
-    }
-
-    /// Lets the events of this surface count only where h(x), at the state before the event, is positive. Where it is
-    /// negative the flow goes on as if there were no guard. The guard becomes a [crossing](Guard::crossing).
-    ///
-    /// An event at which the sign of h is lost in rounding is [`Error::UndecidedCondition`](crate::Error::UndecidedCondition).
-    ///
-    #[cfg_attr(feature = "ode", doc = "```")]
-    #[cfg_attr(not(feature = "ode"), doc = "```ignore")]
-    /// use hybrid_system::{Model, State};
-    /// // A ball rolls off a table that ends at x = 1, and falls to the floor below.
-    /// let ball = Model::integrated(|(), x: &State<4>| [x[2], x[3], 0.0, -1.0])
-    ///     .falling((), |x| x[1], |x| ((), [x[0], x[1], x[2], -x[3]]))
-    ///     .only_where(0, |x| 1.0 - x[0])
-    ///     .falling((), |x| x[1] + 1.0, |x| ((), [x[0], x[1], x[2], -x[3]]));
-    /// let surfaces: Vec<usize> = ball
-    ///     .run((), [0.0, 0.5, 0.3, 0.0], 9.0)
-    ///     .filter_map(|arc| arc.ok()?.event().map(|event| event.surface))
-    ///     .collect();
-    /// assert_eq!(surfaces, [0, 0, 1]);
-    /// # Ok::<(), hybrid_system::Error>(())
-    /// ```
-    pub fn only_where<H>(
-        mut self,
-        surface: S,
-        condition: H,
-    ) -> Model<M, S, X, F, (Condition<S, H>, P)>
-    where
-        H: Fn(&X) -> f64,
-    {
-        self.guards.declare(surface, Role::Crossing);
-        self.with(Condition { surface, condition })
     }
 
     /// Adds events of `mode` at preset times. `next` gives the first preset time strictly after a time, both continuous
