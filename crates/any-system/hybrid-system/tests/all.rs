@@ -38,6 +38,7 @@ mod peer_events;
 mod peer_scene;
 mod planted_roots;
 mod reversed;
+mod scipy_events;
 mod semantics;
 mod semantics_observers;
 mod sensitivity;

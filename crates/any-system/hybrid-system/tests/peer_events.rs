@@ -1,23 +1,13 @@
 //! The scenes of three test classes of Hipparchus (`hipparchus-ode`, package `events`): `CloseEventsTest`,
-//! `OverlappingEventsTest` and `ReappearingEventTest`, forwards in time. The facts are theirs, read on 2026-11-23;
+//! `OverlappingEventsTest` and `ReappearingEventTest`. The facts are theirs, read on 2026-11-23;
 //! where their test asserts what its sampling or its loose tolerance finds, the crossings of the exact motion stand
 //! here.
 //!
 //! Each scene runs twice: integrated, at the tolerance of the original and at a loose one, and sampled. The motion is
 //! straight, so that the times are exact, and events whose times differ by an ulp come in their order.
 //!
-//! Not here, and added with what they need, a backward execution: the 28 scenes of `CloseEventsTest` whose names
-//! are `test…Reverse`: `CloseEventsFirstOneIsReset`, `CloseEvents`, `ConvergenceTooTight`,
-//! `DoubleRootOppositeSign`, `DoubleRoot`, `EventCausedByDerivativesReset`, `EventCausedByStateReset`,
-//! `EventChangesGFunctionDefinitionAccelerate`, `EventChangesGFunctionDefinitionCancel`,
-//! `EventChangesGFunctionDefinitionDelay`, `EventChangesGFunctionDefinition`, `EventStepHandler`, `FastSwitching`,
-//! `LongInitialZero`, `MultipleBackups`, `ResetChangesSign`, `RootFindingTolerance`,
-//! `RootPlusToleranceHasWrongSignAndLessThanTb`, `RootPlusToleranceHasWrongSign`, `ShortBracketingInterval`,
-//! `SimultaneousDiscontinuousEventsAfterReset`, `SimultaneousEventsReset`, `SimultaneousEvents`,
-//! `ToleranceMismatch`, `ToleranceStop`, `TrickyCaseLower`, `ZeroAtBeginningAndEndOfIntervalOppositeSign`,
-//! `ZeroAtBeginningAndEndOfInterval`. Nor the flag `increasing` of all scenes, a direction in the event. No scene
-//! needs `t` in a guard: time is a component here. `testEventCausedByDerivativesReset` asserts an exception for a
-//! reset that returns null, which Rust does not have.
+//! Their scenes `test…Reverse` are the same motions backward in time. Each scene of a list of events runs backward too.
+//! `testEventCausedByDerivativesReset` asserts an exception for a reset that returns null, which Rust does not have.
 
 use super::peer_scene::*;
 use hybrid_system::*;

@@ -152,6 +152,34 @@ fn scene(searched: Searched, guards: Vec<Watched>) -> Scene {
     scene
 }
 
+/// The state with time and motion backward.
+fn mirrored(x: &X) -> X {
+    X::new(-x[0], -x[1], -x[TIME], x[FLAG])
+}
+
+/// The same scene backward in time: its guards and resets at −t.
+fn backward(guards: Vec<Watched>) -> Vec<Watched> {
+    let turn = |Watched { guard, value, reset }: Watched| Watched {
+        guard,
+        value: Box::new(move |x: &X| value(&mirrored(x))),
+        reset: Box::new(move |x: &X| Some(mirrored(&reset(&mirrored(x))?))),
+    };
+    guards.into_iter().map(turn).collect()
+}
+
+/// The events of a scene backward, with the limit and the times as durations.
+fn run_backward(end: f64, searched: Searched, guards: Vec<Watched>) -> Vec<(usize, f64)> {
+    let mut scene = scene(searched, backward(guards));
+    scene.rates = mirrored(&scene.rates);
+    let limits = match searched {
+        Searched::Sampled(interval) => Limits::sampled(end, 1000, interval),
+        Searched::Integrated(_) => Limits::new(end, 1000),
+    };
+    let run = Execution::new(&scene, (), X::zeros(), limits);
+    let arcs = run.map(|arc| arc.unwrap_or_else(|error| panic!("{searched:?}: {error}")));
+    arcs.filter_map(|arc| arc.event().map(|event| (event.surface, event.time))).collect()
+}
+
 /// The events up to `end` from a start at time 0: surfaces and times, with the last state and the reason of the end.
 pub(crate) fn run(
     start: [f64; 4],
@@ -205,6 +233,7 @@ pub(crate) fn expect(end: f64, guards: impl Fn() -> Vec<Watched>, expected: &[(u
     for searched in SEARCHES {
         let (found, ..) = run([0.0; 4], end, searched, guards());
         assert_events(&found, expected, searched);
+        assert_events(&run_backward(end, searched, guards()), expected, searched);
     }
 }
 
