@@ -125,7 +125,7 @@ impl<F: Fn(&State<2>) -> State<2>> HybridSystem for Integrated<F> {
 }
 
 /// An elastic ball.
-fn ball(tolerance: f64) -> impl HybridSystem<State = State<2>, Mode = (), Surface = ()> {
+fn ball(tolerance: f64) -> impl System<State<2>, (), ()> {
     Integrated {
         field: |x: &State<2>| Vector2::new(x[1], -1.0),
         guards: [Guard::falling(())],
@@ -135,7 +135,7 @@ fn ball(tolerance: f64) -> impl HybridSystem<State = State<2>, Mode = (), Surfac
 }
 
 /// The passages of a pendulum through its lowest point. Both directions count.
-fn pendulum(tolerance: f64) -> impl HybridSystem<State = State<2>, Mode = (), Surface = ()> {
+fn pendulum(tolerance: f64) -> impl System<State<2>, (), ()> {
     Integrated {
         field: |x: &State<2>| Vector2::new(x[1], -pxfm::f_sin(x[0])),
         guards: [Guard::either(()).crossing()],
@@ -145,7 +145,7 @@ fn pendulum(tolerance: f64) -> impl HybridSystem<State = State<2>, Mode = (), Su
 }
 
 /// The zeros of van der Pol's oscillator with μ = 5.
-fn van_der_pol(tolerance: f64) -> impl HybridSystem<State = State<2>, Mode = (), Surface = ()> {
+fn van_der_pol(tolerance: f64) -> impl System<State<2>, (), ()> {
     Integrated {
         field: |x: &State<2>| Vector2::new(x[1], 5.0 * (1.0 - x[0] * x[0]) * x[1] - x[0]),
         guards: [Guard::either(()).crossing()],
@@ -161,7 +161,7 @@ fn scene(
     name: &'static str,
     start: (f64, f64),
     interval: Option<f64>,
-    system: impl HybridSystem<State = State<2>, Mode = (), Surface = ()> + 'static,
+    system: impl System<State<2>, (), ()> + 'static,
 ) -> Scene {
     let run = move || {
         let limits = Limits { sampling_interval: interval, ..Limits::new(TIME, EVENTS) };

@@ -23,7 +23,7 @@ enum Mass {
 }
 
 /// The mass on a belt of this speed. State: position and speed of the mass.
-fn belt(speed: f64) -> Filippov<impl HybridSystem<State = State<2>, Mode = Mass, Surface = usize>> {
+fn belt(speed: f64) -> Filippov<impl System<State<2>, Mass, usize>> {
     let friction = |slip: f64| 1.0 / (1.0 + 3.0 * slip);
     let model = Model::integrated(move |mass, x: &State<2>| match mass {
         Mass::Slower => [x[1], -x[0] + friction(speed - x[1])],

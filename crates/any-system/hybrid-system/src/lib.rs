@@ -13,7 +13,7 @@
 //! | `SavedRun` | an execution of equations as a file, which another program goes on with (features `ode` and `serde`) |
 //! | `Function`, `Label` | a function that equations call and a user brings; the name of a mode or a surface (feature `ode`) |
 //! | [`Model`] | a model written with closures, in some 20 lines |
-//! | [`HybridSystem`] | the trait of a model: flow, guards, guard values, reset |
+//! | [`HybridSystem`], [`System`] | the trait of a model: flow, guards, guard values, reset; a short name for it in signatures |
 //! | [`Guard`], [`Direction`] | a switching surface, and the direction in which a crossing counts |
 //! | [`Crossing`], [`Certainty`] | the first crossing, and how certain it is: exact, certain, interpolated or sampled |
 //! | [`QuasiPolynomial`], [`FirstCrossing`] | guards as sums of polynomials times exponentials, sines and cosines; their first crossing, with certainty |
@@ -181,7 +181,7 @@ pub use sliding::Sliding;
 pub use sliding::{Filippov, FilippovMode, FilippovSurface};
 pub use solution::{Place, Solution};
 pub use state::{State, StateVector};
-pub use system::{HybridSystem, Reset, default_search};
+pub use system::{HybridSystem, Reset, System, default_search};
 pub use trajectory::{EventColumns, Trajectory};
 pub use zeno::ZenoLimit;
 

@@ -241,6 +241,20 @@ pub trait HybridSystem {
     }
 }
 
+/// A [`HybridSystem`] with states X, modes M and surfaces S: short to write where a function takes or returns a model.
+///
+/// ```
+/// use hybrid_system::{Model, State, System};
+/// fn falling_ball() -> impl System<State<2>, (), usize> {
+///     Model::closed_form(|(), x: &State<2>, t| [x[0] + t * (x[1] - t / 2.0), x[1] - t])
+///         .falling((), |x| x[0], |x| ((), [0.0, -0.5 * x[1]]))
+///         .sampled(0.01)
+/// }
+/// ```
+pub trait System<X, M, S>: HybridSystem<State = X, Mode = M, Surface = S> {}
+
+impl<T: HybridSystem> System<T::State, T::Mode, T::Surface> for T {}
+
 /// The first crossing of a guard of `mode` along the flow of a system: what [`HybridSystem::first_crossing`] does
 /// unless a model overrides it. An override can call this function for some modes.
 ///

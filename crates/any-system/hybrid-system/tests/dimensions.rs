@@ -6,7 +6,7 @@ use hybrid_system::*;
 use nalgebra::DVector;
 
 /// Cells grow by e^(0.3 t). The largest one divides when it has the size 1, into 0.3 and 0.7 of it.
-fn cells() -> impl HybridSystem<State = DVector<f64>, Mode = (), Surface = usize> {
+fn cells() -> impl System<DVector<f64>, (), usize> {
     Model::integrated(|(), x: &DVector<f64>| 0.3 * x).tolerance(1e-12).rising(
         (),
         |x| x.max() - 1.0,

@@ -76,7 +76,7 @@ use std::marker::PhantomData;
 /// A model is a [`HybridSystem`](crate::HybridSystem): everything that works for a model by the trait works for it. With a
 /// [`State<N>`](crate::State) it is [`Differentiable`](crate::Differentiable) too; derivatives of its closures are
 /// difference quotients with about ten digits. Its type contains the types of its closures. A function returns it as
-/// `impl HybridSystem<State = …, Mode = …, Surface = …>`.
+/// `impl System<…, …, …>`.
 ///
 /// # Errors
 /// An execution of a model in which one mode has two guards with the same surface begins with

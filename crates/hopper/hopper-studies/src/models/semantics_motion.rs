@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
 use hybrid_system::{
-    Execution, Filippov, FilippovMode, Guard, HybridSystem, Limits, Model, State, Tolerances,
+    Execution, Filippov, FilippovMode, Guard, Limits, Model, State, System, Tolerances,
 };
 use pxfm::{f_cos, f_sin, f_sincos};
 
@@ -25,7 +25,7 @@ fn two_sided(
     field: impl Fn(Side, &State<2>) -> [f64; 2],
     guard: impl Fn(&State<2>) -> f64 + Copy,
     band: f64,
-) -> impl HybridSystem<State = State<2>, Mode = Side, Surface = usize> {
+) -> impl System<State<2>, Side, usize> {
     Model::integrated(field)
         .tolerances(TOLERANCES)
         .rising(Below, move |x| guard(x) - band, |x| (Above, *x))
