@@ -29,7 +29,7 @@ impl<T: HybridSystem> Execution<'_, T> {
     pub(crate) fn remember(
         &mut self,
         (kind, surface): (EventKind, T::Surface),
-        state: &T::State,
+        (state, after): (&T::State, Option<&(T::Mode, T::State)>),
         (length, leaving): (DurationOfArc, LeavingGuards<T::Surface>),
         time_passes: bool,
     ) {
@@ -42,7 +42,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         match kind {
             EventKind::Crossing => {
                 let arrival = arrival(Some(surface), length);
-                let residue = self.residue(surface, state, length);
+                let residue = self.residue(surface, (state, after), length);
                 if let (Some(guard), Some(value)) = (guard, residue) {
                     self.at.residues.push(guard, value, arrival.from());
                 }
@@ -75,30 +75,46 @@ impl<T: HybridSystem> Execution<'_, T> {
         }
     }
 
-    /// The value of a guard at its event, if that is the error of the event. A guard that jumps there, or has a pole, has
-    /// left its surface.
-    fn residue(&self, surface: T::Surface, state: &T::State, length: DurationOfArc) -> Option<f64> {
+    /// The value of a guard at its event, if that is the error of the event. A guard that jumps there, or has a pole, and whose
+    /// flow goes on beyond its surface after the event, has left its surface.
+    fn residue(
+        &self,
+        surface: T::Surface,
+        (state, after): (&T::State, Option<&(T::Mode, T::State)>),
+        length: DurationOfArc,
+    ) -> Option<f64> {
         let flow = self.flow();
         let value = flow.guard_value(surface, state);
-        let look = LOOK * length.time_error.max(f64::EPSILON * length.duration);
+        let look = self.look(length.time_error, length.duration);
         let [before, behind] = [-look, look].map(|time| {
             let beside = self.beside(state, (length.duration, time));
             flow.guard_value(surface, &beside)
         });
         let change = (before - value).abs().min((behind - value).abs());
-        let has_left =
+        let is_far =
             LEAST_MOVE * value.abs() > change && value.abs() > flow.rounding_at(surface, state);
-        (!has_left).then_some(value)
+        let goes_on = || {
+            after.is_none_or(|(mode, after)| {
+                let next = FlowFrom { system: self.system, mode: *mode, start: after };
+                let moved = match next.vector_field(after) {
+                    Some(rate) => moved(after, &rate, look),
+                    None => flow_to(&next, look),
+                };
+                next.guard_value(surface, &moved) * value > 0.0
+            })
+        };
+        (!(is_far && goes_on())).then_some(value)
+    }
+
+    /// How far before and behind an event a guard is looked at.
+    pub(crate) fn look(&self, time_error: f64, duration: f64) -> f64 {
+        LOOK * time_error.max(f64::EPSILON * duration)
     }
 
     /// The state of the present flow beside that at a duration, so much later or earlier.
     pub(crate) fn beside(&self, state: &T::State, (duration, time): (f64, f64)) -> T::State {
         match self.system.vector_field(self.at.mode, state) {
-            Some(rate) => {
-                let mut moved = state.clone();
-                moved.add_scaled(time, &rate);
-                moved
-            }
+            Some(rate) => moved(state, &rate, time),
             None => flow_to(&self.flow(), (duration + time).max(0.0)),
         }
     }
@@ -151,4 +167,11 @@ impl<T: HybridSystem> Execution<'_, T> {
         }
         flight.max(self.at.history.durations.expected())
     }
+}
+
+/// A state moved by a rate over a time.
+fn moved<X: StateVector>(state: &X, rate: &X, time: f64) -> X {
+    let mut moved = state.clone();
+    moved.add_scaled(time, rate);
+    moved
 }

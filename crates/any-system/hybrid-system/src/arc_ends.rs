@@ -20,11 +20,16 @@ impl<T: HybridSystem> Execution<'_, T> {
     /// An arc that ends in an event, before a clock if there is one.
     pub(crate) fn event_arc(
         &mut self,
-        crossing: Crossing<T::Surface, T::State>,
+        mut crossing: Crossing<T::Surface, T::State>,
         (horizon, clock): (f64, Option<ClockEvent<T::Surface>>),
         leaving: LeavingGuards<T::Surface>,
     ) -> Result<Piece<T>, Error> {
+        let own_error = crossing.time_error;
+        crossing.time_error += self.error_by_passed(&crossing);
         let counts = self.counts(&crossing)?;
+        if !counts {
+            self.pass(&crossing, own_error);
+        }
         let Crossing {
             surface,
             time: duration,
@@ -102,7 +107,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         let since_event = self.at.history.since_event;
         let length =
             DurationOfArc { duration, since_event, time_rounding, time_error, solved, from };
-        self.remember((kind, surface), &state, (length, leaving), time_passes);
+        self.remember((kind, surface), (&state, after.as_ref()), (length, leaving), time_passes);
         if let Some((_, after)) = &after
             && !resizes
         {

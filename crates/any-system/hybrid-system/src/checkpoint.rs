@@ -1,5 +1,6 @@
 //! Checkpoints: everything that decides how an execution goes on.
 
+use crate::condition::Passed;
 use crate::execution::Execution;
 use crate::limits::{Limits, Stop};
 use crate::point::Point;
@@ -78,6 +79,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         checkpoint: Checkpoint<T::Mode, T::Surface, T::State>,
         limits: Limits,
     ) -> Self {
-        Execution { system, limits, stop: checkpoint.stop, at: checkpoint.point }
+        let (stop, at) = (checkpoint.stop, checkpoint.point);
+        Execution { system, limits, stop, at, passed: Passed::default() }
     }
 }

@@ -1,12 +1,49 @@
 //! Does an event count?
 
 use crate::condition_error::ConditionError;
-use crate::crossing::{Crossing, EventKind, stated_or_measured};
+use crate::crossing::{Crossing, EventKind, GuardedFlow, stated_or_measured};
 use crate::error::Error;
 use crate::execution::Execution;
 use crate::system::HybridSystem;
 
+/// What events that do not count have left on an arc: the state at each of them is a new start.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Passed {
+    /// Their number.
+    pub(crate) number: usize,
+    /// The sum of the errors of their states, as far as those of their times show them.
+    error: f64,
+}
+
 impl<T: HybridSystem> Execution<'_, T> {
+    /// Notes an event that does not count, with the error of its time since the last start.
+    pub(crate) fn pass(&mut self, crossing: &Crossing<T::Surface, T::State>, time_error: f64) {
+        self.passed.number += 1;
+        if crossing.kind == EventKind::Crossing {
+            self.passed.error += time_error * self.rate_at(crossing);
+        }
+    }
+
+    /// The error of the time of an event by the events that were passed since the start of its arc.
+    pub(crate) fn error_by_passed(&self, crossing: &Crossing<T::Surface, T::State>) -> f64 {
+        if self.passed.number == 0 || crossing.kind != EventKind::Crossing {
+            return 0.0;
+        }
+        let rounding = self.flow().rounding_at(crossing.surface, &crossing.state);
+        let error = self.passed.error + self.passed.number as f64 * rounding;
+        error / self.rate_at(crossing)
+    }
+
+    /// The rate of a guard at its event.
+    fn rate_at(&self, crossing: &Crossing<T::Surface, T::State>) -> f64 {
+        let Crossing { surface, ref state, time, time_error, .. } = *crossing;
+        let look =
+            self.look(time_error, (self.at.time.value() + time).abs().max(f64::MIN_POSITIVE));
+        let flow = self.flow();
+        let later = self.beside(state, (time, look));
+        (flow.guard_value(surface, &later) - flow.guard_value(surface, state)).abs() / look
+    }
+
     /// True if the event has no condition, or if its condition is positive at the state before it.
     ///
     /// # Errors

@@ -1,7 +1,8 @@
 //! Executions: arcs and events in hybrid time, one after the other.
 
-use crate::arc::{Arc, ArcEnd};
+use crate::arc::{Arc, ArcEnd, Event};
 use crate::chain::Chain;
+use crate::condition::Passed;
 use crate::crossing::{EventKind, NextEvent};
 use crate::error::Error;
 use crate::limits::{Limits, Stop};
@@ -11,6 +12,9 @@ use crate::state::StateVector;
 use crate::system::HybridSystem;
 use crate::time_sum::TimeSum;
 use crate::zeno::History;
+
+/// The most events of one arc that do not count. A million take about a second.
+const MOST_PASSED: usize = 1_000_000;
 
 /// An execution of a hybrid system, as an iterator over its arcs.
 ///
@@ -22,6 +26,8 @@ pub struct Execution<'a, T: HybridSystem> {
     pub(crate) limits: Limits,
     pub(crate) stop: Option<Stop>,
     pub(crate) at: Point<T::Mode, T::Surface, T::State>,
+    /// What events that do not count have left on the present arc.
+    pub(crate) passed: Passed,
 }
 
 impl<'a, T: HybridSystem> Execution<'a, T> {
@@ -38,7 +44,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
             arrival: None,
             residues: Residues::new(),
         };
-        Execution { system, limits, stop: None, at }
+        Execution { system, limits, stop: None, at, passed: Passed::default() }
     }
 
     /// The same execution from another start time t. The limit on time is a continuous time t, not a duration.
@@ -55,19 +61,33 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
 
     /// The next arc. The state of the execution moves to the end of the arc. Events that do not count are passed on it.
     fn arc(&mut self) -> Result<AnArc<T>, Error> {
+        self.passed = Passed::default();
+        let start = self.at.time;
         let mut first: Option<AnArc<T>> = None;
         loop {
             let (piece, ends) = match self.piece()? {
                 Piece::Ends(piece) => (piece, true),
                 Piece::Passes(piece) => (piece, false),
             };
-            let arc = match first {
-                Some(first) => {
-                    Arc { duration: first.duration + piece.duration, end: piece.end, ..first }
-                }
+            let mut arc = match first {
+                Some(first) => Arc { end: piece.end, duration: piece.duration, ..first },
                 None => piece,
             };
+            if self.passed.number > 0 && arc.duration.is_finite() {
+                arc.duration = self.at.time.since(start);
+                if let ArcEnd::Zeno { limit, .. } = &mut arc.end {
+                    limit.remainder = arc.duration;
+                }
+            }
             if ends {
+                return Ok(arc);
+            }
+            // The events that do not count are a budget too, or their arc might never end.
+            if self.passed.number >= self.limits.steps.min(MOST_PASSED) {
+                if let ArcEnd::Event(Event { certainty, .. }) = arc.end {
+                    arc.end = ArcEnd::Unfinished { certainty };
+                }
+                self.stop = Some(Stop::Unfinished);
                 return Ok(arc);
             }
             first = Some(arc);

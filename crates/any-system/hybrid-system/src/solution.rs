@@ -97,13 +97,13 @@ impl<'a, T: HybridSystem> Solution<'a, T> {
     }
 
     /// The limits from the left and from the right: mode and state before all events at the time, and after them. They are
-    /// the states of the arcs, to the last bit. At the start both are the first state; after an event that ends the run, both
+    /// the states of the arcs, to the last bit. Before all events at the start is the first state; after an event that ends the run, both
     /// are the last one. Within an arc that replaces infinitely many, up to a Zeno limit, it is the state at its start.
     ///
     /// # Errors
     /// [`Error::BadLimit`] for a time before the start or after the end; those of [`Arc::state`].
     pub fn at(&self, time: f64) -> Result<[Place<T>; 2], Error> {
-        self.check(time)?;
+        let time = self.check(time)?;
         // The first arc that ends at the time or later, and the last one that starts there or earlier.
         let first = self.arcs.partition_point(|arc| end_of(arc) < time).min(self.arcs.len() - 1);
         let last = self.arcs.partition_point(|arc| arc.time <= time).max(1) - 1;
@@ -128,7 +128,7 @@ impl<'a, T: HybridSystem> Solution<'a, T> {
     /// # Errors
     /// As [`at`](Self::at); [`Error::BadLimit`] for times that are not in order.
     pub fn states(&self, grid: &[f64]) -> Result<Vec<T::State>, Error> {
-        grid.iter().try_for_each(|&time| self.check(time))?;
+        let grid: Vec<f64> = grid.iter().map(|&time| self.check(time)).collect::<Result<_, _>>()?;
         if let Some(pair) = grid.windows(2).find(|pair| pair[1] < pair[0]) {
             let what = "a time of a grid, which must be in ascending order,";
             return Err(Error::BadLimit { what, value: pair[1] });
@@ -155,10 +155,12 @@ impl<'a, T: HybridSystem> Solution<'a, T> {
         Ok(states)
     }
 
-    fn check(&self, time: f64) -> Result<(), Error> {
+    /// An error outside of the run. The limit on time may be a rounding later than the sum of the durations.
+    fn check(&self, time: f64) -> Result<f64, Error> {
         let (start, end) = self.times();
-        match time >= start && time <= end && time.is_finite() {
-            true => Ok(()),
+        let rounded = time > end && time - end <= 2.0 * f64::EPSILON * end.abs();
+        match time >= start && (time <= end || rounded) && time.is_finite() {
+            true => Ok(time.min(end)),
             false => Err(Error::BadLimit { what: "a time outside of the run,", value: time }),
         }
     }

@@ -165,3 +165,59 @@ fn derivatives_pass_an_event_that_does_not_count() {
     // v + √(v² + 2), at v = 1.
     assert!((jet.time.0[1] - (1.0 + 1.0 / 3f64.sqrt())).abs() < 1e-12);
 }
+
+/// Crossings that do not count leave their errors: the event behind them has an error that holds its distance from the exact
+/// time, and the arc's end is that of the event.
+#[test]
+fn events_behind_many_that_do_not_count_know_their_error() {
+    let model = Equations::new(&["x", "y", "w"], &[])
+        .mode_text("m", &["7*y", "-7*x", "1"])
+        .falling_text("o", "x")
+        .only_where_text("-1")
+        .rising_text("g", "w - 3000.5")
+        .model::<State<3>>()
+        .unwrap();
+    let arc = model.start("m", [1.0, 0.0, 0.0], 7000.3).unwrap().next().unwrap().unwrap();
+    let event = arc.event().unwrap();
+    let off = (event.time - 3000.5).abs();
+    assert!(off <= event.time_error && event.time_error < 1e-7, "{off:e} {event:?}");
+    assert!((arc.duration - event.time).abs() < 1e-12);
+    // As a condition it is not decided where the error hides it.
+    let hidden = Equations::new(&["x", "y", "w"], &[])
+        .mode_text("m", &["y", "-sin(x)", "1"])
+        .rising_text("o", "w - 47.338")
+        .only_where_text("-1")
+        .falling_text("g", "x")
+        .only_where_text("w - 47.338251")
+        .model::<State<3>>()
+        .unwrap()
+        .tolerance(1e-6);
+    let end = hidden.start("m", [3.1, 0.0, 0.0], 50.0).unwrap().fate().end;
+    assert!(
+        matches!(end, End::Failed(Error::Condition(ConditionError::Undecided { .. }))),
+        "{end:?}"
+    );
+    // The run goes on up to its limit as a function.
+    let run = model.start("m", [1.0, 0.0, 0.0], 7000.3).unwrap().solution().unwrap();
+    assert!(run.at(7000.3).is_ok());
+}
+
+/// An arc whose events never count ends at a budget, also without a limit on time.
+#[test]
+fn events_that_do_not_count_have_a_budget() {
+    let model = Equations::new(&["x"], &[])
+        .mode_text("m", &["1"])
+        .clock_text("tick", "1", "1")
+        .only_where_text("-1")
+        .model::<State<1>>()
+        .unwrap();
+    let limits = Limits { steps: 100, ..Limits::new(f64::INFINITY, 5) };
+    let label = Label::new("m").unwrap();
+    let mut run = Execution::new(&model, label, State::from([0.0]), limits);
+    let arc = run.next().unwrap().unwrap();
+    assert!(matches!(arc.end, ArcEnd::Unfinished { .. }) && arc.duration == 100.0, "{arc:?}");
+    assert_eq!(run.stop(), Some(Stop::Unfinished));
+    // It goes on from there.
+    let arc = run.go_on(limits).next().unwrap().unwrap();
+    assert_eq!((arc.time, arc.duration), (100.0, 100.0));
+}

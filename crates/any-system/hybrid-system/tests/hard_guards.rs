@@ -313,3 +313,31 @@ fn states_at_times_without_order_are_refused() {
         assert!(matches!(found, Err(Error::BadLimit { .. })), "{field}");
     }
 }
+
+/// A ball between guards that jump at its floor, whose resets turn it round: it bounces, and no rounding counts as a way back.
+#[test]
+fn bounces_at_a_guard_that_jumps() {
+    let ball = Equations::new(&["x", "v"], &[])
+        .mode_text("m", &["v", "-1"])
+        .either_text("g", "atan2(x, -1)")
+        .resets_text(&["x", "-v"])
+        .contact();
+    let model = ball.model::<State<2>>().unwrap();
+    let arcs: Vec<_> = model.start("m", [0.5, 0.638], 10.0).unwrap().map(Result::unwrap).collect();
+    let times: Vec<f64> = arcs.iter().filter_map(|arc| Some(arc.event()?.time)).collect();
+    let speed = (0.638f64 * 0.638 + 1.0).sqrt();
+    assert_eq!(times.len(), 4, "{times:?}");
+    for (k, time) in times.iter().enumerate() {
+        let exact = 0.638 + speed + 2.0 * speed * k as f64;
+        assert!((time - exact).abs() < 1e-5, "{k}: {time} {exact}");
+    }
+    let sampled = Model::closed_form(|(), x: &State<2>, t| [x[0] + t * (x[1] - t / 2.0), x[1] - t])
+        .either((), |x| x[0] + 1.0f64.copysign(x[0]), |x| ((), [x[0], -x[1]]))
+        .sampled(0.01);
+    let arcs: Vec<_> = sampled.run((), [0.5, 0.0], 9.5).map(Result::unwrap).collect();
+    let times: Vec<f64> = arcs.iter().filter_map(|arc| Some(arc.event()?.time)).collect();
+    assert_eq!(times.len(), 5, "{times:?}");
+    for (time, exact) in times.iter().zip([1.0, 3.0, 5.0, 7.0, 9.0]) {
+        assert!((time - exact).abs() < 1e-9, "{times:?}");
+    }
+}

@@ -160,3 +160,36 @@ fn what_has_no_inverse_is_refused() {
         ball().model::<State<2>>().unwrap().start("flight", [0.5, 0.0], 2.4).unwrap().fate();
     assert!((fate.state - exact.state).norm() < 1e-12);
 }
+
+/// A ball that stops at the floor: backward from there, and from its flight.
+#[test]
+fn a_stop_has_a_past() {
+    let ball = Equations::new(&["height", "speed"], &[])
+        .mode_text("flight", &["speed", "-1"])
+        .falling_text("floor", "height")
+        .stops();
+    let model = ball.model::<State<2>>().unwrap();
+    let landing = model.start("flight", [0.5, 0.0], 9.0).unwrap().fate();
+    assert_eq!(landing.end, End::Terminal(Label::new("floor").unwrap()));
+    let back = ball.reversed().unwrap().model::<State<2>>().unwrap();
+    for (state, time) in [(landing.state, landing.time), (State::from([0.42, -0.4]), 0.4)] {
+        let first = back.start_at("flight", state, (-time, 0.0)).unwrap().fate();
+        assert_eq!(first.end, End::Stopped(Stop::TimeLimit), "{first:?}");
+        assert!((first.state - State::from([0.5, 0.0])).norm() < 1e-12, "{first:?}");
+    }
+}
+
+/// Two jumps of one name into one mode cannot be told apart backward.
+#[test]
+fn two_jumps_of_one_name_are_refused() {
+    let two = Equations::new(&["x"], &[])
+        .mode_text("a", &["1"])
+        .rising_text("hit", "x - 1")
+        .to("c")
+        .mode_text("b", &["1"])
+        .rising_text("hit", "x - 1")
+        .to("c")
+        .mode_text("c", &["1"]);
+    let error = two.reversed().unwrap_err().to_string();
+    assert!(error.contains("hit") && error.contains("names of their own"), "{error}");
+}

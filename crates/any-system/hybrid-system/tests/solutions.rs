@@ -86,7 +86,7 @@ fn events_at_one_instant_and_a_last_one() {
     assert!((end - 2.0).abs() < 1e-12);
     let [before, after] = run.at(end).unwrap();
     assert_eq!((before.0, after.0), (1, 1));
-    assert!(run.at(end.next_up()).is_err());
+    assert!(run.at(end + 1e-12).is_err());
     assert_eq!(run.counts(), [(0, 1), (1, 1)]);
     // A run for ever ends at no time.
     let free = Model::closed_form(|(), x: &State<1>, t| [x[0] + t])
@@ -94,6 +94,23 @@ fn events_at_one_instant_and_a_last_one() {
         .sampled(1.0);
     let never = free.run((), [0.0], 5.0).solution().unwrap();
     assert_eq!(never.at(4.5).unwrap()[1].1[0], 4.5);
+}
+
+/// The limit on time may be a rounding beyond the sum of the durations.
+#[test]
+fn a_run_has_its_limit() {
+    let model = Equations::new(&["height", "speed"], &[])
+        .mode_text("flight", &["speed", "-1"])
+        .falling_text("floor", "height")
+        .resets_text(&["height", "-0.9*speed"])
+        .model::<State<2>>()
+        .unwrap();
+    for k in 1..400 {
+        let end = 0.017 * f64::from(k);
+        let run = model.start("flight", [0.5, 0.0], end).unwrap().solution().unwrap();
+        assert!(run.at(end).is_ok() && run.states(&[0.0, end]).is_ok(), "{end}");
+        assert!(run.at(end + 1e-9).is_err());
+    }
 }
 
 /// Arcs that are no run are refused.

@@ -38,7 +38,8 @@ impl Equations {
     /// ```
     ///
     /// # Errors
-    /// As [`check`](Self::check); [`Error::BadEquations`] for a jump without an inverse, and for a periodic clock.
+    /// As [`check`](Self::check); [`Error::BadEquations`] for a jump without an inverse, for a periodic clock, and for two jumps of
+    /// one surface that lead to the same mode, as those of all modes do if they lead to one.
     pub fn reversed(&self) -> Result<Equations, Error> {
         self.check()?;
         let back = Formulas::of_vector(self.names.clone(), |t, x, _| {
@@ -106,11 +107,18 @@ impl Equations {
             }
             other => {
                 guard.guard.direction = guard.guard.direction.backward();
+                if guard.guard.role != Role::Clock {
+                    guard.guard.role = Role::Crossing;
+                }
                 other.cloned()
             }
         };
-        self.push_guard(to, guard);
-        Ok(())
+        match self.push_guard(to, guard.clone()) {
+            true => Ok(()),
+            false => {
+                guard.bad("two jumps of this name lead to one mode: give them names of their own")
+            }
+        }
     }
 
     /// Adds the end of the past at an event that leads out of a mode, unless the same surface leads into it.
@@ -133,13 +141,16 @@ impl Equations {
         Ok(())
     }
 
-    fn push_guard(&mut self, mode: Label, guard: GuardEquations) {
-        let modes = self.modes.iter_mut().filter(|known| known.name == mode);
-        for known in modes {
-            if !known.guards.iter().any(|own| own.guard.surface == guard.guard.surface) {
-                known.guards.push(guard.clone());
-            }
+    /// Adds a guard, and returns true, if its mode has none of its surface.
+    fn push_guard(&mut self, mode: Label, guard: GuardEquations) -> bool {
+        let Some(known) = self.modes.iter_mut().find(|known| known.name == mode) else {
+            return false;
+        };
+        let is_new = known.guards.iter().all(|own| own.guard.surface != guard.guard.surface);
+        if is_new {
+            known.guards.push(guard);
         }
+        is_new
     }
 }
 

@@ -20,6 +20,7 @@ use super::filippov_modes::FilippovMode;
 use super::rates::guard_rates;
 use crate::guard::{Direction, Guard, Role};
 use crate::system::{HybridSystem, Reset};
+use std::cell::Cell;
 
 /// Why the motion behind a surface is not unique.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,6 +67,7 @@ pub(super) fn after_crossing<T: HybridSystem>(
         system.guards(mode).iter().any(|guard| guard.surface == other && guard.role.bounds_flow())
     };
     let is_place = is_switch(sides.below) || is_switch(sides.above);
+    let resizes = Cell::new(false);
     let after = |mode: T::Mode| {
         let guards = system.guards(mode);
         let named = guards.iter().find(by_name);
@@ -73,7 +75,9 @@ pub(super) fn after_crossing<T: HybridSystem>(
         match named.or_else(placed) {
             None => Side::Unaffected,
             Some(guard) => match system.reset(mode, guard.surface, state) {
-                Reset::Jump { mode, state } | Reset::Resize { mode, state } => {
+                Reset::Jump { mode, state } => Side::Jump(mode, state),
+                Reset::Resize { mode, state } => {
+                    resizes.set(true);
                     Side::Jump(mode, state)
                 }
                 Reset::Stop => Side::Stop,
@@ -95,7 +99,10 @@ pub(super) fn after_crossing<T: HybridSystem>(
         }
         _ => return Err(NotUnique("the modes on both sides reset the state differently")),
     };
-    let free = |mode, state| Ok(Reset::Jump { mode: FilippovMode::Free(mode), state });
+    let free = |mode, state| {
+        let mode = FilippovMode::Free(mode);
+        Ok(if resizes.get() { Reset::Resize { mode, state } } else { Reset::Jump { mode, state } })
+    };
     let sliding = |state| {
         let (surface, partner) = (sides.surface, partner);
         let mode = FilippovMode::Sliding { surface, partner, below, above };
