@@ -16,9 +16,10 @@ pub struct Limits {
     /// The most steps of the integrated flow of one arc, and the most samples of one search. After them the arc
     /// ends with [`ArcEnd::Unfinished`](crate::ArcEnd::Unfinished), and the execution can go on. Two other limits
     /// hold as well: the steps of the tolerances of a flow, a million by default, and a billion samples of one
-    /// search.
+    /// search. It is also the most events of one arc that do not count, up to a million.
     pub steps: usize,
-    /// True if a clock whose preset time is the start of the execution has its event there. Default: false.
+    /// True if a clock whose preset time is the start of the execution has its event there. Default: false, unless another
+    /// guard has an event there first.
     pub ticks_at_start: bool,
     /// True if a clock whose preset time is the limit on time has its event there. Default: true. Without it the event is the
     /// first one of an execution that goes on.

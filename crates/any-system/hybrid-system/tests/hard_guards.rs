@@ -341,3 +341,27 @@ fn bounces_at_a_guard_that_jumps() {
         assert!((time - exact).abs() < 1e-9, "{times:?}");
     }
 }
+
+/// An observer that jumps where x = sin t passes ½, from either side: each time has the error of the flow, and none is lost.
+#[test]
+fn observed_jumps_have_the_error_of_the_flow() {
+    let exact = [PI / 6.0, 5.0 * PI / 6.0, 13.0 * PI / 6.0, 17.0 * PI / 6.0];
+    for guard in ["atan2(x - 0.5, -1)", "atan2(0.5 - x, -1)"] {
+        for (tolerance, with_other) in [(1e-12, false), (1e-12, true), (1e-9, false), (1e-9, true)]
+        {
+            let equations = Equations::new(&["x", "v"], &[])
+                .mode_text("m", &["v", "-x"])
+                .either_text("g", guard);
+            let equations = if with_other { equations.rising_text("o", "v") } else { equations };
+            let model = equations.model::<State<2>>().unwrap().tolerance(tolerance);
+            let run = model.start("m", [0.0, 1.0], 10.0).unwrap().solution().unwrap();
+            let events: Vec<_> = run.events().filter(|event| event.surface == "g").collect();
+            assert_eq!(events.len(), exact.len(), "{guard} {tolerance:e} {with_other}");
+            for (event, exact) in events.iter().zip(exact) {
+                let off = (event.time - exact).abs();
+                assert!(off < event.time_error, "{guard} {off:e} {:e}", event.time_error);
+                assert!(event.time_error < 100.0 * tolerance, "{guard} {:e}", event.time_error);
+            }
+        }
+    }
+}

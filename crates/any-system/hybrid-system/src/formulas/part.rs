@@ -13,6 +13,10 @@ use interval_arithmetic::Enclosure;
 use smallvec::SmallVec;
 use std::sync::Arc;
 
+/// How far beside a state a guard that may jump is looked at, relative to the state: far beyond the rounding of the guard's
+/// arithmetic, and near enough for the same error.
+const BESIDE: f64 = 1e-8;
+
 /// The part of a model that its equations give: all guards, with what their events do.
 #[derive(Debug, Clone)]
 pub struct FormulaPart(pub(super) Arc<Programs>);
@@ -62,12 +66,24 @@ impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
         Some(self.guard(surface)?.function.first_value(0.0, state.components()))
     }
 
-    /// Half the width of the enclosure of the value: that of its own arithmetic, and of decimals that are no doubles.
+    /// The width of the enclosure of the value: that of its own arithmetic, and of decimals that are no doubles. Where the guard
+    /// may jump, it is that beside the state: the height of a jump is no error.
     fn guard_error(&self, surface: Label, state: &X) -> Option<f64> {
-        let state: SmallVec<[Enclosure; 8]> =
-            state.components().iter().map(|component| Enclosure::from(*component)).collect();
-        let found = self.guard(surface)?.function.enclosures(Enclosure::ZERO, &state).ok()?;
-        Some(found.first()?.width())
+        let guard = self.guard(surface)?;
+        let width = |factor: f64| {
+            let state: SmallVec<[Enclosure; 8]> = state
+                .components()
+                .iter()
+                .map(|component| Enclosure::from(factor * component))
+                .collect();
+            Some(guard.function.enclosures(Enclosure::ZERO, &state).ok()?.first()?.width())
+        };
+        match guard.may_jump {
+            false => width(1.0),
+            true => {
+                [1.0, 1.0 - BESIDE, 1.0 + BESIDE].into_iter().filter_map(width).reduce(f64::min)
+            }
+        }
     }
 
     /// Where the motion and all guards of the mode have a closed form.

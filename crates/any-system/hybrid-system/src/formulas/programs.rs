@@ -9,7 +9,7 @@ use crate::crossing::QuasiPolynomial;
 use crate::error::Error;
 use crate::guard::Role;
 use crate::ode::Tolerances;
-use equations::{Constant, Formulas, JetSeries, Node, Series};
+use equations::{Binary, Constant, Formulas, JetSeries, Node, Series};
 use std::sync::{Arc, Mutex, OnceLock};
 
 /// All that is evaluated of some equations.
@@ -113,6 +113,8 @@ impl ModeProgram {
 pub(super) struct GuardProgram {
     pub(super) surface: Label,
     pub(super) function: Formulas,
+    /// True if the guard has a branch, at which its value jumps.
+    pub(super) may_jump: bool,
     pub(super) condition: Option<Formulas>,
     pub(super) jump: Option<Jump>,
     value_jets: Jets,
@@ -179,6 +181,7 @@ impl GuardEquations {
         GuardProgram {
             surface: self.guard.surface,
             function: timed(&self.function),
+            may_jump: self.function.nodes().0.iter().any(is_branch),
             condition: self.condition.as_ref().map(timed),
             jump,
             value_jets: Jets::new(),
@@ -229,6 +232,10 @@ impl ModeEquations {
             jets,
         })
     }
+}
+
+fn is_branch(node: &Node) -> bool {
+    matches!(node, Node::Binary(Binary::ArcTangent2, ..))
 }
 
 /// The formulas, with the time as the last component and its own formula where it is one.
