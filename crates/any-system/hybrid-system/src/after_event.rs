@@ -41,15 +41,17 @@ impl<T: HybridSystem> Execution<'_, T> {
         let guard = flow.guards().iter().find(|guard| guard.surface == surface);
         match kind {
             EventKind::Crossing => {
-                let arrival = arrival(Some(surface), length);
+                let mut arrival = arrival(Some(surface), length);
                 let residue = self.residue(surface, (state, after), length);
                 if let (Some(guard), Some(value)) = (guard, residue) {
                     self.at.residues.push(guard, value, arrival.from());
                 }
                 // What a contact that jumps does after its event is told by the motion.
                 let passes = guard.is_some_and(|guard| guard.direction == Direction::Either);
-                let has_left = passes && residue.is_none();
-                self.at.arrival = Some(if has_left { arrival.by_leaving() } else { arrival });
+                if passes && residue.is_none() {
+                    arrival.leave();
+                }
+                self.at.arrival = Some(arrival);
             }
             EventKind::Touch => {
                 self.at.arrival = Some(arrival(Some(surface), length).by_touch());
@@ -85,6 +87,10 @@ impl<T: HybridSystem> Execution<'_, T> {
     ) -> Option<f64> {
         let flow = self.flow();
         let value = flow.guard_value(surface, state);
+        // The usual case.
+        if value.abs() <= LOOK * f64::EPSILON * state.largest() {
+            return Some(value);
+        }
         let look = self.look(length.time_error, length.duration);
         let [before, behind] = [-look, look].map(|time| {
             let beside = self.beside(state, (length.duration, time));

@@ -262,10 +262,9 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         (self.time_rounding, self.time_error)
     }
 
-    /// The arrival at a jump or a pole of the guard.
-    pub(crate) fn by_leaving(mut self) -> Self {
+    /// Notes that the guard jumps at the surface, or has a pole there.
+    pub(crate) fn leave(&mut self) {
         self.has_left = true;
-        self
     }
 
     /// The arrival at a touch in place of a crossing.
