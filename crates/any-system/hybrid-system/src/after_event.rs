@@ -5,6 +5,7 @@ use crate::crossing::{EventKind, GuardedFlow, LeavingGuards};
 use crate::execution::Execution;
 use crate::guard::Direction;
 use crate::next_event::flow_to;
+use crate::solution::Place;
 use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem};
 
@@ -24,12 +25,15 @@ const LOOK: f64 = 64.0;
 /// both sides, and a pole by less than its value on one.
 const LEAST_MOVE: f64 = 8.0;
 
+/// The state before an event, and mode and state after it, if the run goes on.
+type BothSides<'x, T> = (&'x <T as HybridSystem>::State, Option<&'x Place<T>>);
+
 impl<T: HybridSystem> Execution<'_, T> {
     /// Keeps what the start of the next arc must know about the event at the end of this one.
     pub(crate) fn remember(
         &mut self,
         (kind, surface): (EventKind, T::Surface),
-        (state, after): (&T::State, Option<&(T::Mode, T::State)>),
+        (state, after): BothSides<'_, T>,
         (length, leaving): (DurationOfArc, LeavingGuards<T::Surface>),
         time_passes: bool,
     ) {
@@ -82,7 +86,7 @@ impl<T: HybridSystem> Execution<'_, T> {
     fn residue(
         &self,
         surface: T::Surface,
-        (state, after): (&T::State, Option<&(T::Mode, T::State)>),
+        (state, after): BothSides<'_, T>,
         length: DurationOfArc,
     ) -> Option<f64> {
         let flow = self.flow();
