@@ -27,7 +27,8 @@ pub fn ball_on_table() -> Equations {
         })
 }
 
-/// The ball just after an impact of the motion that lands once in a period: height, speed, time.
+/// The ball just after an impact of the motion that lands once in a period: height, speed, time; for the gravity 1 and the
+/// restitution ½. NaN for an amplitude below 1/(12π), 0.0265: there is no such motion.
 pub fn periodic_start(amplitude: f64) -> [f64; 3] {
     let phase = f_acos(PI * (1.0 - 0.5) / (1.5 * amplitude * FREQUENCY * FREQUENCY));
     [amplitude * f_sin(phase), 0.5, phase / FREQUENCY]

@@ -18,11 +18,11 @@ pub fn buck_converter(source: &str) -> Equations {
     let numbers = [
         ("source", source),
         ("resistance", "22"),
-        ("capacity", "47e-6"),
+        ("capacitance", "47e-6"),
         ("inductance", "20e-3"),
         ("period", "400e-6"),
     ];
-    let charge = "(current - voltage/resistance)/capacity";
+    let charge = "(current - voltage/resistance)/capacitance";
     let above = "8.4*(voltage - 11.3) - ramp";
     Equations::new(&["voltage", "current", "ramp"], &numbers)
         .clock_text("tick", "period", "period")

@@ -8,12 +8,12 @@
 //! | [`forced_oscillator`] | the forced oscillator of Sommerer and Ott (1993), as a stroboscopic map | an example of `return-map`, a figure |
 //! | [`impact_oscillator`] | a forced oscillator at its first grazing of a stop (Nordmark 1991) | a figure |
 //! | [`scenes`] | small systems in which something happens at once, slides or touches | tests of `hybrid-system`, figures |
-//! | [`spring_leg`] | a runner on a spring leg (Seyfarth and others 2002) | tests of `hybrid-system`, a figure |
+//! | [`spring_leg`] | a runner on a spring leg (Seyfarth and others 2002) | a figure |
 //! | [`stick_slip`] | a mass on a belt, with a friction that falls (Leine and others 1998) | a figure |
 //! | [`valve`] | a pressure relief valve whose disc hits its seat | an example and a benchmark of `return-map`, a figure |
 //!
-//! The figures are made by `hopper-studies`. Each model from a source is written once, as equations, in at most 40 lines; its known
-//! answers are tests.
+//! The figures are made by `hopper-studies`. [`ball_on_table`], [`buck_converter`], [`impact_oscillator`], [`spring_leg`] and
+//! [`stick_slip`] are equations; their known answers are in `tests/published.rs`.
 //!
 //! A system that is needed in only one place is in the `examples` folder of its crate.
 

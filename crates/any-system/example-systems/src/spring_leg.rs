@@ -11,7 +11,7 @@ use hybrid_system::{Equations, Expression};
 /// Height of the apex of the periodic run, in metres.
 pub const APEX: f64 = 0.940_267_144;
 
-/// The runner: 80 kg, a leg of 1 m and 20 kN/m, an angle of attack of 68°. The place is that beside the foot.
+/// The runner: 80 kg, a leg of 1 m and 20 kN/m, an angle of attack of 68°. x is measured from the foot.
 ///
 /// Touchdown and take-off are crossings: the body may take off below the height of its touchdown.
 pub fn spring_leg() -> Equations {
@@ -34,7 +34,7 @@ pub fn spring_leg() -> Equations {
         .to("flight")
 }
 
-/// An angle in degrees.
+/// The angle in radians.
 fn radians(degrees: Expression<'_>) -> Expression<'_> {
     degrees * degrees.pi() / 180.0
 }

@@ -53,7 +53,7 @@ impl<T: HybridSystem> Execution<'_, T> {
                 // What a contact that jumps does after its event is told by the motion.
                 let passes = guard.is_some_and(|guard| guard.direction == Direction::Either);
                 if passes && residue.is_none() {
-                    arrival.leave();
+                    arrival.note_guard_jumps();
                 }
                 self.at.arrival = Some(arrival);
             }
@@ -95,7 +95,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         if value.abs() <= LOOK * f64::EPSILON * state.largest() {
             return Some(value);
         }
-        let look = self.look(length.time_error, length.duration);
+        let look = self.look_time(length.time_error, length.duration);
         let [before, behind] = [-look, look].map(|time| {
             let beside = self.beside(state, (length.duration, time));
             flow.guard_value(surface, &beside)
@@ -117,7 +117,7 @@ impl<T: HybridSystem> Execution<'_, T> {
     }
 
     /// How far before and behind an event a guard is looked at.
-    pub(crate) fn look(&self, time_error: f64, duration: f64) -> f64 {
+    pub(crate) fn look_time(&self, time_error: f64, duration: f64) -> f64 {
         LOOK * time_error.max(f64::EPSILON * duration)
     }
 

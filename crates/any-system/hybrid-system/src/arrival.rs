@@ -79,7 +79,7 @@ pub(crate) struct Arrival<M, S, X> {
     /// True if the guard has touched the surface, and not crossed it.
     touched: bool,
     /// True if the guard has jumped over its surface, or has a pole there: its value is no error.
-    has_left: bool,
+    guard_jumps: bool,
     /// The side from which the guard of this surface came, ±1; 0 if there is none.
     from: f64,
     /// The state before the reset.
@@ -120,7 +120,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         let mut arrival = Arrival {
             surface,
             touched: false,
-            has_left: false,
+            guard_jumps: false,
             from: 0.0,
             before: before.clone(),
             mode: arc.mode,
@@ -163,7 +163,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         Arrival {
             surface: None,
             touched: false,
-            has_left: false,
+            guard_jumps: false,
             from: 0.0,
             before: state.clone(),
             mode,
@@ -263,8 +263,8 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     }
 
     /// Notes that the guard jumps at the surface, or has a pole there.
-    pub(crate) fn leave(&mut self) {
-        self.has_left = true;
+    pub(crate) fn note_guard_jumps(&mut self) {
+        self.guard_jumps = true;
     }
 
     /// The arrival at a touch in place of a crossing.
@@ -329,7 +329,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         let value = next.guard_value(surface, next.start);
         let (_, change) = self.earlier(next.system, surface);
         let same = || value == next.guard_value(surface, &self.before);
-        let on_surface = Some(surface) == self.surface && !self.has_left;
+        let on_surface = Some(surface) == self.surface && !self.guard_jumps;
         if on_surface && same() && !self.is_beyond_jump(next) {
             change.max(value.abs())
         } else {

@@ -20,7 +20,9 @@ impl<T: HybridSystem> Execution<'_, T> {
     pub(crate) fn pass(&mut self, crossing: &Crossing<T::Surface, T::State>, time_error: f64) {
         self.passed.number += 1;
         if crossing.kind == EventKind::Crossing {
-            self.passed.error += time_error * self.rate_at(crossing);
+            let error = time_error * self.rate_at(crossing);
+            // Of an error that is not known nothing is known, whatever the rate.
+            self.passed.error += if error.is_nan() { f64::INFINITY } else { error };
         }
     }
 
@@ -31,14 +33,15 @@ impl<T: HybridSystem> Execution<'_, T> {
         }
         let rounding = self.flow().rounding_at(crossing.surface, &crossing.state);
         let error = self.passed.error + self.passed.number as f64 * rounding;
-        error / self.rate_at(crossing)
+        // A guard without a rate may be zero without any error.
+        if error == 0.0 { 0.0 } else { error / self.rate_at(crossing) }
     }
 
     /// The rate of a guard at its event.
     fn rate_at(&self, crossing: &Crossing<T::Surface, T::State>) -> f64 {
         let Crossing { surface, ref state, time, time_error, .. } = *crossing;
         let look =
-            self.look(time_error, (self.at.time.value() + time).abs().max(f64::MIN_POSITIVE));
+            self.look_time(time_error, (self.at.time.value() + time).abs().max(f64::MIN_POSITIVE));
         let flow = self.flow();
         let later = self.beside(state, (time, look));
         (flow.guard_value(surface, &later) - flow.guard_value(surface, state)).abs() / look

@@ -1,9 +1,9 @@
-//! The errors of conditions: of events of which it is not known whether they count.
+//! The errors of conditions.
 
 use crate::number::Number;
 use thiserror::Error;
 
-/// Why it is not known whether an event counts.
+/// Why a condition gives no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ConditionError {
     /// The sign of the condition is lost in its error.

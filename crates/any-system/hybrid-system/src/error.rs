@@ -100,7 +100,7 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
-    /// An event of which it is not known whether it counts.
+    /// A condition that is not decided, or whose guard is no crossing.
     #[error(transparent)]
     Condition(#[from] ConditionError),
     /// An enclosure whose lower bound is above its upper bound, or whose bounds are NaN.

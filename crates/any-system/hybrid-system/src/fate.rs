@@ -14,9 +14,10 @@ pub struct Fate<M, S, X> {
     pub end: End<S>,
     /// The mode at the end.
     pub mode: M,
-    /// The state at the end: before an event that ends the run.
+    /// The state at the end: before an event that ends the run. If no further event follows and there is no limit on time, that
+    /// at the start of the last arc.
     pub state: X,
-    /// The continuous time t at the end.
+    /// The continuous time t of this state.
     pub time: f64,
     /// The number of events so far; the one that ends the run counts.
     pub events: usize,
@@ -27,7 +28,7 @@ pub struct Fate<M, S, X> {
 pub enum End<S> {
     /// By an event of this surface, which ends the run.
     Terminal(S),
-    /// For another reason, which is no error.
+    /// For another reason. An execution that had ended before has its [`Stop`] here, also if that is `Terminal` or `Failed`.
     Stopped(Stop),
     /// By an error. The state is the last one that was reached.
     Failed(Error),
@@ -61,7 +62,8 @@ impl<T: HybridSystem> Execution<'_, T> {
 /// `parallel` on all processors. They have the same bits for any number of threads.
 ///
 /// `progress` receives the number of runs that have finished, after each. If it breaks, no further run begins, and runs
-/// that have not begun are `None`.
+/// that have not begun are `None`. With `parallel`, calls of `progress` may overlap and come out of order, and which runs are
+/// `None` after a break depends on the threads.
 ///
 /// ```
 /// use hybrid_system::{End, Equations, State, many};

@@ -66,8 +66,8 @@
 //! `dry_friction` a mass sticks to a belt.
 //!
 //! # Features
-//! `ode`: models by their equations, modes given as ẋ = f(x), and sliding modes. `serde`: checkpoints, and with `ode` runs of
-//! equations, that can be saved and loaded. `parallel`: [`many`] runs on all processors. All are off by default.
+//! `ode`: models by their equations, modes given as ẋ = f(x), and sliding modes. `serde`: checkpoints, arcs and events, and with
+//! `ode` runs of equations, can be saved and loaded. `parallel`: [`many`] runs on all processors. All are off by default.
 //!
 //! # Accuracy
 //! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard given

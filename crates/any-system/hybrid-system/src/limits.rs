@@ -18,8 +18,8 @@ pub struct Limits {
     /// hold as well: the steps of the tolerances of a flow, a million by default, and a billion samples of one
     /// search. It is also the most events of one arc that do not count, up to a million.
     pub steps: usize,
-    /// True if a clock whose preset time is the start of the execution has its event there. Default: false, unless another
-    /// guard has an event there first.
+    /// True if a clock whose preset time is the start of the execution has its event there. Default: false. If another
+    /// guard has an event at the start, the clock has its event after it in either case.
     pub ticks_at_start: bool,
     /// True if a clock whose preset time is the limit on time has its event there. Default: true. Without it the event is the
     /// first one of an execution that goes on.
@@ -64,7 +64,7 @@ pub enum Stop {
     Zeno,
     /// The fields on both sides of a surface point at it, and the model gives no mode there.
     Sliding,
-    /// A budget of the search for the next event ended. The execution can go on.
+    /// A budget ended: of the search for the next event, or of events that do not count. The execution can go on.
     Unfinished,
     /// An error was returned.
     Failed,

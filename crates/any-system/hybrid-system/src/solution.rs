@@ -46,7 +46,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
 }
 
 impl<'a, T: HybridSystem> Solution<'a, T> {
-    /// The run with these arcs of a system.
+    /// The run with these arcs of a system. Only their times are checked: arcs of another system give wrong states.
     ///
     /// # Errors
     /// [`Error::BadLimit`] for no arc, and for a time of an arc that is not the end of the arc before it.
@@ -97,8 +97,8 @@ impl<'a, T: HybridSystem> Solution<'a, T> {
     }
 
     /// The limits from the left and from the right: mode and state before all events at the time, and after them. They are
-    /// the states of the arcs, to the last bit. Before all events at the start is the first state; after an event that ends the run, both
-    /// are the last one. Within an arc that replaces infinitely many, up to a Zeno limit, it is the state at its start.
+    /// the states of the arcs, to the last bit. At the start, the first of both is the first state. If an event ends the run, both
+    /// are the state before it. Inside an arc up to a Zeno limit, which replaces infinitely many, both are its first state.
     ///
     /// # Errors
     /// [`Error::BadLimit`] for a time before the start or after the end; those of [`Arc::state`].

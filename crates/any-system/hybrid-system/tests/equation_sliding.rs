@@ -62,3 +62,27 @@ fn a_mass_of_equations_sticks_and_leaves() {
     assert_eq!(last.mode, slower);
     assert!((last.time + last.duration - 40.0).abs() < 1e-12);
 }
+
+/// A guard with a condition has it while the state slides, too.
+#[test]
+fn conditions_hold_while_the_state_slides() {
+    for (condition, expected) in [("-1", 3.0), ("1", 1.0 + 1.0 / 1.6)] {
+        let model = Equations::new(&["x", "y"], &[])
+            .falling_text("mark", "y + 4")
+            .only_where_text(condition)
+            .stops()
+            .mode_text("below", &["1.3", "1"])
+            .rising_text("line", "x")
+            .to("above")
+            .mode_text("above", &["-0.7", "-3"])
+            .falling_text("line", "x")
+            .to("below")
+            .model::<State<2>>()
+            .unwrap();
+        let above = FilippovMode::Free(Label::new("above").unwrap());
+        let filippov = Filippov::new(model, Tolerances::both(1e-12));
+        let limits = Limits::new(3.0, 10);
+        let fate = Execution::new(&filippov, above, State::from([0.7, 0.0]), limits).fate();
+        assert!((fate.time - expected).abs() < 1e-9, "{condition}: {fate:?}");
+    }
+}

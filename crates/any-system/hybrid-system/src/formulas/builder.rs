@@ -146,8 +146,9 @@ impl Equations {
         self.add_clock(surface, |names| Formulas::from_text(names, &[first, period]))
     }
 
-    /// Adds a clock: events at these times, which follow from the parameters and rise. A time that is not later than the start
-    /// has no event.
+    /// Adds a clock: events at these times, which follow from the parameters. They must be finite and rise strictly, or
+    /// [`model`](Self::model) is [`Error::BadClock`]. Times before the start have no event, and one at the start has an event
+    /// with [`Limits::ticks_at_start`](crate::Limits::ticks_at_start).
     #[must_use]
     pub fn ticks(
         self,

@@ -15,12 +15,15 @@ use equations::{Arithmetic, Coefficients, Jet, jet_horner};
 /// a derivative are left. A slower one is a grazing.
 const SMALLEST_RATE: f64 = 1e-12;
 
-/// The largest change of a guard's rate within the error of the time of its event, in parts of the rate, is this many times the
-/// tolerance, between two bounds: six digits of a derivative are left, or one where the tolerance is that large. A rate that
-/// changes more is that of a grazing.
-const ROUNDINGS: f64 = 1e4;
-const KNOWN_RATE: f64 = 1e-6;
-const LEAST_KNOWN_RATE: f64 = 0.1;
+/// The change of a guard's rate within the error of the time of its event that is allowed, in parts of the rate and of the
+/// tolerance. A derivative has no more digits than the rate; a larger change is that of a grazing.
+const CHANGE_PER_TOLERANCE: f64 = 1e4;
+
+/// It may always be this large: six digits of a derivative are left.
+const SMALLEST_CHANGE_ALLOWED: f64 = 1e-6;
+
+/// It may never be larger: one digit is left.
+const LARGEST_CHANGE_ALLOWED: f64 = 0.1;
 
 /// A crossing after this part of the present time is at the same instant as the event before.
 const SAME_INSTANT: f64 = 4.0 * f64::EPSILON;
@@ -208,8 +211,8 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         let size = rate_size(&program.guards[place], &state, motion.states())?;
         let rate = guard.get(1).map_or(0.0, Jet::value);
         let change = change_of_rate(guard, event.time_error) / rate.abs();
-        let known =
-            (ROUNDINGS * self.motion.tolerances.relative).clamp(KNOWN_RATE, LEAST_KNOWN_RATE);
+        let known = (CHANGE_PER_TOLERANCE * self.motion.tolerances.relative)
+            .clamp(SMALLEST_CHANGE_ALLOWED, LARGEST_CHANGE_ALLOWED);
         if !(rate.abs() > SMALLEST_RATE * size && change <= known) {
             return Err(Error::GrazingSensitivity { time: event.time, rate });
         }

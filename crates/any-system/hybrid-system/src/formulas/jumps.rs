@@ -15,7 +15,8 @@ impl Equations {
     /// The events of the last guard count only where h(t, x), at the state before the event, is positive. Where it is negative
     /// the flow goes on as if there were no guard. The guard becomes a [crossing](Self::crossing).
     ///
-    /// An event at which the sign of h is lost in rounding is [`ConditionError::Undecided`](crate::ConditionError::Undecided).
+    /// An event at which the sign of h is lost in rounding is [`ConditionError::Undecided`](crate::ConditionError::Undecided). So is one
+    /// at which h has no value. A guard that is declared a contact or a switch later is an error.
     ///
     /// ```
     /// use hybrid_system::{Equations, State};
@@ -96,7 +97,7 @@ impl Equations {
     }
 
     /// The state before the event of the last guard, from the state after it: the inverse of its [`resets`](Self::resets), for
-    /// [`reversed`](Self::reversed).
+    /// [`reversed`](Self::reversed). It is not compared with `resets`: a wrong inverse gives a wrong past. Runs forward do not use it.
     #[must_use]
     pub fn inverse<const N: usize>(
         self,

@@ -179,7 +179,8 @@ where
     P: ModelPart<Label, Label, X>,
 {
     /// The execution from `start` in the mode with this name, up to the time `time` and at most a million events: an
-    /// iterator over its arcs. It begins at the time zero.
+    /// iterator over its arcs. It begins at the time zero. A start that contains a time keeps it for the formulas, while events
+    /// and clocks count from zero: [`start_at`](Self::start_at) gives one time to both.
     ///
     /// # Errors
     /// [`Error::NoVectorField`] for a mode that the equations do not have; [`Error::Dimension`] for a start with another

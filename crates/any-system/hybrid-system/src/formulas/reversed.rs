@@ -17,8 +17,9 @@ impl Equations {
     ///   both ways.
     /// - Where a state may have come by such a jump or by the flow alone, it has come by the jump: the past need not be unique.
     /// - An observer has its events at the same points: a guard that rises in t falls in s.
-    /// - An event that ends a run, or that no jump leads to, ends the run backward: no run forward comes from beyond it.
-    /// - A rest after a Zeno limit has no past, and neither have the ticks of a periodic clock, whose last one is not known.
+    /// - An event that stops the run forward stops it backward. In the mode that a jump leaves, its surface stops the run backward,
+    ///   unless a jump of the same surface leads into that mode: no run forward comes from beyond it.
+    /// - The rest after a Zeno limit is left out. A periodic clock is an error, since its last tick is not known.
     ///
     /// ```
     /// use hybrid_system::{Equations, State};

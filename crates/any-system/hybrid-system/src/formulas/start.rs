@@ -7,10 +7,9 @@ use nalgebra::DVector;
 /// a `DVector`. It has the components with names. If the formulas use the time, the state of the model has it behind them; the
 /// start may leave it out.
 pub trait Start<X> {
-    /// The state of a model of this dimension, with the time as its last component if it is left out and the model has `some`
-    /// time; the number of components if it does not fit.
+    /// The state of a model of this dimension, with the time as its last component if it is left out and the model has a `time`; the number of components if it does not fit.
     #[doc(hidden)]
-    fn state(self, dimension: usize, some: Option<f64>) -> Result<X, usize>;
+    fn state(self, dimension: usize, time: Option<f64>) -> Result<X, usize>;
 }
 
 impl<const M: usize, const N: usize> Start<State<N>> for [f64; M] {

@@ -34,9 +34,10 @@ where
     S: Copy + Eq + Debug,
 {
     /// Lets the events of this surface count only where h(x), at the state before the event, is positive. Where it is
-    /// negative the flow goes on as if there were no guard. The guard becomes a [crossing](Guard::crossing).
+    /// negative the flow goes on as if there were no guard. The guard becomes a [crossing](crate::Guard::crossing).
     ///
-    /// An event at which the sign of h is lost in rounding is [`ConditionError::Undecided`](crate::ConditionError::Undecided).
+    /// An event at which the sign of h is lost in rounding is [`ConditionError::Undecided`](crate::ConditionError::Undecided). So is one
+    /// at which h has no value. A guard that is declared a contact or a switch later is an error.
     ///
     #[cfg_attr(feature = "ode", doc = "```")]
     #[cfg_attr(not(feature = "ode"), doc = "```ignore")]

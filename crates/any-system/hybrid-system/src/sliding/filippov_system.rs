@@ -186,10 +186,12 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
         surface: Self::Surface,
         before: &T::State,
     ) -> Option<f64> {
-        let (FilippovMode::Free(mode), FilippovSurface::Model(surface)) = (mode, surface) else {
-            return None;
-        };
-        self.system.condition(mode, surface, before)
+        let FilippovSurface::Model(surface) = surface else { return None };
+        let of = |mode| self.system.condition(mode, surface, before);
+        match mode {
+            FilippovMode::Free(mode) => of(mode),
+            FilippovMode::Sliding { below, above, .. } => of(below).or_else(|| of(above)),
+        }
     }
 
     fn leaving_side(
