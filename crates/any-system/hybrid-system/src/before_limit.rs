@@ -17,7 +17,7 @@ use crate::crossing::{
     Certainty, Crossing, EventKind, GuardedFlow, LeavingGuards, change_by_components,
 };
 use crate::error::Error;
-use crate::execution::{Execution, Piece};
+use crate::execution::{AnArc, Execution};
 use crate::guard::{Guard, Role};
 use crate::start_rule::ArcStart;
 use crate::state::StateVector;
@@ -41,13 +41,13 @@ pub(crate) struct Passing<S> {
 pub(crate) type PassingGuards<S> = SmallVec<[Passing<S>; FEW]>;
 
 type Limit<T> = ZenoLimit<<T as HybridSystem>::State>;
-type MaybePiece<T> = Result<Option<Piece<T>>, Error>;
+type MaybeArc<T> = Result<Option<AnArc<T>>, Error>;
 type CrossingOf<T> = Crossing<<T as HybridSystem>::Surface, <T as HybridSystem>::State>;
 type MaybeCrossing<T> = Result<Option<CrossingOf<T>>, Error>;
 
 impl<T: HybridSystem> Execution<'_, T> {
     /// The arc up to a Zeno limit, or to a clock within the error of the limit; `None` if the flow has to be followed.
-    pub(crate) fn arc_to_limit(&mut self, limit: Limit<T>, horizon: f64) -> MaybePiece<T> {
+    pub(crate) fn arc_to_limit(&mut self, limit: Limit<T>, horizon: f64) -> MaybeArc<T> {
         // What has come to its surface at the instant of the last event has its event first.
         let pending = self.at.arrival.as_ref().is_some_and(Arrival::has_pending);
         if pending && !matches!(self.start_of_arc(horizon).0, Ok(ArcStart::Flows)) {
@@ -58,7 +58,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             return Ok(None);
         }
         match self.next_clock(limit.remainder)? {
-            None => self.zeno_arc(limit, &passing).map(Piece::Ends).map(Some),
+            None => Ok(Some(self.zeno_arc(limit, &passing))),
             Some(clock) if clock.until < limit.remainder - limit.time_error => Ok(None),
             // Within the error of the limit the order is not known. A guard must not be lost at the state of the clock.
             Some(clock) => {
@@ -76,7 +76,7 @@ impl<T: HybridSystem> Execution<'_, T> {
 
     /// The next arc if rounding hides the next event on the way to a Zeno limit, and with it how far the events up to
     /// a clock, a guard or the limit on time move the state.
-    pub(crate) fn hidden_arc(&mut self, limit: Limit<T>, horizon: f64) -> Result<Piece<T>, Error> {
+    pub(crate) fn hidden_arc(&mut self, limit: Limit<T>, horizon: f64) -> Result<AnArc<T>, Error> {
         let (leaving, certainty) = (LeavingGuards::new(), Certainty::Interpolated);
         let passing = self.passing(&limit);
         let clock = self.next_clock(limit.remainder.min(horizon))?;
@@ -90,7 +90,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             return self.event_arc(event, (horizon, clock), leaving);
         }
         if ends_at_limit {
-            return self.zeno_arc(limit, &passing).map(Piece::Ends);
+            return Ok(self.zeno_arc(limit, &passing));
         }
         let part = if limit.remainder > 0.0 { latest / limit.remainder } else { 1.0 };
         let state = self.path_to(&limit)(part);
@@ -98,10 +98,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             Some(tick) => {
                 self.event_arc(tick.crossing(state, certainty), (horizon, clock), leaving)
             }
-            None => {
-                let arc = self.arc_without_event(horizon, Some(state), certainty, leaving);
-                arc.map(Piece::Ends)
-            }
+            None => self.arc_without_event(horizon, Some(state), certainty, leaving),
         }
     }
 

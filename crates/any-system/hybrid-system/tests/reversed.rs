@@ -120,6 +120,20 @@ fn lists_and_conditions_go_back() {
     assert_eq!((forward, back), (4, 4));
 }
 
+/// The condition of a clock is that at the state before its tick, too: 0.5 + 1 is above 1, and no tick counts there.
+#[test]
+fn conditions_of_clocks_go_back() {
+    let equations = Equations::new(&["x"], &[])
+        .ticks_text("tick", &["0.5", "1.25"])
+        .only_where_text("1 - x")
+        .resets_text(&["x + 1"])
+        .inverse_text(&["x - 1"])
+        .mode_text("m", &["1"]);
+    let (off, forward, back) = there_and_back(&equations, ("m", [0.0], 1.0));
+    assert!(off < 1e-12, "{off}");
+    assert_eq!((forward, back), (1, 1));
+}
+
 /// Where no run forward comes from, the run backward ends.
 #[test]
 fn a_run_without_a_past_ends() {

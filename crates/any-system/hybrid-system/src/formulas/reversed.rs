@@ -88,31 +88,15 @@ impl Equations {
             Some(inverse) => Formulas::new(self.names.clone(), |t, _, _| [-t])?.and(inverse)?,
             None => back.clone(),
         };
-        let mut guard = guard.clone();
-        if guard.guard.role == Role::Clock {
-            guard.function = guard.times_backward()?;
-        } else {
-            guard.function = guard.function.composed(&inner)?;
-            guard.condition =
-                guard.condition.map(|condition| condition.composed(&inner)).transpose()?;
-        }
+        let mut guard = guard.crossed_at(&inner)?;
         let to = jump.and_then(|jump| jump.mode).unwrap_or(mode);
         guard.jump = match jump {
             Some(jump) if *jump != Jump::default() => {
                 guard.guard.direction = Direction::Either;
-                if guard.guard.role != Role::Clock {
-                    guard.guard.role = Role::Crossing;
-                }
                 let forward = jump.state.as_ref().map(|state| state.composed(back)).transpose()?;
                 Some(Jump { mode: (to != mode).then_some(mode), state: inverse, inverse: forward })
             }
-            other => {
-                guard.guard.direction = guard.guard.direction.backward();
-                if guard.guard.role != Role::Clock {
-                    guard.guard.role = Role::Crossing;
-                }
-                other.cloned()
-            }
+            other => other.cloned(),
         };
         match self.push_guard(to, guard.clone()) {
             true => Ok(()),
@@ -132,11 +116,7 @@ impl Equations {
         if guard.guard.role == Role::Clock {
             return Ok(());
         }
-        let mut guard = guard.clone();
-        guard.function = guard.function.composed(back)?;
-        guard.condition = guard.condition.map(|condition| condition.composed(back)).transpose()?;
-        guard.guard.direction = guard.guard.direction.backward();
-        guard.guard.role = Role::Crossing;
+        let mut guard = guard.crossed_at(back)?;
         guard.jump = None;
         self.push_guard(mode, guard);
         Ok(())
@@ -156,6 +136,21 @@ impl Equations {
 }
 
 impl GuardEquations {
+    /// The guard backward, as a crossing of the surface where it is zero at another time and state. A clock has its times backward.
+    fn crossed_at(&self, inner: &Formulas) -> Result<GuardEquations, Error> {
+        let mut guard = self.clone();
+        guard.guard.direction = self.guard.direction.backward();
+        if self.guard.role == Role::Clock {
+            guard.function = self.times_backward()?;
+        } else {
+            guard.guard.role = Role::Crossing;
+            guard.function = self.function.composed(inner)?;
+        }
+        let condition = self.condition.as_ref();
+        guard.condition = condition.map(|condition| condition.composed(inner)).transpose()?;
+        Ok(guard)
+    }
+
     /// The times of a list, from the last one on.
     fn times_backward(&self) -> Result<Formulas, Error> {
         if !self.listed {

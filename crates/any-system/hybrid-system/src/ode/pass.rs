@@ -260,10 +260,8 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         accuracy: Accuracy<T::State>,
     ) -> Crossing<T::Surface, T::State> {
         let value = |state: &T::State| self.system.guard_value(surface, state);
+        let stated = self.system.guard_error(surface, &on_step.state(time));
         let [before, behind] = on_step.beside(time);
-        // At a jump of the guard its own bounds have the height of the jump.
-        let stated = |state| self.system.guard_error(surface, state);
-        let stated = stated(&before).zip(stated(&behind)).map(|(one, other)| one.min(other));
         let own = rounding_beside_zero(stated, [&before, &behind], &value);
         let rounding = |state: &T::State| own + rounding_of_state(state, state, &value);
         let time_rounding = on_step.time_rounding((time, hidden), value, rounding);

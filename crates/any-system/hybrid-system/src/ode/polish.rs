@@ -4,7 +4,7 @@
 use super::step::Step;
 use super::stepping::Stepping;
 use super::tolerances::Tolerances;
-use crate::crossing::{change_by_components, clear_distance, rounding_of_state, smaller};
+use crate::crossing::{change_by_components, clear_distance, rounding_of_state};
 use crate::error::Error;
 use crate::state::StateVector;
 use interval_arithmetic::root_beyond;
@@ -58,18 +58,8 @@ impl<V: StateVector> Accuracy<'_, V> {
     /// An estimate of the error of a guard by the error of the flow: the change of the guard if each component
     /// changes by its tolerance on every step. Growth or decay of these errors along the flow is not known here.
     pub(super) fn guard_error(&self, state: &V, guard: impl Fn(&V) -> f64) -> f64 {
-        self.change_to_side(state, 1.0, &guard)
-    }
-
-    /// The same without the height of a jump beside the state.
-    fn guard_error_beside_jumps(&self, state: &V, guard: impl Fn(&V) -> f64) -> f64 {
-        let [up, down] = [1.0, -1.0].map(|side| self.change_to_side(state, side, &guard));
-        smaller(up, down)
-    }
-
-    fn change_to_side(&self, state: &V, side: f64, guard: impl Fn(&V) -> f64) -> f64 {
         let unit = |axis: usize| self.tolerances.of(axis, self.sizes.components()[axis]);
-        change_by_components(state, |axis| side * self.steps as f64 * unit(axis), &guard)
+        change_by_components(state, |axis| self.steps as f64 * unit(axis), &guard)
     }
 }
 
@@ -266,10 +256,7 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
         let error = |state: &V| accuracy.guard_error(state, &guard);
         let first = match self.jumps(time, &guard) {
             true => 0.0,
-            false => {
-                accuracy.guard_error_beside_jumps(&self.state(time), &guard)
-                    / rate(self.step, time, &guard).abs()
-            }
+            false => error(&self.state(time)) / rate(self.step, time, &guard).abs(),
         };
         self.clear_distance((time, time_rounding, first.max(time_rounding)), &guard, error)
     }
