@@ -5,7 +5,7 @@ use crate::arrival::{Arrival, DurationOfArc};
 use crate::before_limit::Passing;
 use crate::crossing::{Certainty, Crossing, EventKind, LeavingGuards};
 use crate::error::Error;
-use crate::execution::{AnArc, Execution, Piece};
+use crate::execution::{AnArc, Execution};
 use crate::guard::Role;
 use crate::limits::Stop;
 use crate::missed::check_missed;
@@ -23,7 +23,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         mut crossing: Crossing<T::Surface, T::State>,
         (horizon, clock): (f64, Option<ClockEvent<T::Surface>>),
         leaving: LeavingGuards<T::Surface>,
-    ) -> Result<Piece<T>, Error> {
+    ) -> Result<AnArc<T>, Error> {
         let own_error = crossing.time_error;
         crossing.time_error += self.error_by_passed(&crossing);
         let counts = self.counts(&crossing)?;
@@ -146,7 +146,7 @@ impl<T: HybridSystem> Execution<'_, T> {
                 self.stop = Some(Stop::Terminal);
             }
         }
-        Ok(if counts { Piece::Ends(arc) } else { Piece::Passes(arc) })
+        Ok(arc)
     }
 
     /// An arc up to the limit on time, or for ever.

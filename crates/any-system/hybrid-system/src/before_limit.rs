@@ -58,7 +58,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             return Ok(None);
         }
         match self.next_clock(limit.remainder)? {
-            None => Ok(Some(self.zeno_arc(limit, &passing))),
+            None => self.zeno_arc(limit, &passing).map(Some),
             Some(clock) if clock.until < limit.remainder - limit.time_error => Ok(None),
             // Within the error of the limit the order is not known. A guard must not be lost at the state of the clock.
             Some(clock) => {
@@ -90,7 +90,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             return self.event_arc(event, (horizon, clock), leaving);
         }
         if ends_at_limit {
-            return Ok(self.zeno_arc(limit, &passing));
+            return self.zeno_arc(limit, &passing);
         }
         let part = if limit.remainder > 0.0 { latest / limit.remainder } else { 1.0 };
         let state = self.path_to(&limit)(part);

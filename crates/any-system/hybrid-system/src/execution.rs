@@ -65,10 +65,8 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         let start = self.at.time;
         let mut first: Option<AnArc<T>> = None;
         loop {
-            let (piece, ends) = match self.piece()? {
-                Piece::Ends(piece) => (piece, true),
-                Piece::Passes(piece) => (piece, false),
-            };
+            let passed = self.passed.number;
+            let piece = self.piece()?;
             let mut arc = match first {
                 Some(first) => Arc { end: piece.end, duration: piece.duration, ..first },
                 None => piece,
@@ -79,7 +77,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                     limit.remainder = arc.duration;
                 }
             }
-            if ends {
+            if self.passed.number == passed {
                 return Ok(arc);
             }
             // The events that do not count are a budget too, or their arc might never end.
@@ -94,8 +92,8 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         }
     }
 
-    /// The arc up to the next event.
-    fn piece(&mut self) -> Result<Piece<T>, Error> {
+    /// The arc up to the next event, whether it counts or not.
+    fn piece(&mut self) -> Result<AnArc<T>, Error> {
         self.check()?;
         let horizon = self.at.time.up_to(self.limits.time);
         // Events before a limit on time, a clock or another event that comes before the Zeno limit are followed.
@@ -133,20 +131,19 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 }
                 if crossing.time > horizon + rounding {
                     let certainty = crossing.certainty;
-                    let arc = self.arc_without_event(horizon, None, certainty, leaving);
-                    return arc.map(Piece::Ends);
+                    return self.arc_without_event(horizon, None, certainty, leaving);
                 }
                 // A crossing that takes no time, or only the error of its own time, is at once as well.
                 let at_once = crossing.kind == EventKind::AtStart
                     || crossing.kind == EventKind::Crossing
                         && crossing.time <= rounding.max(f64::EPSILON * self.at.time.value());
                 if at_once && let Some(sliding) = self.sliding(crossing.surface) {
-                    return Ok(Piece::Ends(self.sliding_arc(sliding)));
+                    return Ok(self.sliding_arc(sliding));
                 }
                 self.event_arc(crossing, (horizon, clock), leaving)
             }
             NextEvent::None { state, certainty } => {
-                self.arc_without_event(horizon, state, certainty, leaving).map(Piece::Ends)
+                self.arc_without_event(horizon, state, certainty, leaving)
             }
             // Going on with the same budgets would never end.
             NextEvent::Unfinished { time, .. } if !(time > 0.0) => {
@@ -158,7 +155,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 let arc = self.new_arc(time, end);
                 self.stop = Some(Stop::Unfinished);
                 self.advance(time, state, leaving);
-                Ok(Piece::Ends(arc))
+                Ok(arc)
             }
         }
     }
@@ -179,14 +176,6 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         let (jumps, state) = (self.at.jump, state.components().to_vec());
         Err(Error::StateNotFinite { time, jumps, state })
     }
-}
-
-/// An arc, or a part of it.
-pub(crate) enum Piece<T: HybridSystem> {
-    /// The arc ends here.
-    Ends(AnArc<T>),
-    /// The event at its end does not count: the arc goes on.
-    Passes(AnArc<T>),
 }
 
 /// An arc of a system.

@@ -4,7 +4,7 @@ use crate::arc::{Arc, ArcEnd, Event};
 use crate::error::Error;
 use crate::execution::{AnArc, Execution};
 use crate::system::HybridSystem;
-use crate::trajectory::end_of;
+use crate::trajectory::{check_grid, end_of};
 
 /// Mode and state of a system.
 pub type Place<T> = (<T as HybridSystem>::Mode, <T as HybridSystem>::State);
@@ -113,10 +113,10 @@ impl<'a, T: HybridSystem> Solution<'a, T> {
         };
         let arc = &self.arcs[last];
         let after = match &arc.end {
-            ArcEnd::Event(event) if time >= event.time => event.after.clone(),
-            ArcEnd::Zeno { limit, after } if time >= limit.time => after.clone(),
-            ArcEnd::Sliding { sliding, after } if time >= sliding.time => after.clone(),
-            _ => Some(self.on(arc, time)?),
+            _ if time < end_of(arc) => None,
+            ArcEnd::Event(event) => event.after.clone(),
+            ArcEnd::Zeno { after, .. } | ArcEnd::Sliding { after, .. } => after.clone(),
+            _ => None,
         };
         let after = after.map_or_else(|| self.on(arc, time), Ok)?;
         Ok([before, after])
@@ -128,11 +128,8 @@ impl<'a, T: HybridSystem> Solution<'a, T> {
     /// # Errors
     /// As [`at`](Self::at); [`Error::BadLimit`] for times that are not in order.
     pub fn states(&self, grid: &[f64]) -> Result<Vec<T::State>, Error> {
+        check_grid(grid)?;
         let grid: Vec<f64> = grid.iter().map(|&time| self.check(time)).collect::<Result<_, _>>()?;
-        if let Some(pair) = grid.windows(2).find(|pair| pair[1] < pair[0]) {
-            let what = "a time of a grid, which must be in ascending order,";
-            return Err(Error::BadLimit { what, value: pair[1] });
-        }
         let mut states = Vec::with_capacity(grid.len());
         while states.len() < grid.len() {
             let rest = &grid[states.len()..];
@@ -167,15 +164,14 @@ impl<'a, T: HybridSystem> Solution<'a, T> {
 
     /// Mode and state on an arc, before the event at its end.
     fn on(&self, arc: &AnArc<T>, time: f64) -> Result<Place<T>, Error> {
+        let is_over = time >= end_of(arc);
         let state = match &arc.end {
             _ if time <= arc.time && arc.duration > 0.0 => arc.start.clone(),
-            ArcEnd::Event(event) if time >= event.time => event.before.clone(),
-            ArcEnd::Zeno { limit, .. } if time >= limit.time => limit.state.clone(),
-            ArcEnd::Sliding { sliding, .. } if time >= sliding.time => sliding.state.clone(),
+            ArcEnd::Event(event) if is_over => event.before.clone(),
+            ArcEnd::Zeno { limit, .. } if is_over => limit.state.clone(),
+            ArcEnd::Sliding { sliding, .. } if is_over => sliding.state.clone(),
             ArcEnd::Zeno { .. } => arc.start.clone(),
-            ArcEnd::TimeLimit { .. } | ArcEnd::Unfinished { .. } if time >= end_of(arc) => {
-                arc.state(self.system, arc.duration)?
-            }
+            _ if is_over => arc.state(self.system, arc.duration)?,
             _ => arc.state(self.system, time - arc.time)?,
         };
         Ok((arc.mode, state))

@@ -105,7 +105,7 @@ impl<T: HybridSystem> Execution<'_, T> {
     }
 }
 
-fn check_grid(grid: &[f64]) -> Result<(), Error> {
+pub(crate) fn check_grid(grid: &[f64]) -> Result<(), Error> {
     let what = "a time of a grid, which must be finite and in ascending order,";
     let out_of_order = grid.windows(2).find(|pair| !(pair[0] <= pair[1])).map(|pair| pair[1]);
     match grid.iter().copied().find(|time| !time.is_finite()).or(out_of_order) {

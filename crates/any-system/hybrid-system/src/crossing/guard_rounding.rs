@@ -85,7 +85,7 @@ pub(crate) fn guard_rounding<X: StateVector>(
 
 /// An estimate that would hide the guard's value, or another one of the same, measured on the other side, that is much
 /// smaller: then a jump or a kink of the guard next to the state was measured.
-pub(crate) fn smaller(here: f64, there: f64) -> f64 {
+fn smaller(here: f64, there: f64) -> f64 {
     if ONE_SIDED * there < here { there } else { here }
 }
 

@@ -59,7 +59,7 @@ pub(crate) use guard_rounding::{
 };
 #[cfg(feature = "ode")]
 pub(crate) use guard_rounding::{
-    rounding_around, rounding_beside_zero, rounding_of_state, side_of_surface, smaller,
+    rounding_around, rounding_beside_zero, rounding_of_state, side_of_surface,
 };
 pub(crate) use guarded_flow::GuardedFlow;
 pub use next_event::{Crossing, EventKind, NextEvent};

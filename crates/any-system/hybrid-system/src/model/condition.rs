@@ -62,7 +62,7 @@ where
     where
         H: Fn(&X) -> f64,
     {
-        self.guards.declare(surface, Role::Crossing);
+        self.guards.declare(None, surface, Role::Crossing);
         self.with(Condition { surface, condition })
     }
 }

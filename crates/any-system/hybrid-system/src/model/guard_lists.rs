@@ -75,6 +75,11 @@ impl<M: Copy + Eq, S: Copy + Eq + Debug> GuardLists<M, S> {
             self.nothing_declared = true;
             return;
         };
+        self.declare(mode, surface, role);
+    }
+
+    /// Gives the guards of a surface this role, in one mode, or in all modes for `None`.
+    pub(super) fn declare(&mut self, mode: Option<M>, surface: S, role: Role) {
         let lists = self
             .modes
             .iter_mut()
@@ -82,16 +87,6 @@ impl<M: Copy + Eq, S: Copy + Eq + Debug> GuardLists<M, S> {
             .map(|(_, list)| list);
         let elsewhere = mode.is_none().then_some(&mut self.elsewhere);
         for guard in lists.chain(elsewhere).flatten() {
-            if guard.surface == surface && guard.role != Role::Clock {
-                guard.role = role;
-            }
-        }
-    }
-
-    /// Gives the guards of a surface this role, in all modes.
-    pub(super) fn declare(&mut self, surface: S, role: Role) {
-        let lists = self.modes.iter_mut().map(|(_, list)| list).chain([&mut self.elsewhere]);
-        for guard in lists.flatten() {
             if guard.surface == surface && guard.role != Role::Clock {
                 guard.role = role;
             }
