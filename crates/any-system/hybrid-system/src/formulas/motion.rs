@@ -31,11 +31,15 @@ impl TaylorMotion {
         TaylorMotion { programs, tolerances: Tolerances::both(TOLERANCE) }
     }
 
+    /// True if the time is the last component of the state.
+    fn is_timed(&self) -> bool {
+        self.programs.dimension > self.programs.equations.names().states.len()
+    }
+
     /// The error of a state with another number of components.
     fn other_dimension(&self, found: usize) -> Error {
         let expected = self.programs.dimension;
-        let timed = expected > self.programs.equations.names().states.len();
-        let what = match timed {
+        let what = match self.is_timed() {
             true => "the state of the model, with the time as its last component,",
             false => "the state of the model",
         };
@@ -216,7 +220,7 @@ where
         (from, to): (f64, f64),
     ) -> Result<Execution<'_, Self>, Error> {
         let (mode, mut start) = (Label::new(mode)?, self.start_state(start, from)?);
-        if self.is_timed()
+        if self.motion.is_timed()
             && let Some(time) = start.components_mut().last_mut()
         {
             *time = from;
@@ -225,15 +229,10 @@ where
         Ok(self.run(mode, start, to).starting_at(from))
     }
 
-    /// True if the time is the last component of the state.
-    fn is_timed(&self) -> bool {
-        self.motion.programs.dimension > self.equations().names().states.len()
-    }
-
     fn start_state(&self, start: impl Start<X>, time: f64) -> Result<X, Error> {
         let dimension = self.motion.programs.dimension;
         start
-            .state(dimension, self.is_timed().then_some(time))
+            .state(dimension, self.motion.is_timed().then_some(time))
             .map_err(|found| self.motion.other_dimension(found))
     }
 }

@@ -16,21 +16,20 @@ use pxfm::f_sin;
 const PERIODS: f64 = 8.0;
 const TRANSIENT: f64 = 1000.0;
 
-/// A run of a model, added to a panel.
+/// A component along a run of a model, added to a panel.
 fn run<const N: usize>(
     panel: Panel,
     model: &Equations,
     (mode, start): (&str, [f64; N]),
+    component: usize,
 ) -> Result<Panel, Error> {
     let model = model.model::<State<N>>()?;
-    Ok(panel.scene(&model, Label::new(mode)?, State::from(start), &[0]))
+    Ok(panel.scene(&model, Label::new(mode)?, State::from(start), &[component]))
 }
 
-/// The runner's height has the first place, as the panels draw it.
 fn runner() -> Result<Panel, Error> {
-    let model = spring_leg().model::<State<4>>()?;
     let panel = Panel::new("a: a runner on a spring leg", 1.6, (0.86, 1.0), "height (m)");
-    Ok(panel.scene(&model, Label::new("flight")?, State::from(apex()), &[1]))
+    run(panel, &spring_leg(), ("flight", apex()), 1)
 }
 
 fn ball() -> Result<Panel, Error> {
@@ -39,7 +38,7 @@ fn ball() -> Result<Panel, Error> {
         .function(|t| 0.03 * f_sin(FREQUENCY * t))
         .pen(0);
     let [height, speed, _] = periodic_start(0.03);
-    run(panel, &ball_on_table(), ("flight", [height + 0.03, speed, 0.0]))
+    run(panel, &ball_on_table(), ("flight", [height + 0.03, speed, 0.0]), 0)
 }
 
 /// A forcing one per cent above the grazing one, from its steady motion without a stop.
@@ -47,7 +46,7 @@ fn oscillator() -> Result<Panel, Error> {
     let forcing = 1.01 * grazing_forcing();
     let model = impact_oscillator(&format!("{forcing}"));
     let panel = Panel::new("c: an oscillator behind its grazing", 40.0, (-1.4, 0.6), "$x$");
-    run(panel.surface(0.5), &model, ("free", steady_start(forcing)))
+    run(panel.surface(0.5), &model, ("free", steady_start(forcing)), 0)
 }
 
 /// The voltage behind the transient, as a scene that begins there.
@@ -70,14 +69,7 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
         oscillator()?,
         converter("d: a converter, 24 V: one period", "24")?,
         converter("e: the same, 33 V: chaos", "33")?,
-        run_speed(belt)?,
+        run(belt.surface(0.2), &stick_slip(), ("stick", [0.0, 0.2]), 1)?,
     ];
     Figure::new("published", draw(&panels), vec![], &[("transient", TRANSIENT.to_string())])
-}
-
-/// The speed of the mass.
-fn run_speed(panel: Panel) -> Result<Panel, Error> {
-    let model = stick_slip().model::<State<2>>()?;
-    let start = State::from([0.0, 0.2]);
-    Ok(panel.surface(0.2).scene(&model, Label::new("stick")?, start, &[1]))
 }
