@@ -92,6 +92,18 @@ impl TimeSum {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A rest that is no rounding of the time is damage, and would move it.
+    #[cfg(feature = "serde")]
+    #[test]
+    fn a_damaged_rest_is_refused() {
+        let time = TimeSum::new(0.1).plus(1e9);
+        let text = serde_json::to_string(&time).unwrap();
+        assert_eq!(serde_json::from_str::<TimeSum>(&text).unwrap(), time);
+        let damaged = r#"{"high": 1.0, "low": -1.8e19}"#;
+        let error = serde_json::from_str::<TimeSum>(damaged).unwrap_err().to_string();
+        assert!(error.contains("damaged"), "{error}");
+    }
     use proptest::prelude::*;
 
     /// 0.1 as a double is 3602879701896397/2⁵⁵, larger than 1/10 by 5.55e-18. A million of them exceed 10⁵ by 5.55e-12.
