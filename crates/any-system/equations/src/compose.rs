@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::formulas::{Formulas, length};
 use crate::graph::Graph;
-use crate::node::{Node, Unary};
+use crate::node::{Binary, Node, Unary};
 
 impl Formulas {
     /// The formulas at another time and another state, f(τ(t, x), ξ(t, x)): `inner` has τ first, then each component of ξ.
@@ -50,5 +50,50 @@ impl Formulas {
         let negative = |&place: &usize| graph.unary(Unary::Negative, place);
         let outputs = self.outputs.iter().map(negative).collect();
         Formulas::of(self.names.clone(), graph.into_nodes(), outputs)
+    }
+
+    /// The rates of the formulas along ẋ = f(t, x): ∂g/∂t + ∇g·f.
+    ///
+    /// ```
+    /// use equations::{Formulas, Names};
+    /// let names = Names::new(&["x", "v"], &[])?;
+    /// let field = Formulas::from_text(names.clone(), &["v", "-x"])?;
+    /// let height = Formulas::from_text(names, &["x - t^2"])?;
+    /// assert_eq!(height.rate(&field)?.values(3.0, &[1.0, 2.0])?, [2.0 - 6.0]);
+    /// # Ok::<(), equations::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Length`] for a field of another length than the state; [`Error::Name`] for other names or values; [`Error::Kink`]
+    /// for a function with a kink or a jump; [`Error::TooLarge`].
+    pub fn rate(&self, field: &Formulas) -> Result<Formulas, Error> {
+        length("components of the field", self.names.states.len(), field.count())?;
+        let mut graph = Graph::of(self.nodes.clone());
+        let field = self.joined(&mut graph, field)?;
+        let mut sums = self.along(&mut graph, |node| f64::from(*node == Node::Time))?;
+        for (component, rate) in field.into_iter().enumerate() {
+            let slopes =
+                self.along(&mut graph, |node| f64::from(*node == Node::State(component)))?;
+            for (sum, slope) in sums.iter_mut().zip(slopes) {
+                let term = graph.product(slope, rate);
+                *sum = graph.sum(*sum, term);
+            }
+        }
+        graph.check()?;
+        Formulas::of_parts(self.names.clone(), graph.into_nodes(), sums)
+    }
+
+    /// The smaller one of each of the formulas and the other's.
+    ///
+    /// # Errors
+    /// [`Error::Length`] for another number of formulas; [`Error::Name`] for other names or values; [`Error::TooLarge`].
+    pub fn minimum(&self, other: &Formulas) -> Result<Formulas, Error> {
+        length("other formulas", self.count(), other.count())?;
+        let mut graph = Graph::of(self.nodes.clone());
+        let other = self.joined(&mut graph, other)?;
+        let pairs = self.outputs.iter().zip(other);
+        let outputs = pairs.map(|(&a, b)| graph.binary(Binary::Minimum, a, b)).collect();
+        graph.check()?;
+        Formulas::of_parts(self.names.clone(), graph.into_nodes(), outputs)
     }
 }

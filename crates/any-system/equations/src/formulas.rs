@@ -305,7 +305,7 @@ impl Formulas {
     }
 
     /// The derivatives of the outputs, where those of the variables are numbers.
-    fn along(
+    pub(crate) fn along(
         &self,
         graph: &mut Graph,
         direction: impl Fn(&Node) -> f64,

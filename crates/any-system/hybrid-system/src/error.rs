@@ -136,7 +136,7 @@ pub enum Error {
     /// Too many events in a row without time passing.
     #[error(
         "{events} events in a row at time {time}, and the resets lead back to each other: {cycle}. Let a reset move \
-         the state away from the surface, or declare a guard that only watches an observer",
+         the state away from the surface, or declare a guard a `crossing`, or an observer if it only watches",
         time = Number(*.time)
     )]
     TimelessChain {

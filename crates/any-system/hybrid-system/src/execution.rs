@@ -162,7 +162,10 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
 
     fn check(&self) -> Result<(), Error> {
         if !(self.limits.time >= self.at.time.value()) {
-            return Err(Error::BadLimit { what: "the limit on time", value: self.limits.time });
+            // The reader of the message may want a run backward.
+            let what =
+                "the limit on time, which is not before the start (backward: see `Backward`),";
+            return Err(Error::BadLimit { what, value: self.limits.time });
         }
         self.check_state(self.at.time.value(), &self.at.state)?;
         if self.at.initial { self.system.validate(self.at.mode, &self.at.state) } else { Ok(()) }

@@ -27,6 +27,7 @@
 //! | [`PeriodicTimes`], [`PresetTimes`] | the times of clock guards |
 //! | [`ZenoLimit`] | the limit of infinitely many events in finite time |
 //! | [`Sliding`] | a point of a surface at which the fields on both sides point |
+//! | `Backward` | a system backward in time (feature `ode`) |
 //! | `Filippov` | a system that goes on along such surfaces (feature `ode`) |
 //! | `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
 //! | `Integration`, `Tolerances` | solutions of ẋ = f(t, x), step by step (feature `ode`) |
@@ -98,6 +99,8 @@ mod after_event;
 mod arc;
 mod arc_ends;
 mod arrival;
+#[cfg(feature = "ode")]
+mod backward;
 mod before_limit;
 mod chain;
 mod checkpoint;
@@ -117,6 +120,8 @@ mod fate;
 #[cfg(feature = "ode")]
 mod formulas;
 mod guard;
+#[cfg(feature = "ode")]
+mod guard_table;
 #[cfg(feature = "serde")]
 mod infinite;
 mod lands_beyond;
@@ -144,6 +149,8 @@ mod trajectory;
 mod zeno;
 
 pub use arc::{Arc, ArcEnd, Event};
+#[cfg(feature = "ode")]
+pub use backward::{Backward, BackwardSurface};
 pub use checkpoint::Checkpoint;
 pub use clock::{PeriodicTimes, PresetTimes};
 pub use condition_error::ConditionError;
@@ -166,7 +173,8 @@ pub use lands_beyond::LandsBeyond;
 pub use limits::{Limits, Stop};
 pub use looked::Looked;
 pub use model::{
-    Family, Model, gradient_by_differences, jacobian_by_differences, reset_by_differences,
+    Autonomous, Family, InTime, Model, OutcomeInTime, Untimed, gradient_by_differences,
+    jacobian_by_differences, reset_by_differences,
 };
 #[cfg(feature = "ode")]
 pub use ode::{

@@ -12,6 +12,8 @@
 //! | beyond the surface, at the initial state | an error | an error | no event |
 //! | on the side of the flow | no event | no event | no event |
 //!
+//! A surface at which jumps are undone is a crossing, and an initial state on it is an event at once.
+//!
 //! A switch whose surface both fields point at is no error: the state slides.
 //!
 //! After a touch the guard goes back to the side of the flow, although its rate at the time of the touch may still lead
@@ -135,6 +137,10 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             .map_or(0.0, |arrival| arrival.error_after(flow, surface));
         let error = rounding + by_time.max(residue);
         let on_surface = now.abs() <= error;
+        if initial && on_surface && role == Role::Undone {
+            let (certainty, errors) = (Certainty::Certain, (0.0, 0.0));
+            return Ok(ArcStart::Event { surface, certainty, errors, undeclared: None });
+        }
         let touched = arrival.is_some_and(|arrival| arrival.has_touched(flow, surface));
         if on_surface && touched && switch && direction != Direction::Either {
             let side = if direction == Direction::Rising { -1.0 } else { 1.0 };

@@ -3,6 +3,7 @@
 
 #![allow(missing_docs, clippy::disallowed_methods, clippy::panic, clippy::unwrap_used)]
 
+mod backward;
 mod bounds_given;
 mod certain_events;
 mod checkpoint;
@@ -29,6 +30,7 @@ mod known_answers;
 mod lift_off;
 mod many_states;
 mod model;
+mod models_in_time;
 mod observers;
 mod order_of_contacts;
 mod order_of_events;

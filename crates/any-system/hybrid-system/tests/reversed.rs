@@ -149,6 +149,25 @@ fn a_run_without_a_past_ends() {
     assert!((fate.time - 0.5).abs() < 1e-12);
 }
 
+/// A floor at which the ball stays: a run backward falls onto it from above, and has no past below. A surface that is only crossed
+/// is passed in that direction.
+#[test]
+fn a_run_does_not_come_from_below_the_floor() {
+    let ball = |crossing: bool| {
+        let floor = Equations::new(&["height", "speed"], &[])
+            .mode_text("flight", &["speed", "-1"])
+            .falling_text("floor", "height")
+            .to("rest");
+        let floor = if crossing { floor.crossing() } else { floor };
+        let back = floor.mode_text("rest", &["0", "0"]).reversed().unwrap();
+        let model = back.model::<State<2>>().unwrap();
+        model.start("flight", [0.5, 0.0], 9.0).unwrap().fate()
+    };
+    assert_eq!(ball(false).end, End::Terminal(Label::new("floor").unwrap()));
+    assert!((ball(false).time - 1.0).abs() < 1e-12);
+    assert_eq!(ball(true).end, End::Stopped(Stop::TimeLimit));
+}
+
 #[test]
 fn what_has_no_inverse_is_refused() {
     let without = Equations::new(&["x"], &[])
@@ -206,4 +225,25 @@ fn two_jumps_of_one_name_are_refused() {
         .mode_text("c", &["1"]);
     let error = two.reversed().unwrap_err().to_string();
     assert!(error.contains("hit") && error.contains("names of their own"), "{error}");
+}
+
+/// From the state after a landing the run backward goes through the landing; from the state before it, up the flight. A jump is
+/// undone only where the guard went in its direction: a ball that rises through the height of a net has not been thrown by it.
+#[test]
+fn a_start_where_a_jump_ends_has_come_by_the_jump() {
+    let back = ball().reversed().unwrap().model::<State<2>>().unwrap();
+    for (speed, events) in [(0.5, 1), (-1.0, 0)] {
+        let first = back.start_at("flight", [0.0, speed], (-1.0, 0.0)).unwrap().fate();
+        assert!((first.state - State::from([0.5, 0.0])).norm() < 1e-12, "{first:?}");
+        assert_eq!(first.events, events);
+    }
+    let net = Equations::new(&["height", "speed"], &[])
+        .mode_text("flight", &["speed", "-1"])
+        .falling_text("net", "height - 1")
+        .crossing()
+        .resets_text(&["height", "speed/2"])
+        .inverse_text(&["height", "2*speed"]);
+    let (off, forward, back) = there_and_back(&net, ("flight", [0.0, 2.0], 3.6));
+    assert!(off < 1e-11, "{off}");
+    assert_eq!((forward, back), (1, 1));
 }

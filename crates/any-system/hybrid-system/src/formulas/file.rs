@@ -21,10 +21,11 @@ const VERSION: u64 = 1;
 
 const DIRECTIONS: [(&str, Direction); 3] =
     [("rising", Direction::Rising), ("falling", Direction::Falling), ("either", Direction::Either)];
-const ROLES: [(&str, Role); 4] = [
+const ROLES: [(&str, Role); 5] = [
     ("switch", Role::Switch),
     ("contact", Role::Contact),
     ("crossing", Role::Crossing),
+    ("undone", Role::Undone),
     ("clock", Role::Clock),
 ];
 const TOUCHES: [(&str, Touch); 3] =

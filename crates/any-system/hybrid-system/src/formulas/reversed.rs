@@ -13,12 +13,13 @@ impl Equations {
     /// The same system backward: its time is s = −t, so that an execution from t₀ starts at −t₀, and its events are at −t. Each
     /// jump that changes the state needs its [`inverse`](Self::inverse).
     ///
-    /// - An event of a jump happens in the mode to which the jump leads, where the guard is zero at the state before it. It counts
-    ///   both ways.
+    /// - An event of a jump happens in the mode to which the jump leads, where the guard is zero at the state before it, and goes there
+    ///   in its direction. A start on this surface is such an event.
     /// - Where a state may have come by such a jump or by the flow alone, it has come by the jump: the past need not be unique.
     /// - An observer has its events at the same points: a guard that rises in t falls in s.
     /// - An event that stops the run forward stops it backward. In the mode that a jump leaves, its surface stops the run backward,
-    ///   unless a jump of the same surface leads into that mode: no run forward comes from beyond it.
+    ///   unless a jump of the same surface leads into that mode: no run forward comes from beyond it. A
+    ///   [crossing](Self::crossing), on both sides of which the mode flows, stops it only where the event would have been.
     /// - The rest after a Zeno limit is left out. A periodic clock is an error, since its last tick is not known.
     ///
     /// ```
@@ -58,7 +59,7 @@ impl Equations {
                 for guard in self.everywhere.iter().chain(&mode.guards) {
                     let changes = guard.jump.as_ref().is_some_and(|jump| *jump != Jump::default());
                     if changes == leads {
-                        reversed.add_reversed(&back, mode.name, guard)?;
+                        reversed.add_reversed(&back, mode, guard)?;
                     } else if changes {
                         reversed.add_end(&back, mode.name, guard)?;
                     }
@@ -72,7 +73,7 @@ impl Equations {
     fn add_reversed(
         &mut self,
         back: &Formulas,
-        mode: Label,
+        mode: &ModeEquations,
         guard: &GuardEquations,
     ) -> Result<(), Error> {
         let jump = guard.jump.as_ref();
@@ -88,16 +89,17 @@ impl Equations {
             Some(inverse) => Formulas::new(self.names.clone(), |t, _, _| [-t])?.and(inverse)?,
             None => back.clone(),
         };
-        let mut guard = guard.crossed_at(&inner)?;
-        let to = jump.and_then(|jump| jump.mode).unwrap_or(mode);
-        guard.jump = match jump {
-            Some(jump) if *jump != Jump::default() => {
-                guard.guard.direction = Direction::Either;
-                let forward = jump.state.as_ref().map(|state| state.composed(back)).transpose()?;
-                Some(Jump { mode: (to != mode).then_some(mode), state: inverse, inverse: forward })
-            }
-            other => other.cloned(),
+        let changes = jump.filter(|jump| **jump != Jump::default());
+        let to = changes.and_then(|jump| jump.mode).unwrap_or(mode.name);
+        let mut guard = match changes {
+            Some(_) if guard.guard.role != Role::Clock => guard.undone_at(&inner, &mode.field)?,
+            _ => guard.crossed_at(&inner)?,
         };
+        if let Some(jump) = changes {
+            let forward = jump.state.as_ref().map(|state| state.composed(back)).transpose()?;
+            let mode = (to != mode.name).then_some(mode.name);
+            guard.jump = Some(Jump { mode, state: inverse, inverse: forward });
+        }
         match self.push_guard(to, guard.clone()) {
             true => Ok(()),
             false => {
@@ -139,7 +141,13 @@ impl GuardEquations {
     /// The guard backward, as a crossing of the surface where it is zero at another time and state. A clock has its times backward.
     fn crossed_at(&self, inner: &Formulas) -> Result<GuardEquations, Error> {
         let mut guard = self.clone();
-        guard.guard.direction = self.guard.direction.backward();
+        // No state beyond a surface that bounds the flow has a past there: the run ends where it would go beyond, and where it
+        // would come from beyond.
+        let observes = self.jump.as_ref().is_some_and(|jump| *jump == Jump::default());
+        guard.guard.direction = match self.guard.role.bounds_flow() && !observes {
+            true => Direction::Either,
+            false => self.guard.direction.backward(),
+        };
         if self.guard.role == Role::Clock {
             guard.function = self.times_backward()?;
         } else {
@@ -148,6 +156,24 @@ impl GuardEquations {
         }
         let condition = self.condition.as_ref();
         guard.condition = condition.map(|condition| condition.composed(inner)).transpose()?;
+        Ok(guard)
+    }
+
+    /// The guard at the state before its jump, along the field before it. It counts where it goes in its direction there.
+    fn undone_at(&self, inner: &Formulas, field: &Formulas) -> Result<GuardEquations, Error> {
+        let mut guard = self.crossed_at(inner)?;
+        let rate = || self.function.rate(field)?.composed(inner);
+        let direction = match self.guard.direction {
+            Direction::Rising => Some(rate()?),
+            Direction::Falling => Some(rate()?.negative()),
+            Direction::Either => None,
+        };
+        guard.condition = match (guard.condition, direction) {
+            (Some(condition), Some(direction)) => Some(condition.minimum(&direction)?),
+            (condition, direction) => condition.or(direction),
+        };
+        guard.guard.direction = Direction::Either;
+        guard.guard.role = Role::Undone;
         Ok(guard)
     }
 

@@ -4,7 +4,7 @@ use super::model::Model;
 use crate::guard::Role;
 use std::fmt::Debug;
 
-impl<M, S, X, F, P> Model<M, S, X, F, P>
+impl<M, S, X, F, P, C> Model<M, S, X, F, P, C>
 where
     M: Copy + Eq,
     S: Copy + Eq + Debug,

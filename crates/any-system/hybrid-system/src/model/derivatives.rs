@@ -78,7 +78,8 @@ pub(super) fn state_after<M, const N: usize>(reset: Reset<M, State<N>>) -> State
 }
 
 /// Derivatives by central differences of the closures, with about ten digits. The field comes from [`Model::field`].
-impl<M, S, Y, F, P, const N: usize> Differentiable<N> for Model<M, S, State<N>, ClosedForm<F>, P>
+impl<M, S, Y, F, P, C, const N: usize> Differentiable<N>
+    for Model<M, S, State<N>, ClosedForm<F>, P, C>
 where
     M: Copy + Eq + Debug,
     S: Copy + Eq + Debug,

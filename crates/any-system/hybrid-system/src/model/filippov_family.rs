@@ -19,8 +19,8 @@ use std::fmt::Debug;
 type Mode<M, S> = FilippovMode<M, S>;
 type Surface<M, S> = FilippovSurface<M, S>;
 
-impl<M, S, Y, F, Q, const N: usize, const P: usize> Parametric<N, P>
-    for Family<Filippov<Model<M, S, State<N>, Integrated<F>, Q>>, P>
+impl<M, S, Y, F, Q, C, const N: usize, const P: usize> Parametric<N, P>
+    for Family<Filippov<Model<M, S, State<N>, Integrated<F>, Q, C>>, P>
 where
     M: Copy + Eq + Debug,
     S: Copy + Eq + Debug,
@@ -28,7 +28,7 @@ where
     F: Fn(M, &State<N>) -> Y,
     Q: ModelPart<M, S, State<N>>,
 {
-    type System = Filippov<Model<M, S, State<N>, Integrated<F>, Q>>;
+    type System = Filippov<Model<M, S, State<N>, Integrated<F>, Q, C>>;
 
     fn system(&self) -> &Self::System {
         self.system()

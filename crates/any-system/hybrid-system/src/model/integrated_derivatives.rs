@@ -12,7 +12,7 @@ use nalgebra::SMatrix;
 use std::fmt::Debug;
 
 /// The Jacobian of the field by central differences, with about ten digits.
-impl<M, S, Y, F, P, const N: usize> Linearized<N> for Model<M, S, State<N>, Integrated<F>, P>
+impl<M, S, Y, F, P, C, const N: usize> Linearized<N> for Model<M, S, State<N>, Integrated<F>, P, C>
 where
     M: Copy + Eq + Debug,
     S: Copy + Eq + Debug,
@@ -28,7 +28,8 @@ where
 
 /// The derivative of the flow by its variational equation, the others by central differences of the closures. All have
 /// about ten digits, or those of the tolerances.
-impl<M, S, Y, F, P, const N: usize> Differentiable<N> for Model<M, S, State<N>, Integrated<F>, P>
+impl<M, S, Y, F, P, C, const N: usize> Differentiable<N>
+    for Model<M, S, State<N>, Integrated<F>, P, C>
 where
     M: Copy + Eq + Debug,
     S: Copy + Eq + Debug,

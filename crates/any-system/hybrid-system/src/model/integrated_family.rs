@@ -32,8 +32,8 @@ impl<T, const P: usize> Family<T, P> {
     }
 }
 
-impl<M, S, Y, F, Q, const N: usize, const P: usize> Parametric<N, P>
-    for Family<Model<M, S, State<N>, Integrated<F>, Q>, P>
+impl<M, S, Y, F, Q, C, const N: usize, const P: usize> Parametric<N, P>
+    for Family<Model<M, S, State<N>, Integrated<F>, Q, C>, P>
 where
     M: Copy + Eq + Debug,
     S: Copy + Eq + Debug,
@@ -41,7 +41,7 @@ where
     F: Fn(M, &State<N>) -> Y,
     Q: ModelPart<M, S, State<N>>,
 {
-    type System = Model<M, S, State<N>, Integrated<F>, Q>;
+    type System = Model<M, S, State<N>, Integrated<F>, Q, C>;
 
     fn system(&self) -> &Self::System {
         self.system()

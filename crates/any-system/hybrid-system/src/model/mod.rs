@@ -8,6 +8,7 @@
 //! [`Differentiable`](crate::Differentiable); `family`, `integrated_family` and `filippov_family` have derivatives
 //! by parameters.
 
+mod autonomous;
 mod bounds;
 mod condition;
 mod continued;
@@ -18,6 +19,7 @@ mod family;
 mod filippov_family;
 mod guard_lists;
 mod guarded;
+mod in_time;
 #[cfg(feature = "ode")]
 mod integrated;
 #[cfg(feature = "ode")]
@@ -30,6 +32,7 @@ mod motion;
 mod outcome;
 mod part;
 mod system;
+mod untimed;
 
 pub use bounds::{GuardEnclosure, Signal};
 pub use condition::Condition;
@@ -37,9 +40,11 @@ pub use continued::{Field, Rest, Slide};
 pub use derivatives::{gradient_by_differences, jacobian_by_differences, reset_by_differences};
 pub use family::Family;
 pub use guarded::{Clock, Jump, JumpEverywhere, Terminal, Watch};
+pub use in_time::InTime;
 #[cfg(feature = "ode")]
 pub use integrated::Integrated;
-pub use model::Model;
+pub use model::{Autonomous, Model};
 pub use motion::{ClosedForm, Motion};
 pub use outcome::Outcome;
 pub use part::ModelPart;
+pub use untimed::{OutcomeInTime, Untimed};

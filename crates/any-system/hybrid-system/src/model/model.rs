@@ -1,13 +1,11 @@
 //! The model, and the methods that give it its parts.
 
 use super::bounds::{GuardEnclosure, Signal};
-use super::continued::{Field, Rest, Slide};
+use super::continued::Slide;
 use super::guard_lists::GuardLists;
-use super::guarded::{Clock, Jump, JumpEverywhere, Terminal, Watch};
 #[cfg(feature = "ode")]
 use super::integrated::Integrated;
 use super::motion::{ClosedForm, Motion};
-use super::outcome::Outcome;
 use super::part::ModelPart;
 use crate::crossing::QuasiPolynomial;
 use crate::execution::Execution;
@@ -63,6 +61,7 @@ use std::marker::PhantomData;
 /// | method | part of the model |
 /// |---|---|
 /// | [`closed_form`](Self::closed_form), `integrated` | the motion |
+/// | [`closed_form_in_time`](Self::closed_form_in_time), `integrated_in_time` | a motion that depends on the time: all closures take `\|t, x\|` |
 /// | [`rising`](Self::rising), [`falling`](Self::falling), [`either`](Self::either) | a guard of one mode, with a number |
 /// | [`contact`](Self::contact), [`crossing`](Self::crossing) | what a state beyond the surface of the last guard means |
 /// | [`guard`](Self::guard), [`guard_everywhere`](Self::guard_everywhere) | a guard with a name, of one mode or of all |
@@ -87,22 +86,26 @@ use std::marker::PhantomData;
 /// [`Error::ClockWithoutTimes`](crate::Error::ClockWithoutTimes). A mode without guards is allowed: its arcs end at the limit on time.
 #[derive(Debug, Clone)]
 #[must_use]
-pub struct Model<M, S, X, F, P = ()> {
+pub struct Model<M, S, X, F, P = (), C = Autonomous> {
     pub(crate) motion: F,
     pub(crate) parts: P,
     pub(super) guards: GuardLists<M, S>,
     sampling_interval: Option<f64>,
-    state: PhantomData<fn() -> X>,
+    types: PhantomData<fn() -> (X, C)>,
 }
+
+/// How the closures of a [`Model`] are called: without the time, which they do not depend on.
+#[derive(Debug, Clone, Copy)]
+pub enum Autonomous {}
 
 /// The limit on the number of events of [`Model::run`]: far above what a user looks at event by event, and a run ends
 /// within seconds. [`Execution::new`] takes any other limit.
 const MOST_EVENTS: usize = 1_000_000;
 
-impl<M: Copy + Eq, S: Copy + Eq + Debug, X, F> Model<M, S, X, F> {
-    fn new(motion: F) -> Self {
+impl<M: Copy + Eq, S: Copy + Eq + Debug, X, F, C> Model<M, S, X, F, (), C> {
+    pub(super) fn new(motion: F) -> Self {
         let guards = GuardLists::new();
-        Model { motion, parts: (), guards, sampling_interval: None, state: PhantomData }
+        Model { motion, parts: (), guards, sampling_interval: None, types: PhantomData }
     }
 }
 
@@ -112,7 +115,7 @@ impl<M: Copy + Eq, S: Copy + Eq + Debug, X, F, P> Model<M, S, X, F, P> {
     pub(crate) fn of_equations(motion: F, parts: P, watched: Vec<(Option<M>, Guard<S>)>) -> Self {
         let mut guards = GuardLists::new();
         watched.into_iter().for_each(|(mode, guard)| guards.add(mode, guard));
-        Model { motion, parts, guards, sampling_interval: None, state: PhantomData }
+        Model { motion, parts, guards, sampling_interval: None, types: PhantomData }
     }
 
     /// True if guards and samples are those of the other model.
@@ -144,14 +147,14 @@ where
 {
     /// A model whose flow is the solution of ẋ = f(x): f(x) from the mode and the state x. (feature `ode`)
     ///
-    /// If f depends on time, time is a component of the state with ṫ = 1.
+    /// If f depends on the time: [`integrated_in_time`](Self::integrated_in_time).
     pub fn integrated(field: F) -> Self {
         Model::new(Integrated::new(field))
     }
 }
 
 #[cfg(feature = "ode")]
-impl<M, S, X, F, P> Model<M, S, X, Integrated<F>, P> {
+impl<M, S, X, F, P, C> Model<M, S, X, Integrated<F>, P, C> {
     /// The same model, integrated with this relative and absolute tolerance. Default: 1e-10. (feature `ode`)
     pub fn tolerance(self, tolerance: f64) -> Self {
         self.tolerances(Tolerances::both(tolerance))
@@ -164,157 +167,26 @@ impl<M, S, X, F, P> Model<M, S, X, Integrated<F>, P> {
     }
 }
 
-/// The three directions of a guard whose surface is the number of guards that were added before.
-macro_rules! numbered_guards {
-    ($($(#[$about:meta])* $direction:ident;)*) => {$(
-        $(#[$about])*
-        ///
-        /// The reset gives the next mode and state. The surface is the number of guards that were added before.
-        pub fn $direction<G, R, J>(
-            self,
-            mode: M,
-            guard: G,
-            reset: R,
-        ) -> Model<M, usize, X, F, (Jump<M, usize, G, R>, P)>
-        where
-            G: Fn(&X) -> f64,
-            R: Fn(&X) -> J,
-            J: Outcome<M, X>,
-        {
-            let surface = self.guards.next_index();
-            self.guard(mode, Guard::$direction(surface), guard, reset)
-        }
-    )*};
-}
-
 // Each part of a model has a type of its own.
 #[allow(clippy::type_complexity)]
-impl<M, X, F, P> Model<M, usize, X, F, P>
-where
-    M: Copy + Eq,
-{
-    numbered_guards! {
-        /// Adds a guard of `mode`: an event when g(x) goes from negative to positive.
-        rising;
-        /// Adds a guard of `mode`: an event when g(x) goes from positive to negative.
-        falling;
-        /// Adds a guard of `mode`: an event at every change of sign of g(x).
-        either;
-    }
-}
-
-// Each part of a model has a type of its own.
-#[allow(clippy::type_complexity)]
-impl<M, S, X, F, P> Model<M, S, X, F, P>
+impl<M, S, X, F, P, C> Model<M, S, X, F, P, C>
 where
     M: Copy + Eq,
     S: Copy + Eq + Debug,
 {
-    pub(super) fn with<A>(self, part: A) -> Model<M, S, X, F, (A, P)> {
+    pub(super) fn with<A>(self, part: A) -> Model<M, S, X, F, (A, P), C> {
         Model {
             motion: self.motion,
             parts: (part, self.parts),
             guards: self.guards,
             sampling_interval: self.sampling_interval,
-            state: PhantomData,
+            types: PhantomData,
         }
-    }
-
-    /// Adds a guard of `mode`: its surface, direction, role and touch, its function g(x), and the reset after its events.
-    ///
-    /// The reset returns the next mode and state, or a [`Reset`](crate::Reset).
-    pub fn guard<G, R, J>(
-        mut self,
-        mode: M,
-        watched: Guard<S>,
-        guard: G,
-        reset: R,
-    ) -> Model<M, S, X, F, (Jump<M, S, G, R>, P)>
-    where
-        G: Fn(&X) -> f64,
-        R: Fn(&X) -> J,
-        J: Outcome<M, X>,
-    {
-        self.guards.add_watched(Some(mode), watched);
-        self.with(Jump { mode, surface: watched.surface, guard, reset })
-    }
-
-    /// Adds a guard of all modes. The reset takes the mode before the event, and the state.
-    pub fn guard_everywhere<G, R, J>(
-        mut self,
-        watched: Guard<S>,
-        guard: G,
-        reset: R,
-    ) -> Model<M, S, X, F, (JumpEverywhere<S, G, R>, P)>
-    where
-        G: Fn(&X) -> f64,
-        R: Fn(M, &X) -> J,
-        J: Outcome<M, X>,
-    {
-        self.guards.add_watched(None, watched);
-        self.with(JumpEverywhere { surface: watched.surface, guard, reset })
-    }
-
-    /// Adds a guard of `mode` whose events end the execution.
-    pub fn terminal<G>(
-        mut self,
-        mode: M,
-        watched: Guard<S>,
-        guard: G,
-    ) -> Model<M, S, X, F, (Terminal<M, S, G>, P)>
-    where
-        G: Fn(&X) -> f64,
-    {
-        self.guards.add_watched(Some(mode), watched);
-        self.with(Terminal { mode, surface: watched.surface, guard })
-    }
-
-    /// Adds an observer of all modes: mode and state stay as they are at its events.
-    pub fn observer<G>(mut self, watched: Guard<S>, guard: G) -> Model<M, S, X, F, (Watch<S, G>, P)>
-    where
-        G: Fn(&X) -> f64,
-    {
-        self.guards.add_observer(watched);
-        self.with(Watch { surface: watched.surface, guard })
-    }
-
-    /// Adds events of `mode` at preset times. `next` gives the first preset time strictly after a time, both continuous
-    /// times t, or `None` after the last one. The reset takes the mode and the state.
-    pub fn clock<T, R, J>(
-        mut self,
-        mode: M,
-        surface: S,
-        next: T,
-        reset: R,
-    ) -> Model<M, S, X, F, (Clock<M, S, T, R>, P)>
-    where
-        T: Fn(f64) -> Option<f64>,
-        R: Fn(M, &X) -> J,
-        J: Outcome<M, X>,
-    {
-        self.guards.add(Some(mode), Guard::clock(surface));
-        self.with(Clock { mode: Some(mode), surface, next, reset })
-    }
-
-    /// The same in all modes.
-    pub fn clock_everywhere<T, R, J>(
-        mut self,
-        surface: S,
-        next: T,
-        reset: R,
-    ) -> Model<M, S, X, F, (Clock<M, S, T, R>, P)>
-    where
-        T: Fn(f64) -> Option<f64>,
-        R: Fn(M, &X) -> J,
-        J: Outcome<M, X>,
-    {
-        self.guards.add(None, Guard::clock(surface));
-        self.with(Clock { mode: None, surface, next, reset })
     }
 
     /// Gives the guard of this surface along the flow from a start, g(φ(t; x₀)), as a quasi-polynomial in t, or `None`
     /// where it is none. Its crossings are then found with certainty.
-    pub fn signal<Q>(self, surface: S, signal: Q) -> Model<M, S, X, F, (Signal<S, Q>, P)>
+    pub fn signal<Q>(self, surface: S, signal: Q) -> Model<M, S, X, F, (Signal<S, Q>, P), C>
     where
         Q: Fn(M, &X) -> Option<QuasiPolynomial>,
     {
@@ -327,24 +199,15 @@ where
         self,
         surface: S,
         enclosure: B,
-    ) -> Model<M, S, X, F, (GuardEnclosure<S, B>, P)>
+    ) -> Model<M, S, X, F, (GuardEnclosure<S, B>, P), C>
     where
         B: Fn(M, &X, u32, (f64, f64)) -> Option<Enclosure>,
     {
         self.with(GuardEnclosure { surface, enclosure })
     }
 
-    /// Gives the mode and the state after a Zeno limit, from the mode before it and the state at the limit.
-    pub fn rest<B, Y>(self, rest: B) -> Model<M, S, X, F, (Rest<B>, P)>
-    where
-        B: Fn(M, &X) -> Option<(M, Y)>,
-        Y: Into<X>,
-    {
-        self.with(Rest(rest))
-    }
-
     /// Gives the mode and the state on a surface at which the fields on both sides point.
-    pub fn slide<B, Y>(self, slide: B) -> Model<M, S, X, F, (Slide<B>, P)>
+    pub fn slide<B, Y>(self, slide: B) -> Model<M, S, X, F, (Slide<B>, P), C>
     where
         B: Fn(&Sliding<M, S, X>) -> Option<(M, Y)>,
         Y: Into<X>,
@@ -359,24 +222,7 @@ where
     }
 }
 
-// Each part of a model has a type of its own.
-#[allow(clippy::type_complexity)]
-impl<M, S, X, G, P> Model<M, S, X, ClosedForm<G>, P>
-where
-    M: Copy + Eq,
-    S: Copy + Eq + Debug,
-{
-    /// Gives f(x) of ẋ = f(x) for a flow in closed form. Sliding points and derivatives through events need it.
-    pub fn field<B, Y>(self, field: B) -> Model<M, S, X, ClosedForm<G>, (Field<B>, P)>
-    where
-        B: Fn(M, &X) -> Y,
-        Y: Into<X>,
-    {
-        self.with(Field(field))
-    }
-}
-
-impl<M, S, X, F, P> Model<M, S, X, F, P>
+impl<M, S, X, F, P, C> Model<M, S, X, F, P, C>
 where
     M: Copy + Eq + Debug,
     S: Copy + Eq + Debug,
@@ -384,12 +230,10 @@ where
     F: Motion<M, X>,
     P: ModelPart<M, S, X>,
 {
-    /// The execution from `start` in `mode`, up to the time `time` and at most a million events: an iterator over its arcs.
-    ///
-    /// [`Execution::new`] takes the other limits.
-    pub fn run(&self, mode: M, start: impl Into<X>, time: f64) -> Execution<'_, Self> {
+    /// The execution from `start`, which has the time if the model has.
+    pub(super) fn execution(&self, mode: M, start: X, time: f64) -> Execution<'_, Self> {
         let mut limits = Limits::new(time, MOST_EVENTS);
         limits.sampling_interval = self.sampling_interval;
-        Execution::new(self, mode, start.into(), limits)
+        Execution::new(self, mode, start, limits)
     }
 }

@@ -12,7 +12,7 @@ use crate::system::{HybridSystem, Reset};
 use interval_arithmetic::Enclosure;
 use std::fmt::Debug;
 
-impl<M, S, X, F, P> HybridSystem for Model<M, S, X, F, P>
+impl<M, S, X, F, P, C> HybridSystem for Model<M, S, X, F, P, C>
 where
     M: Copy + Eq + Debug,
     S: Copy + Eq + Debug,

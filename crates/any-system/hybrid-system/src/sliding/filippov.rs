@@ -2,10 +2,11 @@
 
 use super::detection::rounding;
 use super::directional::slope_along;
-use super::filippov_modes::{FilippovMode, GuardTable};
+use super::filippov_modes::{FilippovMode, FilippovSurface};
 use super::projection::onto_surface;
 use super::sliding_field::sliding_field;
 use crate::crossing::guard_rounding;
+use crate::guard_table::GuardTable;
 use crate::ode::Tolerances;
 use crate::state::StateVector;
 use crate::system::HybridSystem;
@@ -73,8 +74,11 @@ pub struct Filippov<T: HybridSystem> {
     pub(super) tolerances: Tolerances,
     gradient: Option<Gradient<T>>,
     pub(super) follows: bool,
-    pub(super) guards: GuardTable<T::Mode, T::Surface>,
+    pub(super) guards: FilippovGuards<T::Mode, T::Surface>,
 }
+
+/// The guards of the modes.
+type FilippovGuards<M, S> = GuardTable<FilippovMode<M, S>, FilippovSurface<M, S>>;
 
 /// The surface along which a state slides, and the modes on both sides.
 pub(super) struct Sides<M, S> {

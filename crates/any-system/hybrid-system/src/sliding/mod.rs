@@ -37,6 +37,8 @@ mod projection;
 
 pub(crate) use detection::{AtOnce, is_unchanged, sliding_point};
 #[cfg(feature = "ode")]
+pub(crate) use directional::slope_along;
+#[cfg(feature = "ode")]
 pub use filippov::Filippov;
 #[cfg(feature = "ode")]
 pub use filippov_modes::{FilippovMode, FilippovSurface};

@@ -1,0 +1,273 @@
+//! Executions backward in time, of any model that has a field.
+
+use crate::crossing::{NextEvent, Search};
+use crate::error::Error;
+use crate::execution::Execution;
+use crate::guard::{Direction, Guard, Role};
+use crate::guard_table::GuardTable;
+use crate::limits::Limits;
+use crate::ode::{Tolerances, integrated_crossing, integrated_flow, integrated_states};
+use crate::sliding::slope_along;
+use crate::state::StateVector;
+use crate::system::{HybridSystem, Reset};
+
+/// The most events of a run backward, as of [`Model::run`](crate::Model::run).
+const MOST_EVENTS: usize = 1_000_000;
+
+/// A system backward in time: s = −t, with the field −f. [`Equations::reversed`](crate::Equations::reversed) does the same for
+/// equations, as equations.
+///
+/// A jump is undone by its inverse, if [`inverse`](Self::inverse) gives it: in the mode to which the jump leads, where the guard
+/// is zero at the state before it, and goes there in its direction. A start on this surface is such an event. Any other event that changes mode or state ends the run at its surface. So a run without jumps
+/// on its way needs no inverse.
+///
+/// - Where a state may have come by such a jump or by the flow alone, it has come by the jump: the past need not be unique.
+/// - An observer has its events at the same points: a guard that rises in t falls in s.
+/// - No state beyond the surface of a contact or a switch has a past in its mode. The run ends where it would go beyond. A surface
+///   by which a jump leads into the mode belongs to that jump.
+/// - There is no rest after a Zeno limit, and no sliding: both have no unique past. A clock is an error, since its last tick is not
+///   known.
+/// - The field is integrated, also that of a flow in closed form ([`Model::field`](crate::Model::field)).
+///
+/// ```
+/// use hybrid_system::{Backward, Model, State, Tolerances};
+/// let ball = Model::integrated(|(), x: &State<2>| [x[1], -1.0]).falling(
+///     (),
+///     |x| x[0],
+///     |x| ((), [x[0], -0.5 * x[1]]),
+/// );
+/// let end = ball.run((), [0.5, 0.0], 1.5).fate();
+/// let back = Backward::new(&ball, Tolerances::both(1e-12))
+///     .inverse(0, (), |x| ((), [x[0], -2.0 * x[1]].into()));
+/// // From t = 1.5 back to 0: through the landing at 1, up to where it was dropped.
+/// let first = back.run((), end.state, (1.5, 0.0)).fate();
+/// assert!((first.state - State::from([0.5, 0.0])).norm() < 1e-8);
+/// assert_eq!((first.events, first.time), (1, 0.0));
+/// // Without the inverse it ends where it has come from the floor.
+/// let alone = Backward::new(&ball, Tolerances::both(1e-12)).run((), end.state, (1.5, 0.0)).fate();
+/// assert!((alone.time + 1.0).abs() < 1e-8);
+/// # Ok::<(), hybrid_system::Error>(())
+/// ```
+pub struct Backward<'a, T: HybridSystem> {
+    system: &'a T,
+    tolerances: Tolerances,
+    inverses: Vec<Inverse<'a, T>>,
+    guards: GuardTable<T::Mode, BackwardSurface<T::Mode, T::Surface>>,
+}
+
+/// Mode and state before a jump, from the state after it.
+type Undo<'a, M, X> = Box<dyn Fn(&X) -> (M, X) + Send + Sync + 'a>;
+
+/// The inverse of a jump.
+struct Inverse<'a, T: HybridSystem> {
+    surface: T::Surface,
+    /// The mode after the jump.
+    after: T::Mode,
+    undo: Undo<'a, T::Mode, T::State>,
+}
+
+/// A surface of [`Backward`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum BackwardSurface<M, S> {
+    /// A surface of the model, at the state itself.
+    Model(S),
+    /// A jump of the model is undone.
+    Undone {
+        /// The surface of the jump.
+        surface: S,
+        /// The mode to which it leads.
+        after: M,
+    },
+}
+
+impl<'a, T: HybridSystem> Backward<'a, T> {
+    /// The system backward, integrated to these tolerances.
+    pub fn new(system: &'a T, tolerances: Tolerances) -> Self {
+        Backward { system, tolerances, inverses: Vec::new(), guards: GuardTable::new() }
+    }
+
+    /// Gives the inverse of the jumps of `surface` that lead to the mode `after`: the mode and the state before a jump, from the
+    /// state after it.
+    #[must_use]
+    pub fn inverse(
+        mut self,
+        surface: T::Surface,
+        after: T::Mode,
+        undo: impl Fn(&T::State) -> (T::Mode, T::State) + Send + Sync + 'a,
+    ) -> Self {
+        self.inverses.push(Inverse { surface, after, undo: Box::new(undo) });
+        Backward { guards: GuardTable::new(), ..self }
+    }
+
+    /// The execution from a state back in time, from a time t to an earlier one, and through at most a million events. Its own time
+    /// is −t.
+    pub fn run(
+        &self,
+        mode: T::Mode,
+        start: impl Into<T::State>,
+        (from, to): (f64, f64),
+    ) -> Execution<'_, Self> {
+        Execution::new(self, mode, start.into(), Limits::new(-to, MOST_EVENTS)).starting_at(-from)
+    }
+
+    /// Mode and state before a jump.
+    fn before(
+        &self,
+        surface: T::Surface,
+        after: T::Mode,
+        state: &T::State,
+    ) -> Option<(T::Mode, T::State)> {
+        let is_it =
+            |inverse: &&Inverse<'_, T>| inverse.surface == surface && inverse.after == after;
+        Some((self.inverses.iter().find(is_it)?.undo)(state))
+    }
+
+    /// The rate of a guard along the field of its mode, positive in its direction; `None` for one that counts both ways.
+    fn direction(&self, mode: T::Mode, surface: T::Surface, state: &T::State) -> Option<f64> {
+        let mut guards = self.system.guards(mode).iter();
+        let sign = match guards.find(|guard| guard.surface == surface)?.direction {
+            Direction::Rising => 1.0,
+            Direction::Falling => -1.0,
+            Direction::Either => return None,
+        };
+        let field = self.system.vector_field(mode, state)?;
+        let guard = |state: &T::State| self.system.guard_value(surface, state);
+        Some(sign * slope_along(&guard, state, &field, 0.0).value)
+    }
+
+    /// The guards of a mode: first the jumps that lead to it, then its own surfaces.
+    fn guards_of(&self, mode: T::Mode) -> Vec<Guard<BackwardSurface<T::Mode, T::Surface>>> {
+        let leading = self.inverses.iter().filter(|inverse| inverse.after == mode);
+        let undone: Vec<T::Surface> = leading.map(|inverse| inverse.surface).collect();
+        let jumps = undone.iter().map(|&surface| {
+            let surface = BackwardSurface::Undone { surface, after: mode };
+            Guard { role: Role::Undone, ..Guard::either(surface) }
+        });
+        let own = self.system.guards(mode).iter();
+        let own = own.filter(|guard| !undone.contains(&guard.surface)).map(|guard| {
+            let direction = match guard.role.bounds_flow() {
+                true => Direction::Either,
+                false => guard.direction.backward(),
+            };
+            let surface = BackwardSurface::Model(guard.surface);
+            let role = if guard.role == Role::Clock { Role::Clock } else { Role::Crossing };
+            Guard { surface, direction, role, touch: guard.touch }
+        });
+        jumps.chain(own).collect()
+    }
+
+    /// An error for what has no motion backward.
+    fn check(&self, mode: T::Mode) -> Result<(), Error> {
+        let refused = |reason: String| Err(Error::Model { reason });
+        for (k, own) in self.inverses.iter().enumerate() {
+            let same =
+                |other: &Inverse<'_, T>| (other.surface, other.after) == (own.surface, own.after);
+            if self.inverses[..k].iter().any(same) {
+                let (surface, after) = (own.surface, own.after);
+                return refused(format!(
+                    "surface {surface:?} has two inverses of jumps to mode {after:?}: backward they are not told apart; \
+                     give their guards surfaces of their own"
+                ));
+            }
+        }
+        match self.guards(mode).iter().find(|guard| guard.role == Role::Clock) {
+            Some(Guard { surface: BackwardSurface::Model(clock), .. }) => refused(format!(
+                "the clock {clock:?} of mode {mode:?} has no last tick, at which a run backward would begin"
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl<T: HybridSystem> HybridSystem for Backward<'_, T> {
+    type State = T::State;
+    type Mode = T::Mode;
+    type Surface = BackwardSurface<T::Mode, T::Surface>;
+
+    fn flow(&self, mode: T::Mode, start: &T::State, time: f64) -> T::State {
+        integrated_flow(self, mode, start, time, self.tolerances)
+    }
+
+    fn flow_at(
+        &self,
+        mode: T::Mode,
+        start: &T::State,
+        times: &[f64],
+    ) -> Result<Vec<T::State>, Error> {
+        integrated_states(self, mode, start, times, self.tolerances)
+    }
+
+    fn guards(&self, mode: T::Mode) -> &[Guard<Self::Surface>] {
+        self.guards.guards(mode, || self.guards_of(mode))
+    }
+
+    /// g at the state, or at the state before the jump.
+    fn guard_value(&self, surface: Self::Surface, state: &T::State) -> f64 {
+        match surface {
+            BackwardSurface::Model(surface) => self.system.guard_value(surface, state),
+            BackwardSurface::Undone { surface, after } => {
+                let before = self.before(surface, after, state);
+                before.map_or(f64::NAN, |(_, before)| self.system.guard_value(surface, &before))
+            }
+        }
+    }
+
+    fn reset(
+        &self,
+        mode: T::Mode,
+        surface: Self::Surface,
+        state: &T::State,
+    ) -> Reset<T::Mode, T::State> {
+        match surface {
+            BackwardSurface::Undone { surface, after } => {
+                let before = self.before(surface, after, state);
+                before.map_or(Reset::Stop, |(mode, state)| Reset::Jump { mode, state })
+            }
+            // An observer changes nothing.
+            BackwardSurface::Model(surface) => match self.system.reset(mode, surface, state) {
+                same @ Reset::Jump { .. } if same == Reset::Jump { mode, state: state.clone() } => {
+                    same
+                }
+                _ => Reset::Stop,
+            },
+        }
+    }
+
+    /// That of the event forward, at the state before it: it has its own condition, and the direction of its guard.
+    fn condition(&self, mode: T::Mode, surface: Self::Surface, state: &T::State) -> Option<f64> {
+        match surface {
+            BackwardSurface::Model(surface) => self.system.condition(mode, surface, state),
+            BackwardSurface::Undone { surface, after } => {
+                let (mode, before) = self.before(surface, after, state)?;
+                let own = self.system.condition(mode, surface, &before);
+                let both = own.into_iter().chain(self.direction(mode, surface, &before));
+                both.reduce(f64::min)
+            }
+        }
+    }
+
+    /// −f.
+    fn vector_field(&self, mode: T::Mode, state: &T::State) -> Option<T::State> {
+        let field = self.system.vector_field(mode, state)?;
+        Some(field.filled(|axis| -field.components()[axis]))
+    }
+
+    fn validate(&self, mode: T::Mode, start: &T::State) -> Result<(), Error> {
+        self.system.validate(mode, start)?;
+        if self.system.vector_field(mode, start).is_none() {
+            return Err(Error::NoVectorField { mode: format!("{mode:?}") });
+        }
+        self.check(mode)
+    }
+
+    fn first_crossing(
+        &self,
+        mode: T::Mode,
+        start: &T::State,
+        search: &Search<Self::Surface>,
+    ) -> Result<NextEvent<Self::Surface, T::State>, Error> {
+        self.check(mode)?;
+        integrated_crossing(self, mode, start, search, self.tolerances)
+    }
+}

@@ -1,0 +1,147 @@
+//! Models of closures backward in time.
+
+#![cfg(feature = "ode")]
+
+use hybrid_system::*;
+
+const TIGHT: Tolerances = Tolerances::both(1e-12);
+
+/// A thermostat by closures: both switches are undone without a change of the state.
+#[test]
+fn a_thermostat_goes_back_through_its_switches() {
+    let room = Model::integrated(|on: bool, x: &State<1>| [if on { 30.0 } else { 10.0 } - x[0]])
+        .tolerance(1e-12)
+        .guard(true, Guard::rising("warm"), |x| x[0] - 21.0, |x| (false, *x))
+        .guard(false, Guard::falling("cold"), |x| x[0] - 19.0, |x| (true, *x));
+    let end = room.run(true, [20.0], 1.0).fate();
+    assert!(end.events > 2);
+    let back = Backward::new(&room, TIGHT).inverse("warm", false, |x| (true, *x)).inverse(
+        "cold",
+        true,
+        |x| (false, *x),
+    );
+    let first = back.run(end.mode, end.state, (1.0, 0.0)).fate();
+    assert_eq!((first.mode, first.events, first.time), (true, end.events, 0.0));
+    assert!((first.state[0] - 20.0).abs() < 1e-10, "{first:?}");
+    // The events are at the times of those forward.
+    let forward = room.run(true, [20.0], 1.0).filter_map(|arc| Some(arc.unwrap().event()?.time));
+    let backward = back
+        .run(end.mode, end.state, (1.0, 0.0))
+        .filter_map(|arc| Some(-arc.unwrap().event()?.time));
+    let (forward, mut backward): (Vec<_>, Vec<_>) = (forward.collect(), backward.collect());
+    backward.reverse();
+    for (forward, backward) in forward.iter().zip(&backward) {
+        assert!((forward - backward).abs() < 1e-10, "{forward} {backward}");
+    }
+}
+
+/// No inverse is needed where no jump is on the way; an observer has its points, and a rising one falls.
+#[test]
+fn a_limit_before_the_start_without_jumps() {
+    let swing = Model::integrated(|(), x: &State<2>| [x[1], -pxfm::f_sin(x[0])])
+        .tolerance(1e-12)
+        .observer(Guard::rising("right"), |x| x[0]);
+    let end = swing.run((), [0.0, 1.0], 20.0).fate();
+    let back = Backward::new(&swing, TIGHT);
+    let mut run = back.run((), end.state, (20.0, 0.0));
+    let events: Vec<_> = run.by_ref().filter_map(|arc| arc.unwrap().event().copied()).collect();
+    assert!((run.state() - State::from([0.0, 1.0])).norm() < 1e-9);
+    // Forward it starts on the surface, which is no event.
+    assert!(events.iter().filter(|event| event.time < -1.0).count() == end.events);
+    assert!(events.iter().all(|event| event.direction == Some(Direction::Falling)));
+    // The same limit without `Backward` is an error that names it.
+    let error = swing.run((), end.state, -1.0).next().unwrap().unwrap_err();
+    assert!(error.to_string().contains("Backward"), "{error}");
+}
+
+/// With the time as an argument, and a table that moves: through every bounce.
+#[test]
+fn a_ball_on_a_table_goes_back() {
+    let height = |t: f64| 0.1 * pxfm::f_sin(3.0 * t);
+    let speed = |t: f64| 0.3 * pxfm::f_cos(3.0 * t);
+    let ball =
+        Model::integrated_in_time(|(), _, x: &State<3>| [x[1], -1.0]).tolerance(1e-12).falling(
+            (),
+            move |t, x| x[0] - height(t),
+            move |t, x| ((), [x[0], 1.8 * speed(t) - 0.8 * x[1]]),
+        );
+    let end = ball.run((), [1.0, 0.0], 8.0).fate();
+    assert!(end.events > 2, "{end:?}");
+    let back = Backward::new(&ball, TIGHT)
+        .inverse(0, (), move |x| ((), [x[0], (1.8 * speed(x[2]) - x[1]) / 0.8, x[2]].into()));
+    let first = back.run((), end.state, (8.0, 0.0)).fate();
+    assert_eq!(first.events, end.events);
+    assert!((first.state - State::from([1.0, 0.0, 0.0])).norm() < 1e-8, "{first:?}");
+}
+
+/// Without an inverse a run ends where a jump has been. From the state after a landing the landing is undone at once, from the state
+/// before it the flight goes on.
+#[test]
+fn a_floor_has_no_past_below() {
+    let ball = Model::integrated(|(), x: &State<2>| [x[1], -1.0]).tolerance(1e-12).falling(
+        (),
+        |x| x[0],
+        |x| ((), [x[0], -0.5 * x[1]]),
+    );
+    let alone = Backward::new(&ball, TIGHT);
+    let fate = alone.run((), [0.5, 0.0], (0.0, -9.0)).fate();
+    assert_eq!(fate.end, End::Terminal(BackwardSurface::Model(0)));
+    assert!((fate.time - 1.0).abs() < 1e-12);
+    let back = Backward::new(&ball, TIGHT).inverse(0, (), |x| ((), [x[0], -2.0 * x[1]].into()));
+    for (speed, events) in [(0.5, 1), (-1.0, 0)] {
+        let first = back.run((), [0.0, speed], (1.0, 0.0)).fate();
+        assert!((first.state - State::from([0.5, 0.0])).norm() < 1e-9, "{first:?}");
+        assert_eq!(first.events, events);
+    }
+}
+
+/// A condition is asked at the state before the event, and a flow in closed form has its field.
+#[test]
+fn conditions_and_closed_forms() {
+    let line = Model::closed_form(|(), x: &State<2>, t| [x[0] + t, x[1]])
+        .field(|(), _| [1.0, 0.0])
+        .guard((), Guard::rising("wall"), |x| x[0] - 1.0, |x| ((), [x[0] - 1.0, x[1] + 1.0]))
+        .only_where("wall", |x| 1.5 - x[1])
+        .sampled(0.01);
+    let end = line.run((), [0.2, 0.0], 3.5).fate();
+    // Two walls count, the third one does not.
+    assert_eq!((end.events, end.state[1]), (2, 2.0));
+    let back =
+        Backward::new(&line, TIGHT).inverse("wall", (), |x| ((), [x[0] + 1.0, x[1] - 1.0].into()));
+    let first = back.run((), end.state, (3.5, 0.0)).fate();
+    assert!((first.state - State::from([0.2, 0.0])).norm() < 1e-9, "{first:?}");
+}
+
+#[test]
+fn what_has_no_motion_backward_is_an_error() {
+    let message = |run: Execution<'_, _>| match run.fate().end {
+        End::Failed(error) => error.to_string(),
+        end => panic!("{end:?}"),
+    };
+    let field = |(), _: &State<1>| [1.0];
+    let clock = Model::integrated(field).clock((), "tick", |t| Some(t + 1.0), |(), x| ((), *x));
+    let back = Backward::new(&clock, TIGHT);
+    assert!(message(back.run((), [0.0], (2.0, 0.0))).contains("last tick"));
+    let wall = || Model::integrated(field).guard((), Guard::rising("w"), |x| x[0], |x| ((), *x));
+    let wall = wall();
+    let twice =
+        Backward::new(&wall, TIGHT).inverse("w", (), |x| ((), *x)).inverse("w", (), |x| ((), *x));
+    match twice.run((), [3.0], (2.0, 0.0)).fate().end {
+        End::Failed(error) => assert!(error.to_string().contains("two inverses"), "{error}"),
+        end => panic!("{end:?}"),
+    }
+    // Without a field there is nothing to integrate.
+    let closed = Model::closed_form(|(), x: &State<1>, t| [x[0] + t]).guard(
+        (),
+        Guard::rising("w"),
+        |x| x[0],
+        |x| ((), *x),
+    );
+    match Backward::new(&closed, TIGHT).run((), [3.0], (2.0, 0.0)).fate().end {
+        End::Failed(error) => assert!(matches!(error, Error::NoVectorField { .. }), "{error}"),
+        end => panic!("{end:?}"),
+    }
+    // Forward in time is not backward.
+    let forward = Backward::new(&wall, TIGHT).run((), [3.0], (0.0, 2.0)).fate();
+    assert!(matches!(forward.end, End::Failed(Error::BadLimit { .. })), "{forward:?}");
+}
