@@ -5,13 +5,8 @@ use crate::system::Reset;
 use nalgebra::DVector;
 
 /// A vector without the time: an array, a [`State<N>`](State), a `Vec` or a `DVector`. It is what the closures of a model with the
-/// time return. A state with the time will do too: its last component is replaced. An array of another length does not compile:
-///
-/// ```compile_fail
-/// use hybrid_system::{Model, State};
-/// let model = Model::<(), usize, _, _, _, _>::integrated_in_time(|(), t, _: &State<3>| [t]);
-/// model.rising((), |t, _| t, |_, x| ((), *x)).run((), [0.0, 0.0], 1.0);
-/// ```
+/// time return. A state with the time will do too: its last component is replaced. An array of another length does not
+/// compile.
 pub trait Untimed<X> {
     /// The vector with `time` as its last component. `dimension` is the number of components with it, if that is known.
     #[doc(hidden)]
