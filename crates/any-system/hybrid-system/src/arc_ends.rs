@@ -62,7 +62,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         }
         let time_passes = time.value() > before;
         if time_passes {
-            self.at.chain.clear();
+            self.at.time_changes();
         } else if time.since(self.at.time) > 0.0 && duration > time_rounding {
             self.at.chain.moves_on();
         }
@@ -197,7 +197,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             self.at.history.pass(duration);
             self.at.time = self.at.time.plus(duration);
             self.at.state = state;
-            self.at.chain.clear();
+            self.at.time_changes();
             self.at.initial = false;
         }
     }
@@ -293,7 +293,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         let clocks = guards.filter(|guard| guard.role == Role::Clock);
         // A clock that has ticked at the time of the limit does not tick again.
         match self.at.time.value() > before {
-            true => self.at.chain.clear(),
+            true => self.at.time_changes(),
             false => {
                 self.at.chain.keep(|surface| clocks.clone().any(|clock| clock.surface == surface))
             }

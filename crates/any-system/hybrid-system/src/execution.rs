@@ -39,6 +39,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
             time: TimeSum::new(0.0),
             jump: 0,
             initial: true,
+            at_start: true,
             history: History::new(),
             chain: Chain::new(),
             arrival: None,

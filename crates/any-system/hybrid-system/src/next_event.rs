@@ -133,7 +133,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         let mut earliest: Option<ClockEvent<T::Surface>> = None;
         for guard in guards.filter(|guard| guard.role == Role::Clock) {
             // A clock whose time is now, and that has not had its event yet, must not be lost.
-            let before_all = self.at.initial && !self.limits.ticks_at_start;
+            let before_all = self.at.at_start && !self.limits.ticks_at_start;
             let had_its_event = before_all || self.at.chain.contains(guard.surface);
             let after = if had_its_event { now } else { now.next_down() };
             let Some(time) = self.system.next_time(self.at.mode, guard.surface, after) else {

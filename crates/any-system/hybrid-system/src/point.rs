@@ -5,6 +5,7 @@ use crate::chain::Chain;
 use crate::residues::Residues;
 use crate::time_sum::TimeSum;
 use crate::zeno::History;
+use std::fmt::Debug;
 
 /// Everything that decides how an execution goes on.
 #[derive(Debug, Clone)]
@@ -18,6 +19,9 @@ pub(crate) struct Point<M, S, X> {
     pub(crate) jump: usize,
     /// False after the first arc.
     pub(crate) initial: bool,
+    /// True as long as the time is that of the start.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub(crate) at_start: bool,
     pub(crate) history: History<S, X>,
     /// The events since time has passed for the last time.
     pub(crate) chain: Chain<M, S>,
@@ -25,4 +29,12 @@ pub(crate) struct Point<M, S, X> {
     pub(crate) arrival: Option<Arrival<M, S, X>>,
     /// The values of guards at their events, as long as the state is on the same side.
     pub(crate) residues: Residues<S>,
+}
+
+impl<M: Copy + PartialEq + Debug, S: Copy + PartialEq + Debug, X> Point<M, S, X> {
+    /// The time, as a double, has changed.
+    pub(crate) fn time_changes(&mut self) {
+        self.at_start = false;
+        self.chain.clear();
+    }
 }

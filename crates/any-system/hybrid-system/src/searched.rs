@@ -42,6 +42,16 @@ impl<T: HybridSystem> HybridSystem for Searched<T> {
         self.0.condition(mode, surface, before)
     }
 
+    fn reset_error(
+        &self,
+        mode: T::Mode,
+        surface: Option<T::Surface>,
+        before: &T::State,
+        time: f64,
+    ) -> Option<Error> {
+        self.0.reset_error(mode, surface, before, time)
+    }
+
     fn next_time(&self, mode: T::Mode, surface: T::Surface, after: f64) -> Option<f64> {
         self.0.next_time(mode, surface, after)
     }

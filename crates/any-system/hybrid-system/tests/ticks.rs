@@ -64,3 +64,22 @@ fn ticks_at_both_ends() {
         assert_eq!(rest, if at_end { &[1.5][..] } else { &[1.0, 1.5] }, "{at_start} {at_end}");
     }
 }
+
+/// A tick at the start does not count, also if another event comes first there.
+#[test]
+fn an_event_at_the_start_brings_no_tick() {
+    let model = Equations::new(&["x"], &[])
+        .mode_text("m", &["1"])
+        .rising_text("wall", "x")
+        .to("n")
+        .mode_text("n", &["1"])
+        .clock_text("tick", "0", "0.5")
+        .model::<State<1>>()
+        .unwrap();
+    for (at_start, expected) in [(false, &[0.0, 0.5, 1.0][..]), (true, &[0.0, 0.0, 0.5, 1.0])] {
+        let limits = Limits { ticks_at_start: at_start, ..Limits::new(1.0, 99) };
+        let run = Execution::new(&model, Label::new("m").unwrap(), State::from([0.0]), limits);
+        let found: Vec<f64> = run.filter_map(|arc| Some(arc.unwrap().event()?.time)).collect();
+        assert_eq!(found, expected, "{at_start}");
+    }
+}

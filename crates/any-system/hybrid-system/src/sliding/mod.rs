@@ -9,7 +9,7 @@
 //! | Which field is tangent to the surface? | `sliding_field` |
 //! | Which point of the surface is next to a state? | `projection` |
 //! | Which modes and surfaces does the wrapped system have? | `filippov_modes` |
-//! | How does it move? | `filippov`, as a hybrid system `filippov_system` |
+//! | How does it move? | `filippov`, as a hybrid system `filippov_system`; its first event: `sliding_search` |
 //! | What happens at other surfaces? | `crossing_while_sliding` |
 //! | To which side does a free mode start at an exit? | `exit` |
 //! | What are its derivatives? | `filippov_sensitivity` |
@@ -34,6 +34,8 @@ mod filippov_sensitivity;
 mod filippov_system;
 #[cfg(feature = "ode")]
 mod projection;
+#[cfg(feature = "ode")]
+mod sliding_search;
 
 pub(crate) use detection::{AtOnce, is_unchanged, sliding_point};
 #[cfg(feature = "ode")]
