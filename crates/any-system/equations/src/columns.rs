@@ -58,10 +58,6 @@ impl<'a, const N: usize> Table<'a, N> {
         let times = self.times[list];
         if times.len() == 1 { times[0] } else { times[state] }
     }
-
-    pub(crate) fn state(&self, state: usize) -> Vec<f64> {
-        self.columns.iter().map(|column| column[state]).collect()
-    }
 }
 
 impl Formulas {

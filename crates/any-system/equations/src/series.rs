@@ -69,6 +69,15 @@ impl<A: Arithmetic> Coefficients<A> {
     pub fn all_watched(&self) -> impl ExactSizeIterator<Item = &[A]> {
         self.watched.iter().map(|&row| self.row(row))
     }
+
+    /// Writes the coefficients of the state and of the watched formulas, each as `of` takes it.
+    pub(crate) fn show(&self, of: impl Fn(&A) -> f64, into: &mut Coefficients<f64>) {
+        let row_length = length::<f64>(into.terms);
+        for (row, own) in self.states().chain(self.all_watched()).enumerate() {
+            let into = &mut into.all[row * row_length..][..own.len()];
+            into.iter_mut().zip(own).for_each(|(into, own)| *into = of(own));
+        }
+    }
 }
 
 /// Taylor series in time of the motion ẋ = f(t, x; p), and of any formulas along it.
@@ -191,6 +200,18 @@ impl Series {
         let (states, watched) = (self.states.clone(), self.watched.clone());
         let rules = self.rules.of_length(length::<A>(terms));
         Ok(Coefficients { all, terms, states, watched, rules })
+    }
+
+    /// Memory for the coefficients of the state and of the watched formulas alone.
+    pub(crate) fn outline(&self, order: usize) -> Result<Coefficients<f64>, Error> {
+        if order > MOST_TERMS {
+            return Err(Error::Order { order, most: MOST_TERMS });
+        }
+        let (terms, count) = (order + 1, self.states.len());
+        let rows = count + self.watched.len();
+        let all = vec![0.0; rows * length::<f64>(terms)];
+        let (states, watched) = ((0..count).collect(), (count..rows).collect());
+        Ok(Coefficients { all, terms, states, watched, rules: Vec::new() })
     }
 
     /// The place of a watched formula among the parts.

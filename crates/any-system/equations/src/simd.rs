@@ -7,7 +7,7 @@
 #![allow(unsafe_code)]
 
 use crate::lanes::Lanes;
-use crate::many_starts;
+use crate::side_by_side;
 use crate::step::Step;
 use crate::taylor_flow::TaylorFlow;
 
@@ -22,7 +22,7 @@ macro_rules! compiled_with {
             state: &[Lanes],
             step: &mut Step<Lanes>,
         ) -> Lanes {
-            many_starts::step_of_lanes(flow, times, state, step)
+            side_by_side::step_of_lanes(flow, times, state, step)
         }
     };
 }
@@ -32,7 +32,7 @@ compiled_with!(with_avx512, "avx512f,avx512dq,avx512vl,avx512bw");
 #[cfg(target_arch = "x86_64")]
 compiled_with!(with_avx2, "avx2");
 
-/// See [`many_starts::step_of_lanes`].
+/// See [`side_by_side::step_of_lanes`].
 pub(crate) fn step_of_lanes(
     flow: &TaylorFlow<'_>,
     times: (Lanes, Lanes),
@@ -54,7 +54,7 @@ pub(crate) fn step_of_lanes(
             return unsafe { with_avx2(flow, times, state, step) };
         }
     }
-    many_starts::step_of_lanes(flow, times, state, step)
+    side_by_side::step_of_lanes(flow, times, state, step)
 }
 
 #[cfg(test)]
@@ -81,7 +81,7 @@ mod tests {
                 let numbers = [right, memory.end].into_iter().chain(memory.state_at_end);
                 numbers.map(|lanes| lanes.0.map(f64::to_bits)).collect::<Vec<_>>()
             };
-            let plain = bits(&|step| many_starts::step_of_lanes(&flow, times, &state, step));
+            let plain = bits(&|step| side_by_side::step_of_lanes(&flow, times, &state, step));
             assert_eq!(bits(&|step| step_of_lanes(&flow, times, &state, step)), plain);
             #[cfg(target_arch = "x86_64")]
             if is_x86_feature_detected!("avx2") {

@@ -1,5 +1,6 @@
 //! A step of Taylor's method, and the test that its polynomials are the motion.
 
+use crate::algebra::Arithmetic;
 use crate::elementwise::Elementwise;
 use crate::error::Error;
 use crate::evaluate::compute;
@@ -32,8 +33,8 @@ pub struct Step<A = f64> {
     pub state_at_end: Vec<A>,
     /// The field at its end.
     pub rate_at_end: Vec<A>,
-    /// For each watched formula, whether its polynomial is the formula, as far as two values show.
-    pub trusted: Vec<bool>,
+    /// For each watched formula, whether its polynomial is the formula: 1 or 0.
+    trust: Vec<A>,
     /// Values of the parts, and the slopes of the polynomials, where they were compared last.
     pub(crate) parts: Vec<A>,
     slopes: Vec<A>,
@@ -43,6 +44,11 @@ impl Step {
     /// The state at a time of the step.
     pub fn state(&self, time: f64) -> Vec<f64> {
         self.coefficients.states().map(|series| horner(series, time - self.time)).collect()
+    }
+
+    /// Whether the polynomial of a watched formula is the formula, as far as two values show.
+    pub fn is_trusted(&self, formula: usize) -> bool {
+        self.trust.get(formula).is_some_and(|trust| *trust == 1.0)
     }
 
     /// The watched formulas at a time of the step.
@@ -60,10 +66,41 @@ pub(crate) fn memory<A: Elementwise>(series: &Series, order: usize) -> Result<St
         coefficients: series.memory(order)?,
         state_at_end: zeros(),
         rate_at_end: zeros(),
-        trusted: Vec::new(),
+        trust: Vec::new(),
         slopes: zeros(),
         parts: series.field.numbers(),
     })
+}
+
+/// Memory for what a step shows, without that for its computation.
+pub(crate) fn outline(series: &Series, order: usize) -> Result<Step, Error> {
+    let zeros = || vec![0.0; series.dimension()];
+    Ok(Step {
+        time: 0.0,
+        end: 0.0,
+        coefficients: series.outline(order)?,
+        state_at_end: zeros(),
+        rate_at_end: zeros(),
+        trust: Vec::new(),
+        slopes: Vec::new(),
+        parts: Vec::new(),
+    })
+}
+
+impl<A: Arithmetic> Step<A> {
+    /// Writes what the step shows: of one lane, as `of` takes it.
+    pub(crate) fn show(&self, of: impl Fn(&A) -> f64, into: &mut Step) {
+        (into.time, into.end) = (of(&self.time), of(&self.end));
+        self.coefficients.show(&of, &mut into.coefficients);
+        for (from, into) in [
+            (&self.state_at_end, &mut into.state_at_end),
+            (&self.rate_at_end, &mut into.rate_at_end),
+            (&self.trust, &mut into.trust),
+        ] {
+            into.clear();
+            into.extend(from.iter().map(&of));
+        }
+    }
 }
 
 /// The time inside a step at which it is tested.
@@ -85,8 +122,8 @@ impl TaylorFlow<'_> {
     /// the step then.
     #[inline(always)]
     pub(crate) fn is_right<A: Elementwise>(&self, step: &mut Step<A>) -> A {
-        step.trusted.clear();
-        step.trusted.resize(step.coefficients.all_watched().len(), true);
+        step.trust.clear();
+        step.trust.resize(step.coefficients.all_watched().len(), A::one());
         let holds = self.agrees(step, inside(step));
         if !holds.any() {
             return holds;
@@ -128,8 +165,8 @@ impl TaylorFlow<'_> {
             let (polynomial, size) = value_and_size(series, length);
             let off = A::difference(&polynomial, &value.unwrap_or(A::number(f64::NAN)));
             // NaN is no trust.
-            let is_far = off.with(size, |off, size| f64::from(!(off.abs() <= allowed * size)));
-            step.trusted[place] &= !is_far.any();
+            let is_near = off.with(size, |off, size| f64::from(off.abs() <= allowed * size));
+            step.trust[place] = A::product(&step.trust[place], &is_near);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::elementwise::Elementwise;
 use crate::series::Coefficients;
-use crate::step::{Step, WATCHED_ERROR};
+use crate::step::WATCHED_ERROR;
 use crate::taylor_flow::TaylorFlow;
 
 /// How often a step is shortened for a series that bends more than the state. Each time it gets at least a tenth shorter;
@@ -196,12 +196,18 @@ impl TaylorFlow<'_> {
     }
 
     /// The length at which also the last terms of the watched formulas are small beside their largest ones: a formula
-    /// may bend more than the state, as sin(x) does along x = t.
-    pub(crate) fn length_for_watched(&self, step: &Step, length: f64) -> f64 {
+    /// may bend more than the state, as sin(x) does along x = t. `of` takes the number of one state.
+    #[inline(always)]
+    pub(crate) fn length_for_watched<A: Elementwise>(
+        &self,
+        coefficients: &Coefficients<A>,
+        of: impl Fn(&A) -> f64,
+        length: f64,
+    ) -> f64 {
         let least = SHORTEST_FOR_WATCHED * length;
-        step.coefficients.all_watched().fold(length, |length, series| {
+        coefficients.all_watched().fold(length, |length, series| {
             let tolerance = WATCHED_ERROR * self.tolerance;
-            let found = shortened(series.len(), |k| series[k].abs(), tolerance, length);
+            let found = shortened(series.len(), |k| of(&series[k]).abs(), tolerance, length);
             // Without values there is nothing to be shortened for.
             if found >= least { found } else { length.min(least) }
         })

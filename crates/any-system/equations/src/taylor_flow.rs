@@ -121,7 +121,8 @@ impl<'s> TaylorFlow<'s> {
         self.series.expand(&time, state, &mut step.coefficients)?;
         step.time = time;
         let length = self.length_for_state(&step.coefficients).min((end - time).abs());
-        step.end = end_of(time, self.length_for_watched(step, length), end);
+        let length = self.length_for_watched(&step.coefficients, |x| *x, length);
+        step.end = end_of(time, length, end);
         if !step.end.is_finite() {
             return Err(Error::Time { time, end });
         }

@@ -1,11 +1,12 @@
 //! Cost of a model by closures against the same model by the trait: the thermostat, a bouncing ball with samples,
-//! and the section of a pendulum.
+//! and the section of a pendulum. Many runs of equations, one by one and side by side.
 
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use hybrid_system::*;
 use std::hint::black_box;
+use std::ops::ControlFlow::Continue;
 
 const TOLERANCE: f64 = 1e-9;
 
@@ -162,5 +163,39 @@ fn front_end(criterion: &mut Criterion) {
     run(criterion, "100 returns of a pendulum: closures", &pendulum, ((), swing, events));
 }
 
-criterion_group!(benches, front_end);
+/// 64 runs of an oscillator with a stop every 5 time units, of one whose guard is far away, and of a leg.
+fn many_runs(criterion: &mut Criterion) {
+    let names = || Equations::new(&["x", "v"], &[]);
+    let stop = names()
+        .mode_text("m", &["v", "cos(1.3*t) - 0.1*v - x - x^3"])
+        .rising_text("stop", "x - 0.5")
+        .resets_text(&["x", "-0.8*v"]);
+    let rare = names()
+        .mode_text("m", &["v", "x - x^3 - 0.15*v + 0.3*cos(t)"])
+        .rising_text("out", "x - 5")
+        .stops();
+    fn compare<const N: usize>(
+        criterion: &mut Criterion,
+        name: &str,
+        model: &EquationsModel<State<N>>,
+        (mode, start, end): (&str, impl Fn(f64) -> State<N> + Sync, f64),
+    ) {
+        let run = |k: usize| model.start(mode, start(0.001 * k as f64), end);
+        criterion.bench_function(&format!("64 runs {name}: one by one"), |bencher| {
+            bencher.iter(|| (0..64).map(|k| run(k).unwrap().fate().events).sum::<usize>());
+        });
+        criterion.bench_function(&format!("64 runs {name}: side by side"), |bencher| {
+            bencher.iter(|| model.fates(64, run, |_| Continue(())).len());
+        });
+    }
+    let start = |x: f64| State::from([0.1 + x, 0.0, 0.0]);
+    let (stop, rare) = (stop.model().unwrap(), rare.model().unwrap());
+    compare(criterion, "with a stop", &stop, ("m", start, 100.0));
+    compare(criterion, "without an event", &rare, ("m", start, 100.0));
+    let leg = example_systems::spring_leg::spring_leg().model().unwrap();
+    let apex = |x: f64| State::from([0.0, 0.98 + 0.1 * x, 5.0, 0.0]);
+    compare(criterion, "of a leg", &leg, ("flight", apex, 20.0));
+}
+
+criterion_group!(benches, front_end, many_runs);
 criterion_main!(benches);

@@ -1,6 +1,5 @@
 //! Checkpoints: everything that decides how an execution goes on.
 
-use crate::condition::Passed;
 use crate::execution::Execution;
 use crate::limits::{Limits, Stop};
 use crate::point::Point;
@@ -80,6 +79,6 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         limits: Limits,
     ) -> Self {
         let (stop, at) = (checkpoint.stop, checkpoint.point);
-        Execution { system, limits, stop, at, passed: Passed::default() }
+        Execution { stop, ..Execution::of(system, limits, at) }
     }
 }

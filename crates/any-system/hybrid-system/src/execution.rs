@@ -25,9 +25,12 @@ pub struct Execution<'a, T: HybridSystem> {
     pub(crate) system: &'a T,
     pub(crate) limits: Limits,
     pub(crate) stop: Option<Stop>,
-    pub(crate) at: Point<T::Mode, T::Surface, T::State>,
+    pub(crate) at: PointOf<T>,
     /// What events that do not count have left on the present arc.
     pub(crate) passed: Passed,
+    /// The first steps of the next arc, where many motions are followed side by side.
+    #[cfg(feature = "ode")]
+    pub(crate) ahead: crate::ode::Ahead,
 }
 
 impl<'a, T: HybridSystem> Execution<'a, T> {
@@ -45,7 +48,20 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
             arrival: None,
             residues: Residues::new(),
         };
-        Execution { system, limits, stop: None, at, passed: Passed::default() }
+        Execution::of(system, limits, at)
+    }
+
+    /// The execution from a point.
+    pub(crate) fn of(system: &'a T, limits: Limits, at: PointOf<T>) -> Self {
+        Execution {
+            system,
+            limits,
+            stop: None,
+            at,
+            passed: Passed::default(),
+            #[cfg(feature = "ode")]
+            ahead: crate::ode::Ahead::default(),
+        }
     }
 
     /// The same execution from another start time t. The limit on time is a continuous time t, not a duration.
@@ -67,7 +83,10 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         let mut first: Option<AnArc<T>> = None;
         loop {
             let passed = self.passed.number;
-            let piece = self.piece()?;
+            let piece = self.piece();
+            #[cfg(feature = "ode")]
+            self.ahead.clear();
+            let piece = piece?;
             let mut arc = match first {
                 Some(first) => Arc { end: piece.end, duration: piece.duration, ..first },
                 None => piece,
@@ -181,6 +200,10 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         Err(Error::StateNotFinite { time, jumps, state })
     }
 }
+
+/// A point of an execution of a system.
+pub(crate) type PointOf<T> =
+    Point<<T as HybridSystem>::Mode, <T as HybridSystem>::Surface, <T as HybridSystem>::State>;
 
 /// An arc of a system.
 pub(crate) type AnArc<T> =

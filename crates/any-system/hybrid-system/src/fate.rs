@@ -1,7 +1,7 @@
 //! Where runs end, and why: of one, and of many at once.
 
 use crate::error::Error;
-use crate::execution::Execution;
+use crate::execution::{AnArc, Execution};
 use crate::limits::Stop;
 use crate::system::HybridSystem;
 use std::ops::ControlFlow;
@@ -43,18 +43,28 @@ impl<T: HybridSystem> Execution<'_, T> {
     pub fn fate(mut self) -> FateOf<T> {
         let mut end = None;
         for arc in self.by_ref() {
-            match arc {
-                Ok(arc) => {
-                    let last = arc.event().filter(|event| event.after.is_none());
-                    end = last.map(|event| End::Terminal(event.surface));
-                }
-                Err(error) => end = Some(End::Failed(error)),
-            }
+            end = end_of_arc::<T>(arc);
         }
+        self.into_fate(end)
+    }
+
+    /// The fate of an execution that has ended, by the end of its last arc.
+    pub(crate) fn into_fate(self, end: Option<End<T::Surface>>) -> FateOf<T> {
         // An execution without arcs had ended before.
         let end = end.unwrap_or(End::Stopped(self.stop.unwrap_or(Stop::EventLimit)));
         let (mode, time, events) = (self.at.mode, self.at.time.value(), self.at.jump);
         Fate { end, mode, state: self.at.state, time, events }
+    }
+}
+
+/// How an arc ends a run; `None` if it does not, or only by a limit.
+pub(crate) fn end_of_arc<T: HybridSystem>(arc: Result<AnArc<T>, Error>) -> Option<End<T::Surface>> {
+    match arc {
+        Ok(arc) => {
+            let last = arc.event().filter(|event| event.after.is_none());
+            last.map(|event| End::Terminal(event.surface))
+        }
+        Err(error) => Some(End::Failed(error)),
     }
 }
 
@@ -109,13 +119,19 @@ pub fn many<R: Send>(
 }
 
 #[cfg(feature = "parallel")]
-fn in_order<R: Send>(runs: usize, one: impl Fn(usize) -> Option<R> + Sync) -> Vec<Option<R>> {
+pub(crate) fn in_order<R: Send>(
+    runs: usize,
+    one: impl Fn(usize) -> Option<R> + Sync,
+) -> Vec<Option<R>> {
     use rayon::prelude::*;
     // Runs differ in length: each is a piece of its own.
     (0..runs).into_par_iter().with_max_len(1).map(&one).collect()
 }
 
 #[cfg(not(feature = "parallel"))]
-fn in_order<R: Send>(runs: usize, one: impl Fn(usize) -> Option<R> + Sync) -> Vec<Option<R>> {
+pub(crate) fn in_order<R: Send>(
+    runs: usize,
+    one: impl Fn(usize) -> Option<R> + Sync,
+) -> Vec<Option<R>> {
     (0..runs).map(one).collect()
 }

@@ -60,13 +60,16 @@ impl<T: HybridSystem> Execution<'_, T> {
             return Ok((NextEvent::Crossing(at_once), leaving, None));
         }
         let clock = self.next_clock(horizon)?;
+        let until = clock.map_or(horizon, |clock| clock.until);
         let search = Search {
-            horizon: clock.map_or(horizon, |clock| clock.until),
+            horizon: until,
             sampling_interval: self.limits.sampling_interval,
             intervals: self.limits.intervals,
             steps: self.limits.steps,
             time: time.value(),
             leaving: &leaving,
+            #[cfg(feature = "ode")]
+            ahead: self.ahead.steps(until),
         };
         // No time is left: the rules of the start have decided.
         let found = match search.horizon == 0.0 {
@@ -81,6 +84,16 @@ impl<T: HybridSystem> Execution<'_, T> {
             (found, _) => found,
         };
         Ok((found, leaving, clock))
+    }
+
+    /// The time from here to the limit, or to the next tick of a clock.
+    ///
+    /// # Errors
+    /// Those of a clock that does not move on.
+    #[cfg(feature = "ode")]
+    pub(crate) fn horizon(&self) -> Result<f64, Error> {
+        let horizon = self.at.time.up_to(self.limits.time);
+        Ok(self.next_clock(horizon)?.map_or(horizon, |clock| clock.until))
     }
 
     /// How the next arc starts, and the guards on whose surfaces it does.

@@ -28,6 +28,7 @@ mod integration;
 mod jumps_and_stops;
 mod known_answers;
 mod lift_off;
+mod many_fates;
 mod many_states;
 mod model;
 mod models_in_time;

@@ -58,6 +58,10 @@ pub struct Search<'a, S> {
     /// The guards on whose surfaces the arc starts within rounding. Their values at the start count as zero, unless
     /// their zero is still ahead.
     pub leaving: &'a [Leaving<S>],
+    /// The first steps from the start, where many motions are followed side by side.
+    #[cfg(feature = "ode")]
+    #[doc(hidden)]
+    pub ahead: &'a [equations::Step],
 }
 
 impl<S> Search<'static, S> {
@@ -71,6 +75,8 @@ impl<S> Search<'static, S> {
             steps: usize::MAX,
             time: 0.0,
             leaving: &[],
+            #[cfg(feature = "ode")]
+            ahead: &[],
         }
     }
 

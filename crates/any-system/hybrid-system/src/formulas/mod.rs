@@ -5,7 +5,7 @@
 //! solves linear fields, in functions of time that `quasi_values` computes with. `motion` and `part` are the
 //! motion and the part of a [`Model`](crate::Model). `reversed` are equations backward in time. `jets` has the derivatives of whole executions, `derivatives` those of
 //! [`Differentiable`](crate::Differentiable). `file` is the JSON of equations,
-//! `saved_run` that of an execution.
+//! `saved_run` that of an execution. `many_fates` follows many runs side by side.
 
 mod builder;
 mod closed_form;
@@ -16,6 +16,7 @@ mod file;
 mod jets;
 mod jumps;
 mod label;
+mod many_fates;
 mod motion;
 mod part;
 mod programs;

@@ -22,7 +22,7 @@ const TOLERANCE: f64 = 1e-12;
 /// A motion whose field is formulas: it is integrated by Taylor's method.
 #[derive(Debug, Clone)]
 pub struct TaylorMotion {
-    programs: Arc<Programs>,
+    pub(super) programs: Arc<Programs>,
     pub(super) tolerances: Tolerances,
 }
 

@@ -69,7 +69,7 @@ fn visit_states<T: HybridSystem + ?Sized>(
         return Err(Error::NoVectorField { mode: format!("{mode:?}") });
     }
     let field = field_of(system, mode);
-    let mut integration = Integration::new(field, start, tolerances)?.autonomous().until(end)?;
+    let mut integration = Integration::new(&field, start, tolerances)?.autonomous().until(end)?;
     while !integration.ended() {
         integration.step()?;
         let (from, to) = integration.interval();

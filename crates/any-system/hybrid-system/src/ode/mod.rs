@@ -6,8 +6,10 @@
 //! crossing. A model calls `flow` and `variation`.
 //!
 //! A field that is a formula is followed by `taylor`. Both kinds of integration are a [`Stepping`](stepping::Stepping), and
-//! the search knows no other difference than that guards along Taylor's polynomials are polynomials (`power_test`).
+//! the search knows no other difference than that guards along Taylor's polynomials are polynomials (`power_test`). Where many motions are followed side by side,
+//! the first steps of an arc are known before (`ahead`).
 
+mod ahead;
 mod chebyshev;
 mod first_step;
 mod flow;
@@ -31,9 +33,10 @@ mod tolerances;
 mod variation;
 mod vector;
 
+pub(crate) use ahead::Ahead;
 pub(crate) use flow::last_time;
 pub use flow::{integrated_crossing, integrated_flow, integrated_states};
 pub use integration::Integration;
-pub(crate) use taylor::{taylor_crossing, taylor_states};
+pub(crate) use taylor::{taylor_crossing, taylor_flow, taylor_states};
 pub use tolerances::Tolerances;
 pub use variation::{Linearized, integrated_jacobian, integrated_parameter_jacobian};

@@ -31,7 +31,7 @@ pub(crate) fn taylor_states<X: StateVector>(
 ) -> Result<Vec<X>, Error> {
     let Some(end) = last_time(times)? else { return Ok(Vec::new()) };
     let mut states = Vec::with_capacity(times.len());
-    let mut motion = TaylorIntegration::new(series, start, end, tolerances, Watched::new())?;
+    let mut motion = TaylorIntegration::new(series, start, end, tolerances, (Watched::new(), &[]))?;
     for &time in times {
         while !between(motion.interval().0, time, motion.interval().1) {
             motion.step()?;
@@ -54,8 +54,10 @@ pub(crate) fn taylor_crossing<T: HybridSystem + ?Sized>(
     (series, watched): (&Series, Watched),
 ) -> Result<NextEvent<T::Surface, T::State>, Error> {
     let integration = |longest_first: f64| {
-        let horizon = request.horizon;
-        let motion = TaylorIntegration::new(series, start, horizon, &tolerances, watched.clone())?;
+        // The known steps are those of a search whose first step may have any length.
+        let ahead = if longest_first == f64::INFINITY { request.ahead } else { &[] };
+        let known = (watched.clone(), ahead);
+        let motion = TaylorIntegration::new(series, start, request.horizon, &tolerances, known)?;
         Ok(TaylorIntegration { longest_first, ..motion })
     };
     let rate = system.vector_field(mode, start);
@@ -75,6 +77,26 @@ pub(crate) struct TaylorIntegration<'s, V> {
     /// The first step is no longer.
     longest_first: f64,
     watched: Watched,
+    /// Steps that are known already, from the first one on.
+    ahead: &'s [equations::Step],
+    /// The last step, if it is one of them.
+    known: Option<&'s equations::Step>,
+}
+
+/// The Taylor series of a field, followed to these tolerances.
+pub(crate) fn taylor_flow<'s>(
+    series: &'s Series,
+    dimension: usize,
+    tolerances: &Tolerances,
+) -> Result<TaylorFlow<'s>, Error> {
+    tolerances.check(dimension)?;
+    let each = (0..dimension).map(|axis| {
+        let absolute = tolerances.of(axis, 0.0);
+        (absolute, tolerances.of(axis, 1.0) - absolute)
+    });
+    Ok(TaylorFlow::new(series, tolerances.relative.clamp(1e-17, 0.1), 0.0)?
+        .tolerances(each.collect())?
+        .longest_step(tolerances.longest_step)?)
 }
 
 impl<'s, V: StateVector> TaylorIntegration<'s, V> {
@@ -88,42 +110,52 @@ impl<'s, V: StateVector> TaylorIntegration<'s, V> {
         start: &V,
         end: f64,
         tolerances: &Tolerances,
-        watched: Watched,
+        (watched, ahead): (Watched, &'s [equations::Step]),
     ) -> Result<Self, Error> {
         if end.is_nan() {
             return Err(Error::BadLimit { what: "the end of an integration", value: end });
         }
         let dimension = start.dimension();
-        tolerances.check(dimension)?;
         let (expected, found) = (series.dimension(), dimension);
         if expected != found {
             return Err(Error::Dimension { what: "the state of a field", expected, found });
         }
-        let each = (0..dimension).map(|axis| {
-            let absolute = tolerances.of(axis, 0.0);
-            (absolute, tolerances.of(axis, 1.0) - absolute)
-        });
-        let flow = TaylorFlow::new(series, tolerances.relative.clamp(1e-17, 0.1), 0.0)?
-            .tolerances(each.collect())?
-            .longest_step(tolerances.longest_step)?;
+        let flow = taylor_flow(series, dimension, tolerances)?;
         let mut step = flow.memory()?;
         step.state_at_end.copy_from_slice(start.components());
         let (taken, most, start) = (0, tolerances.steps, start.clone());
         let (piece, longest_first) = (FIRST_PIECE, f64::INFINITY);
-        Ok(TaylorIntegration { flow, step, start, end, piece, taken, most, longest_first, watched })
+        Ok(TaylorIntegration {
+            flow,
+            step,
+            start,
+            end,
+            piece,
+            taken,
+            most,
+            longest_first,
+            watched,
+            ahead,
+            known: None,
+        })
+    }
+
+    /// The last step.
+    fn last(&self) -> &equations::Step {
+        self.known.unwrap_or(&self.step)
     }
 
     /// The state at a time in the last step.
     pub(crate) fn at(&self, time: f64) -> V {
-        let since = time - self.step.time;
-        let mut series = self.step.coefficients.states();
+        let since = time - self.last().time;
+        let mut series = self.last().coefficients.states();
         self.start.filled(|_| series.next().map_or(f64::NAN, |own| equations::horner(own, since)))
     }
 }
 
 impl<V: StateVector> Stepping<V> for TaylorIntegration<'_, V> {
     fn step(&mut self) -> Result<(), Error> {
-        let time = self.step.end;
+        let time = self.last().end;
         let failed = |reason| Err(Error::Integration { reason, time });
         if self.ended() {
             return failed("the end has been reached");
@@ -132,6 +164,10 @@ impl<V: StateVector> Stepping<V> for TaylorIntegration<'_, V> {
             return failed("no steps are left");
         }
         self.taken += 1;
+        if let Some(known) = self.ahead.get(self.taken - 1) {
+            self.known = Some(known);
+            return Ok(());
+        }
         let first = self.taken == 1 && self.longest_first < (self.end - time).abs();
         let end = if first {
             time + self.longest_first.copysign(self.end)
@@ -140,10 +176,11 @@ impl<V: StateVector> Stepping<V> for TaylorIntegration<'_, V> {
         } else {
             self.end
         };
-        let state: SmallVec<[f64; 8]> = SmallVec::from_slice(&self.step.state_at_end);
+        let state: SmallVec<[f64; 8]> = SmallVec::from_slice(&self.last().state_at_end);
+        self.known = None;
         match self.flow.step(time, &state, end, &mut self.step) {
             Ok(()) => {
-                if self.step.end == end {
+                if self.last().end == end {
                     self.piece *= 2.0;
                 }
                 Ok(())
@@ -154,29 +191,29 @@ impl<V: StateVector> Stepping<V> for TaylorIntegration<'_, V> {
     }
 
     fn interval(&self) -> (f64, f64) {
-        (self.step.time, self.step.end)
+        (self.last().time, self.last().end)
     }
 
     fn state(&self) -> V {
-        self.start.filled(|axis| self.step.state_at_end[axis])
+        self.start.filled(|axis| self.last().state_at_end[axis])
     }
 
     fn slope(&self) -> V {
-        self.start.filled(|axis| self.step.rate_at_end[axis])
+        self.start.filled(|axis| self.last().rate_at_end[axis])
     }
 
     fn enlarge(&self, sizes: &mut V) {
-        for (size, component) in sizes.components_mut().iter_mut().zip(&self.step.state_at_end) {
+        for (size, component) in sizes.components_mut().iter_mut().zip(&self.last().state_at_end) {
             *size = size.max(component.abs());
         }
     }
 
     fn ended(&self) -> bool {
-        self.step.end == self.end
+        self.last().end == self.end
     }
 
     fn at_rest(&self) -> bool {
-        self.taken > 0 && self.step.rate_at_end.iter().all(|rate| *rate == 0.0)
+        self.taken > 0 && self.last().rate_at_end.iter().all(|rate| *rate == 0.0)
     }
 
     fn steps_left(&self) -> usize {
@@ -189,7 +226,7 @@ impl<V: StateVector> Stepping<V> for TaylorIntegration<'_, V> {
     }
 
     fn last_step(&mut self) -> Result<Step<V>, Error> {
-        Ok(Step::of_powers(self.interval(), &self.start, self.step.coefficients.states()))
+        Ok(Step::of_powers(self.interval(), &self.start, self.last().coefficients.states()))
     }
 
     fn directly_at(&mut self, _: f64) -> Option<Result<V, Error>> {
@@ -202,7 +239,6 @@ impl<V: StateVector> Stepping<V> for TaylorIntegration<'_, V> {
 
     fn guard(&self, place: usize) -> Option<&[f64]> {
         let watched = (*self.watched.get(place)?)?;
-        let trusted = self.step.trusted.get(watched).copied().unwrap_or(false);
-        trusted.then(|| self.step.coefficients.watched(watched))
+        self.last().is_trusted(watched).then(|| self.last().coefficients.watched(watched))
     }
 }

@@ -277,6 +277,7 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
                     steps: search.steps,
                     time: search.time,
                     leaving: &leaving,
+                    ahead: search.ahead,
                 };
                 Ok(next_of_model(self.system.first_crossing(mode, start, &search)?))
             }
