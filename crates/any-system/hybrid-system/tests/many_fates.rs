@@ -85,7 +85,7 @@ fn all_kinds_of_ends_side_by_side() {
         .model::<State<2>>()
         .unwrap();
     let start = |k: usize| {
-        let mode = if k % 3 == 0 { "hard" } else { "soft" };
+        let mode = if k.is_multiple_of(3) { "hard" } else { "soft" };
         Ok((mode, [2.0 * part(k) - 1.0, 3.0 * part(5 * k) - 1.0].into(), 12.0))
     };
     assert!(same("modes", &model, 200, start) > 190);
@@ -105,7 +105,7 @@ fn all_kinds_of_ends_side_by_side() {
     // A limit on events, and none on time.
     let label = Label::new("soft").unwrap();
     let run = |k: usize| {
-        let limits = Limits::new(if k % 2 == 0 { 30.0 } else { f64::INFINITY }, 5);
+        let limits = Limits::new(if k.is_multiple_of(2) { 30.0 } else { f64::INFINITY }, 5);
         Ok(Execution::new(&model, label, State::from([0.2 + part(k), 0.0]), limits))
     };
     for (k, fate) in model.fates(20, run, |_| Continue(())).into_iter().enumerate() {
