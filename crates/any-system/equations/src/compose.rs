@@ -36,10 +36,10 @@ impl Formulas {
         Formulas::of_parts(self.names.clone(), graph.into_nodes(), outputs)
     }
 
-    /// Some of the formulas, in this order. Numbers beyond the last one are left out.
+    /// The formulas from the last to the first.
     #[must_use]
-    pub fn reordered(&self, order: impl IntoIterator<Item = usize>) -> Formulas {
-        let outputs = order.into_iter().filter_map(|at| self.outputs.get(at).copied()).collect();
+    pub fn turned_round(&self) -> Formulas {
+        let outputs = self.outputs.iter().rev().copied().collect();
         Formulas::of(self.names.clone(), self.nodes.clone(), outputs)
     }
 

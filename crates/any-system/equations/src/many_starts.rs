@@ -7,7 +7,7 @@ use crate::taylor_flow::{MOST_STEPS, TaylorFlow};
 
 impl TaylorFlow<'_> {
     /// The states of many starts at later or earlier times, with the bits of [`state_at`](Self::state_at). `states` has a
-    /// column for each component, `times` the time of each start or one time of all, and so has `ends`.
+    /// column for each component. `times` and `ends` have one value for each start, or one for all.
     ///
     /// Eight motions are computed [side by side](SideBySide), each with its own steps.
     ///

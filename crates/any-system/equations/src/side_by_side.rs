@@ -3,6 +3,7 @@
 use crate::algebra::Arithmetic;
 use crate::elementwise::Elementwise;
 use crate::error::Error;
+use crate::formulas::length;
 use crate::lanes::{Lanes, WIDTH};
 use crate::simd;
 use crate::step::{Step, end_of, memory, outline};
@@ -54,7 +55,7 @@ impl<'f> SideBySide<'f> {
     /// Without motions.
     ///
     /// # Errors
-    /// None for the orders of tolerances.
+    /// Never, for a flow that [`TaylorFlow::new`] has made.
     pub fn new(flow: &'f TaylorFlow<'f>) -> Result<Self, Error> {
         let dimension = flow.series.dimension();
         Ok(SideBySide {
@@ -72,14 +73,16 @@ impl<'f> SideBySide<'f> {
     /// Begins a motion in a lane, from a time and a state, up to `end`.
     ///
     /// # Errors
-    /// [`Error::Time`] for a time or an end that is not finite; [`Error::Length`] for a lane that is not there.
+    /// [`Error::Time`] for a time or an end that is not finite; [`Error::Length`] for a state of another length, and for a lane that is
+    /// not there.
     pub fn begin(
         &mut self,
         lane: usize,
         time: f64,
-        state: impl IntoIterator<Item = f64>,
+        state: impl ExactSizeIterator<Item = f64>,
         end: f64,
     ) -> Result<(), Error> {
+        length("components of the state", self.state.len(), state.len())?;
         if !(time.is_finite() && end.is_finite()) {
             return Err(Error::Time { time, end });
         }
@@ -160,14 +163,14 @@ impl<'f> SideBySide<'f> {
 
 /// The error of a lane that is not there, or has no motion.
 fn no_lane(lane: usize) -> Error {
-    Error::Length { what: "lanes", needed: lane + 1, given: WIDTH }
+    Error::Length { what: "lanes with a motion", needed: lane + 1, given: 0 }
 }
 
 impl TaylorFlow<'_> {
     /// Memory for the polynomials of a step, without that for its computation.
     ///
     /// # Errors
-    /// None for the orders of tolerances.
+    /// Never, for a flow that [`TaylorFlow::new`] has made.
     pub fn outline(&self) -> Result<Step, Error> {
         outline(self.series, self.order)
     }

@@ -13,7 +13,8 @@ use crate::taylor_flow::TaylorFlow;
 pub(crate) const RATE_ERROR: f64 = 30.0;
 
 /// How much larger than the tolerance times the order, of its largest term, the distance of a watched formula from its
-/// polynomial may be. It is only trusted to show where zeros are; the zeros themselves are those of the formula.
+/// polynomial may be. It is only trusted to show where zeros are; the zeros themselves are those of the formula. A smaller number would
+/// look at values where the polynomial does; a larger one would trust one that misses a short dip.
 pub(crate) const WATCHED_ERROR: f64 = 1000.0;
 
 /// A step is tested against the field at its end, and at this part of it: no simple fraction, at which a field that

@@ -102,7 +102,7 @@ impl<'s> TaylorFlow<'s> {
     /// Memory for a step, of length zero at the time zero.
     ///
     /// # Errors
-    /// None for the orders of tolerances.
+    /// Never, for a flow that [`new`](Self::new) has made.
     pub fn memory(&self) -> Result<Step, Error> {
         memory(self.series, self.order)
     }

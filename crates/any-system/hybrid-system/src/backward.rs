@@ -5,26 +5,30 @@ use crate::error::Error;
 use crate::execution::Execution;
 use crate::guard::{Direction, Guard, Role};
 use crate::guard_table::GuardTable;
-use crate::limits::Limits;
+use crate::limits::{Limits, MOST_EVENTS};
 use crate::ode::{Tolerances, integrated_crossing, integrated_flow, integrated_states};
 use crate::sliding::slope_along;
 use crate::state::StateVector;
 use crate::system::{HybridSystem, Reset};
-
-/// The most events of a run backward, as of [`Model::run`](crate::Model::run).
-const MOST_EVENTS: usize = 1_000_000;
+use std::fmt::Debug;
 
 /// A system backward in time: s = −t, with the field −f. [`Equations::reversed`](crate::Equations::reversed) does the same for
 /// equations, as equations.
 ///
 /// A jump is undone by its inverse, if [`inverse`](Self::inverse) gives it: in the mode to which the jump leads, where the guard
-/// is zero at the state before it, and goes there in its direction. A start on this surface is such an event. Any other event that changes mode or state ends the run at its surface. So a run without jumps
-/// on its way needs no inverse.
+/// is zero at the state before it, and goes there in its direction. A start on this surface is such an event.
+///
+/// An event that leads out of a mode ends the run at its surface: no state comes from there. Jumps that lead *into* a mode from
+/// another one are known by their inverses alone. Without one the run goes on, as if the state had come by the flow. So a run
+/// without jumps on its way needs no inverse.
 ///
 /// - Where a state may have come by such a jump or by the flow alone, it has come by the jump: the past need not be unique.
 /// - An observer has its events at the same points: a guard that rises in t falls in s.
 /// - No state beyond the surface of a contact or a switch has a past in its mode. The run ends where it would go beyond. A surface
 ///   by which a jump leads into the mode belongs to that jump.
+/// - An inverse is compared with the jump: a state that the jump does not bring back is an error.
+/// - Where the guard has no rate at the state before a jump, its direction is not decided: the run ends in
+///   [`ConditionError::Undecided`](crate::ConditionError::Undecided).
 /// - There is no rest after a Zeno limit, and no sliding: both have no unique past. A clock is an error, since its last tick is not
 ///   known.
 /// - The field is integrated, also that of a flow in closed form ([`Model::field`](crate::Model::field)).
@@ -53,6 +57,32 @@ pub struct Backward<'a, T: HybridSystem> {
     tolerances: Tolerances,
     inverses: Vec<Inverse<'a, T>>,
     guards: GuardTable<T::Mode, BackwardSurface<T::Mode, T::Surface>>,
+}
+
+/// How near a jump leads back to the state from which its inverse comes, relative to the states: far above the rounding of both, and
+/// far below what a wrong formula misses.
+const RETURN: f64 = 1e-6;
+
+/// True if two states are one, as far as two formulas for it tell.
+pub(crate) fn is_back<X: StateVector>(found: &X, state: &X) -> bool {
+    let size = 1.0 + state.largest();
+    let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= RETURN * size;
+    found.dimension() == state.dimension()
+        && found.components().iter().zip(state.components()).all(is_near)
+}
+
+/// The message of a jump and an inverse that do not lead back: from the first state to the second, and then to the third.
+pub(crate) fn wrong_inverse<S: Debug, X: StateVector>(
+    surface: Option<S>,
+    time: f64,
+    states: [&X; 3],
+) -> String {
+    let [from, to, back] = states.map(StateVector::components);
+    let surface = surface.map_or(String::from("a limit"), |surface| format!("{surface:?}"));
+    format!(
+        "the jump of {surface} and its inverse do not fit at time {time}: from {from:?} to {to:?} and back to {back:?}; correct the \
+         inverse, or the mode to which the jump leads"
+    )
 }
 
 /// Mode and state before a jump, from the state after it.
@@ -123,8 +153,27 @@ impl<'a, T: HybridSystem> Backward<'a, T> {
         Some((self.inverses.iter().find(is_it)?.undo)(state))
     }
 
+    /// True if a jump leads from a mode and a state to another mode and state.
+    fn brings_back(
+        &self,
+        (mode, surface, before): (T::Mode, T::Surface, &T::State),
+        (after, state): (T::Mode, &T::State),
+    ) -> bool {
+        let (Reset::Jump { mode, state: found } | Reset::Resize { mode, state: found }) =
+            self.system.reset(mode, surface, before)
+        else {
+            return false;
+        };
+        mode == after && is_back(&found, state)
+    }
+
     /// The rate of a guard along the field of its mode, positive in its direction; `None` for one that counts both ways.
-    fn direction(&self, mode: T::Mode, surface: T::Surface, state: &T::State) -> Option<f64> {
+    fn rate_in_direction(
+        &self,
+        mode: T::Mode,
+        surface: T::Surface,
+        state: &T::State,
+    ) -> Option<f64> {
         let mut guards = self.system.guards(mode).iter();
         let sign = match guards.find(|guard| guard.surface == surface)?.direction {
             Direction::Rising => 1.0,
@@ -221,8 +270,15 @@ impl<T: HybridSystem> HybridSystem for Backward<'_, T> {
     ) -> Reset<T::Mode, T::State> {
         match surface {
             BackwardSurface::Undone { surface, after } => {
-                let before = self.before(surface, after, state);
-                before.map_or(Reset::Stop, |(mode, state)| Reset::Jump { mode, state })
+                let Some((mode, before)) = self.before(surface, after, state) else {
+                    return Reset::Stop;
+                };
+                // Without a finite state the run ends in `reset_error`.
+                let before = match self.brings_back((mode, surface, &before), (after, state)) {
+                    true => before,
+                    false => before.filled(|_| f64::NAN),
+                };
+                Reset::Jump { mode, state: before }
             }
             // An observer changes nothing.
             BackwardSurface::Model(surface) => match self.system.reset(mode, surface, state) {
@@ -234,6 +290,23 @@ impl<T: HybridSystem> HybridSystem for Backward<'_, T> {
         }
     }
 
+    fn reset_error(
+        &self,
+        _: T::Mode,
+        surface: Option<Self::Surface>,
+        state: &T::State,
+        time: f64,
+    ) -> Option<Error> {
+        let Some(BackwardSurface::Undone { surface, after }) = surface else { return None };
+        let (mode, before) = self.before(surface, after, state)?;
+        let found = match self.system.reset(mode, surface, &before) {
+            Reset::Jump { state, .. } | Reset::Resize { state, .. } => state,
+            Reset::Stop => before.filled(|_| f64::NAN),
+        };
+        let reason = wrong_inverse(Some(surface), time, [state, &before, &found]);
+        Some(Error::Model { reason })
+    }
+
     /// That of the event forward, at the state before it: it has its own condition, and the direction of its guard.
     fn condition(&self, mode: T::Mode, surface: Self::Surface, state: &T::State) -> Option<f64> {
         match surface {
@@ -241,7 +314,7 @@ impl<T: HybridSystem> HybridSystem for Backward<'_, T> {
             BackwardSurface::Undone { surface, after } => {
                 let (mode, before) = self.before(surface, after, state)?;
                 let own = self.system.condition(mode, surface, &before);
-                let both = own.into_iter().chain(self.direction(mode, surface, &before));
+                let both = own.into_iter().chain(self.rate_in_direction(mode, surface, &before));
                 both.reduce(f64::min)
             }
         }

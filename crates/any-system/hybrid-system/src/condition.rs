@@ -69,8 +69,8 @@ impl<T: HybridSystem> Execution<'_, T> {
             }
         };
         let error = stated_or_measured(None, state, &of) + by_time;
-        // NaN decides nothing.
-        if value.abs() > error {
+        // A zero without any error is not positive. NaN decides nothing.
+        if value.abs() > error || value == 0.0 && error == 0.0 {
             return Ok(value > 0.0);
         }
         let (surface, time) = (format!("{surface:?}"), self.at.time.value() + crossing.time);

@@ -62,8 +62,8 @@ pub enum Role {
     /// takes off below the height of its touchdown. States on both sides can flow: a start on the surface or beyond
     /// it is no event.
     Crossing,
-    /// The surface to which jumps lead, of a run backward ([`Equations::reversed`](crate::Equations::reversed)): as a crossing, and an
-    /// initial state on the surface is an event at once, too. The event undoes a jump.
+    /// The surface to which jumps lead, of a run backward ([`Equations::reversed`](crate::Equations::reversed)): as a crossing, and a
+    /// start on the surface is an event at once, too. The event undoes a jump.
     Undone,
     /// The events happen at preset times, see [`HybridSystem::next_time`](crate::HybridSystem::next_time). The
     /// value of the guard is not used.

@@ -222,6 +222,7 @@ pub mod sliding_motion {}
 pub mod stiff {}
 
 #[cfg_attr(feature = "ode", doc = include_str!("../docs/legged.md"))]
+#[cfg_attr(not(feature = "ode"), doc = "Models of legs, with the feature `ode`.")]
 pub mod legged_models {}
 
 #[doc = include_str!("../docs/guide.md")]

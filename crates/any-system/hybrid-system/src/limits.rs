@@ -2,6 +2,10 @@
 
 use crate::crossing::MOST_INTERVALS;
 
+/// The limit on the number of events of a run that states none: far above what a user looks at event by event, and a run ends
+/// within seconds. [`Execution::new`](crate::Execution::new) takes any other limit.
+pub(crate) const MOST_EVENTS: usize = 1_000_000;
+
 /// Limits of an execution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {

@@ -101,8 +101,16 @@ impl<T: HybridSystem> Execution<'_, T> {
         let Point { ref arrival, ref residues, initial, .. } = self.at;
         let mut leaving = LeavingGuards::new();
         let times = (horizon, self.limits.sampling_interval);
-        let start =
-            start_of_arc(&self.flow(), arrival.as_ref(), residues, initial, times, &mut leaving);
+        let had = &|surface| self.at.chain.contains(surface);
+        let start = start_of_arc(
+            &self.flow(),
+            arrival.as_ref(),
+            residues,
+            initial,
+            times,
+            had,
+            &mut leaving,
+        );
         (start, leaving)
     }
 

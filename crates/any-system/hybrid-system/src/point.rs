@@ -17,9 +17,9 @@ pub(crate) struct Point<M, S, X> {
     /// Number of events so far, j.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::count::read_count"))]
     pub(crate) jump: usize,
-    /// False after the first arc.
+    /// True as long as no arc has ended.
     pub(crate) initial: bool,
-    /// True as long as the time is that of the start.
+    /// True as long as the time is that of the start. Older files do not say so: their clocks have had their ticks.
     #[cfg_attr(feature = "serde", serde(default))]
     pub(crate) at_start: bool,
     pub(crate) history: History<S, X>,

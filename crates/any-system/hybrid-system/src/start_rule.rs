@@ -12,7 +12,8 @@
 //! | beyond the surface, at the initial state | an error | an error | no event |
 //! | on the side of the flow | no event | no event | no event |
 //!
-//! A surface at which jumps are undone is a crossing, and an initial state on it is an event at once.
+//! A surface at which jumps are undone is a crossing. A start on it is an event at once: at the initial state, and after the event of
+//! another surface.
 //!
 //! A switch whose surface both fields point at is no error: the state slides.
 //!
@@ -71,7 +72,7 @@ pub(crate) struct Undeclared {
 /// The start of an arc: an event at once, or a flow. `leaving` becomes the list of the guards on whose surfaces it
 /// starts.
 ///
-/// `arrival` is the crossing before the arc, at the same instant, and `residues` are the values of guards at events
+/// `had_its_event` tells of a surface whether it had an event at this instant. `arrival` is the crossing before the arc, at the same instant, and `residues` are the values of guards at events
 /// from which the state has not gone away yet. `initial` is true at the start of an execution. The search goes up
 /// to a horizon, with samples at an interval, if there is one.
 ///
@@ -84,6 +85,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
     residues: &Residues<T::Surface>,
     initial: bool,
     (horizon, interval): (f64, Option<f64>),
+    had_its_event: &dyn Fn(T::Surface) -> bool,
     leaving: &mut LeavingGuards<T::Surface>,
 ) -> Result<ArcStart<T::Surface>, Error> {
     leaving.clear();
@@ -137,7 +139,10 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             .map_or(0.0, |arrival| arrival.error_after(flow, surface));
         let error = rounding + by_time.max(residue);
         let on_surface = now.abs() <= error;
-        if initial && on_surface && role == Role::Undone {
+        // A state on it has come by the jump: the initial one, or one to which another jump has been undone. The start is
+        // known to be on the surface as far as its rounding tells.
+        let comes_by_jump = role == Role::Undone && continued.is_none() && !had_its_event(surface);
+        if on_surface && comes_by_jump && (initial || arrival.is_some()) {
             let (certainty, errors) = (Certainty::Certain, (0.0, 0.0));
             return Ok(ArcStart::Event { surface, certainty, errors, undeclared: None });
         }

@@ -145,3 +145,65 @@ fn what_has_no_motion_backward_is_an_error() {
     let forward = Backward::new(&wall, TIGHT).run((), [3.0], (0.0, 2.0)).fate();
     assert!(matches!(forward.end, End::Failed(Error::BadLimit { .. })), "{forward:?}");
 }
+
+/// An inverse that does not fit is an error, and so is one of a jump to another mode.
+#[test]
+fn a_wrong_inverse_is_an_error() {
+    let ball = Model::integrated(|(), x: &State<2>| [x[1], -1.0]).falling(
+        (),
+        |x| x[0],
+        |x| ((), [x[0], -0.5 * x[1]]),
+    );
+    let wrong = Backward::new(&ball, TIGHT).inverse(0, (), |x| ((), [x[0], -1.9 * x[1]].into()));
+    let fate = wrong.run((), [0.1, 0.3], (1.5, 0.0)).fate();
+    let End::Failed(error) = fate.end else { panic!("{fate:?}") };
+    assert!(error.to_string().contains("correct the inverse"), "{error}");
+    let equations = Equations::new(&["height", "speed"], &[])
+        .mode_text("flight", &["speed", "-1"])
+        .falling_text("floor", "height")
+        .resets_text(&["height", "-0.5*speed"])
+        .inverse_text(&["height", "-1.9*speed"]);
+    for (equations, time) in [(equations.clone(), 9.0), (equations.reversed().unwrap(), 9.0)] {
+        let model = equations.model::<State<2>>().unwrap();
+        let fate = model.start("flight", [0.5, 0.3], time).unwrap().fate();
+        let End::Failed(error) = fate.end else { panic!("{fate:?}") };
+        assert!(error.to_string().contains("correct the inverse"), "{error}");
+    }
+}
+
+/// Three equal balls on a line, the second and the third in touch: two jumps at one instant, which are undone at one instant.
+#[test]
+fn jumps_at_one_instant_are_undone_together() {
+    let exchange = |a: usize, b: usize| {
+        move |x: &State<6>| {
+            let mut after = *x;
+            after.swap_rows(3 + a, 3 + b);
+            ((), after)
+        }
+    };
+    let balls = Model::integrated(|(), x: &State<6>| [x[3], x[4], x[5], 0.0, 0.0, 0.0])
+        .guard((), Guard::falling(0).contact(), |x| x[1] - x[0], exchange(0, 1))
+        .guard((), Guard::falling(1).contact(), |x| x[2] - x[1], exchange(1, 2));
+    let start = [1.0, 2.0, 2.0, 1.0, 0.0, 0.0];
+    let end = balls.run((), start, 3.0).fate();
+    assert_eq!((end.events, end.state[5]), (2, 1.0), "{end:?}");
+    let back =
+        Backward::new(&balls, TIGHT).inverse(0, (), exchange(0, 1)).inverse(1, (), exchange(1, 2));
+    let first = back.run((), end.state, (3.0, 0.0)).fate();
+    assert_eq!(first.events, 2, "{first:?}");
+    assert!((first.state - State::from(start)).norm() < 1e-10, "{first:?}");
+}
+
+/// A jump into a mode is known by its inverse alone: without it the room has always been cooling.
+#[test]
+fn a_jump_from_another_mode_is_known_by_its_inverse() {
+    let room = Model::integrated(|on: bool, x: &State<1>| [if on { 30.0 } else { 10.0 } - x[0]])
+        .guard(true, Guard::rising("warm"), |x| x[0] - 21.0, |x| (false, *x))
+        .guard(false, Guard::falling("cold"), |x| x[0] - 19.0, |x| (true, *x));
+    let alone = Backward::new(&room, TIGHT).run(false, [20.5], (0.0, -1.0)).fate();
+    assert_eq!((alone.mode, alone.events), (false, 0));
+    assert!((alone.state[0] - (10.0 + 10.5 * 1f64.exp())).abs() < 1e-9);
+    let known = Backward::new(&room, TIGHT).inverse("warm", false, |x| (true, *x));
+    let fate = known.run(false, [20.5], (0.0, -0.1)).fate();
+    assert_eq!((fate.mode, fate.events), (true, 1));
+}

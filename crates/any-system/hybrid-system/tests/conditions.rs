@@ -221,3 +221,73 @@ fn events_that_do_not_count_have_a_budget() {
     let arc = run.go_on(limits).next().unwrap().unwrap();
     assert_eq!((arc.time, arc.duration), (100.0, 100.0));
 }
+
+/// Of several conditions all must hold, for closures and for equations.
+#[test]
+fn all_conditions_must_hold() {
+    let times = |run: Vec<f64>| run;
+    let closures = Model::integrated_in_time(|(), _, x: &State<2>| [0.0 * x[0]])
+        .observer(Guard::rising("zero"), |t, _| pxfm::f_sin(t))
+        .only_where("zero", |t, _| t - 7.0)
+        .only_where("zero", |t, _| 20.0 - t);
+    let found = closures.run((), [1.0], 40.0).filter_map(|arc| Some(arc.unwrap().event()?.time));
+    let found = times(found.collect());
+    let equations = Equations::new(&["x"], &[])
+        .mode_text("m", &["0*x"])
+        .rising_text("zero", "sin(t)")
+        .only_where_text("t - 7")
+        .only_where_text("20 - t")
+        .model::<State<2>>()
+        .unwrap();
+    let run = equations.start("m", [1.0], 40.0).unwrap();
+    let exact = times(run.filter_map(|arc| Some(arc.unwrap().event()?.time)).collect());
+    assert_eq!((found.len(), exact.len()), (2, 2));
+    for k in 0..2 {
+        let time = (4 + 2 * k) as f64 * std::f64::consts::PI;
+        assert!((found[k] - time).abs() < 1e-9 && (exact[k] - time).abs() < 1e-12);
+    }
+}
+
+/// A reset that depends on the direction: two crossings of one surface, each with its own.
+#[test]
+fn a_reset_of_its_own_for_each_direction() {
+    let model = Model::integrated(|(), x: &State<2>| [x[1], -x[0]])
+        .rising((), |x| x[0], |x| ((), [x[0], 0.5 * x[1]]))
+        .crossing()
+        .falling((), |x| x[0], |x| ((), [x[0], 3.0 * x[1]]))
+        .crossing();
+    let arcs: Vec<_> = model.run((), [1.0, 0.0], 8.0).map(Result::unwrap).collect();
+    let events: Vec<_> = arcs.iter().filter_map(Arc::event).collect();
+    assert_eq!(events.iter().map(|event| event.surface).collect::<Vec<_>>(), [1, 0, 1]);
+    let directions = events.iter().map(|event| event.direction.unwrap());
+    assert_eq!(
+        directions.collect::<Vec<_>>(),
+        [Direction::Falling, Direction::Rising, Direction::Falling]
+    );
+    let speeds = events.iter().map(|event| event.after.unwrap().1[1]);
+    for (speed, exact) in speeds.zip([-3.0, 1.5, -4.5]) {
+        assert!((speed - exact).abs() < 1e-8);
+    }
+}
+
+/// A tick a fixed time after the last event: a component that falls at the rate 1 and is set by the event.
+#[test]
+fn a_time_after_the_last_event() {
+    // Each impact is followed by a flash 0.3 later, unless another one comes before.
+    let model = Equations::new(&["height", "speed", "left"], &[])
+        .mode_text("m", &["speed", "-1", "-1"])
+        .falling_text("floor", "height")
+        .resets_text(&["height", "-0.5*speed", "0.3"])
+        .falling_text("flash", "left")
+        .model::<State<3>>()
+        .unwrap();
+    let run = model.start("m", [0.5, 0.0, 9.0], 2.4).unwrap();
+    let events = run.filter_map(|arc| {
+        let event = *arc.unwrap().event()?;
+        Some((event.surface.to_string(), event.time))
+    });
+    let expected = [("floor", 1.0), ("flash", 1.3), ("floor", 2.0), ("flash", 2.3)];
+    for ((surface, time), (name, exact)) in events.zip(expected) {
+        assert!(surface == name && (time - exact).abs() < 1e-13, "{surface} {time}");
+    }
+}

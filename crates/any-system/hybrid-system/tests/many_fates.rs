@@ -133,3 +133,21 @@ fn many_fates_can_be_stopped() {
     assert!((3..1000).contains(&finished.len()) && seen.into_inner() == finished.len());
     assert!(swing.fates(0, run, |_| Continue(())).is_empty());
 }
+
+/// An execution of a model with other parameters has its own fate.
+#[test]
+fn runs_of_other_models_have_their_own_fates() {
+    let of = |stop: &str| {
+        Equations::new(&["x", "v"], &[("stop", stop)])
+            .mode_text("m", &["v", "-sin(x)"])
+            .rising_text("wall", "x - stop")
+            .resets_text(&["x", "-v/2"])
+            .model::<State<2>>()
+            .unwrap()
+    };
+    let models = [of("0.5"), of("0.7")];
+    let run = |k: usize| models[k % 2].start("m", [0.1 * k as f64 - 1.0, 0.0], 9.0);
+    for (k, fate) in models[0].fates(12, run, |_| Continue(())).into_iter().enumerate() {
+        assert_eq!(bits(&fate.unwrap().unwrap()), bits(&run(k).unwrap().fate()), "{k}");
+    }
+}

@@ -16,7 +16,7 @@ impl Equations {
     /// the flow goes on as if there were no guard. The guard becomes a [crossing](Self::crossing).
     ///
     /// An event at which the sign of h is lost in rounding is [`ConditionError::Undecided`](crate::ConditionError::Undecided). So is one
-    /// at which h has no value. A guard that is declared a contact or a switch later is an error.
+    /// at which h has no value. A guard that is declared a contact or a switch later is an error. Of several conditions all must hold.
     ///
     /// ```
     /// use hybrid_system::{Equations, State};
@@ -55,7 +55,22 @@ impl Equations {
         condition: impl FnOnce(Names) -> Result<Formulas, equations::Error>,
     ) -> Self {
         self.take(condition, |known, condition| {
-            known.with_last(|guard| guard.condition = Some(condition)).crossing()
+            let mut wrong = None;
+            let known = known.with_last(|guard| {
+                // All conditions must hold.
+                let all = match &guard.condition {
+                    Some(own) => own.minimum(&condition),
+                    None => Ok(condition),
+                };
+                match all {
+                    Ok(all) => guard.condition = Some(all),
+                    Err(error) => wrong = Some(error),
+                }
+            });
+            match wrong {
+                Some(error) => known.refused(error),
+                None => known.crossing(),
+            }
         })
     }
 
@@ -97,7 +112,7 @@ impl Equations {
     }
 
     /// The state before the event of the last guard, from the state after it: the inverse of its [`resets`](Self::resets), for
-    /// [`reversed`](Self::reversed). It is not compared with `resets`: a wrong inverse gives a wrong past. Runs forward do not use it.
+    /// [`reversed`](Self::reversed). At each event it is compared with `resets`: an error if they do not fit.
     #[must_use]
     pub fn inverse<const N: usize>(
         self,

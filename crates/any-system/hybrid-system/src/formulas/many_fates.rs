@@ -27,7 +27,8 @@ type Ended<X> = Result<FateOf<EquationsModel<X>>, Error>;
 
 impl<X: StateVector + Send + Sync> EquationsModel<X> {
     /// The [fates](Execution::fate) of many runs, as [`many`](crate::many) gives them, with the same bits and in less time: their
-    /// motions are followed side by side, eight in a vector. `run` makes the execution with a number.
+    /// motions are followed side by side, eight in a vector. `run` makes the execution with a
+    /// number, of this model. One of another model, for example with other parameters, has its own fate too, without the gain.
     ///
     /// `progress` receives the number of runs that have finished. If it breaks, the runs that are followed at that time are
     /// finished, up to 64 on each processor; the others are `None`.
@@ -137,7 +138,10 @@ impl<'m, X: StateVector, N: Fn()> Block<'m, X, N> {
     /// Brings a run to the next arc that is followed in a lane, or to its end.
     fn sort(&mut self, mut run: Followed<'m, X>) {
         loop {
-            if let Some((mode, horizon)) = arc_in_a_lane(self.programs(), &run.execution) {
+            // An execution of another model is followed alone.
+            if std::ptr::eq(run.execution.system, self.model)
+                && let Some((mode, horizon)) = arc_in_a_lane(self.programs(), &run.execution)
+            {
                 run.horizon = horizon;
                 self.waiting[mode].push(run);
                 return;
@@ -224,6 +228,8 @@ fn arc_in_a_lane<X: StateVector>(
     (is_integrated && goes_on).then_some((mode, horizon))
 }
 
+/// The formulas are watched in the order of the mode's guards without its clocks, whose `directions` these are.
+///
 /// Whether a guard has another sign at the end of a step, in its direction. This only chooses when events are searched: the
 /// search itself looks at every step.
 fn may_end_in(step: &Step, directions: &[Direction]) -> bool {

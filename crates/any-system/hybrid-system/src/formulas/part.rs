@@ -3,6 +3,7 @@
 use super::equations::Jump;
 use super::label::Label;
 use super::programs::{GuardProgram, Programs};
+use crate::backward::{is_back, wrong_inverse};
 use crate::crossing::QuasiPolynomial;
 use crate::error::Error;
 use crate::model::ModelPart;
@@ -117,7 +118,15 @@ impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
         let guard = self.0.mode(mode)?.of_surface(surface)?;
         Some(guard.jump.as_ref().map_or(Reset::Stop, |jump| {
             let (mode, state) = after(jump, mode, before);
-            Reset::Jump { mode, state }
+            // Without a finite state the run ends in `reset_error`.
+            match jump
+                .inverse
+                .as_ref()
+                .is_none_or(|inverse| is_back(&vector(inverse, &state), before))
+            {
+                true => Reset::Jump { mode, state },
+                false => Reset::Jump { mode, state: before.filled(|_| f64::NAN) },
+            }
         }))
     }
 
@@ -139,7 +148,14 @@ impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
             Some(surface) => mode.of_surface(surface)?.jump.as_ref()?,
             None => mode.after_limit.as_ref()?,
         };
-        Some(jump.state.as_ref()?.values(0.0, before.components()).err()?.later(time).into())
+        let state = jump.state.as_ref()?;
+        if let Err(error) = state.values(0.0, before.components()) {
+            return Some(error.later(time).into());
+        }
+        let (after, inverse) = (vector(state, before), jump.inverse.as_ref()?);
+        let back = vector(inverse, &after);
+        let reason = wrong_inverse(surface, time, [before, &after, &back]);
+        (!is_back(&back, before)).then_some(Error::Model { reason })
     }
 
     fn next_time(&self, mode: Label, surface: Label, after: f64) -> Option<Option<f64>> {

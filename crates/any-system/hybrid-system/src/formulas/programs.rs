@@ -156,12 +156,13 @@ impl Programs {
 
 impl Jump {
     fn uses_time(&self) -> bool {
-        self.state.as_ref().is_some_and(Formulas::uses_time)
+        [&self.state, &self.inverse].into_iter().flatten().any(Formulas::uses_time)
     }
 
     fn program(&self, uses_time: bool) -> Jump {
-        let state = self.state.as_ref().map(|state| with_time(state, uses_time, Node::Time));
-        Jump { mode: self.mode, state, inverse: None }
+        let timed = |state: &Formulas| with_time(state, uses_time, Node::Time);
+        let (state, inverse) = (self.state.as_ref().map(timed), self.inverse.as_ref().map(timed));
+        Jump { mode: self.mode, state, inverse }
     }
 }
 

@@ -41,7 +41,8 @@ impl Equations {
     ///
     /// # Errors
     /// As [`check`](Self::check); [`Error::BadEquations`] for a jump without an inverse, for a periodic clock, and for two jumps of
-    /// one surface that lead to the same mode, as those of all modes do if they lead to one.
+    /// one surface that lead to the same mode, as those of all modes do if they lead to one; [`Error::Formula`] for a guard with a kink,
+    /// whose rate says in which direction it goes.
     pub fn reversed(&self) -> Result<Equations, Error> {
         self.check()?;
         let back = Formulas::of_vector(self.names.clone(), |t, x, _| {
@@ -53,17 +54,23 @@ impl Equations {
             let (guards, after_limit) = (Vec::new(), None);
             reversed.modes.push(ModeEquations { name: mode.name, field, guards, after_limit });
         }
-        // Those that lead to a mode first: they are its past.
-        for leads in [true, false] {
-            for mode in &self.modes {
-                for guard in self.everywhere.iter().chain(&mode.guards) {
-                    let changes = guard.jump.as_ref().is_some_and(|jump| *jump != Jump::default());
-                    if changes == leads {
-                        reversed.add_reversed(&back, mode, guard)?;
-                    } else if changes {
-                        reversed.add_end(&back, mode.name, guard)?;
-                    }
-                }
+        let guards = || {
+            let of = |mode| move |guard| (mode, guard);
+            let modes = self.modes.iter();
+            modes.flat_map(move |mode| self.everywhere.iter().chain(&mode.guards).map(of(mode)))
+        };
+        let changes = |guard: &GuardEquations| {
+            guard.jump.as_ref().is_some_and(|jump| *jump != Jump::default())
+        };
+        // First the jumps, in the modes to which they lead: they are its past.
+        for (mode, guard) in guards().filter(|(_, guard)| changes(guard)) {
+            reversed.add_reversed(&back, mode, guard)?;
+        }
+        // Then the observers and the stops, and the ends of the past where a jump leaves a mode.
+        for (mode, guard) in guards() {
+            match changes(guard) {
+                true => reversed.add_end(&back, mode.name, guard)?,
+                false => reversed.add_reversed(&back, mode, guard)?,
             }
         }
         Ok(reversed)
@@ -102,9 +109,9 @@ impl Equations {
         }
         match self.push_guard(to, guard.clone()) {
             true => Ok(()),
-            false => {
-                guard.bad("two jumps of this name lead to one mode: give them names of their own")
-            }
+            false => guard.bad(
+                "two guards of this name are in one mode backward: give them names of their own",
+            ),
         }
     }
 
@@ -182,7 +189,6 @@ impl GuardEquations {
         if !self.listed {
             return self.bad("a periodic clock has no last tick, at which it would begin backward");
         }
-        let negative = self.function.negative();
-        Ok(negative.reordered((0..negative.count()).rev()))
+        Ok(self.function.negative().turned_round())
     }
 }

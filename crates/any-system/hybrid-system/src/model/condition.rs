@@ -34,7 +34,8 @@ where
     S: Copy + Eq + Debug,
 {
     /// Lets the events of this surface count only where h(x), at the state before the event, is positive. Where it is
-    /// negative the flow goes on as if there were no guard. The guard becomes a [crossing](crate::Guard::crossing).
+    /// negative the flow goes on as if there were no guard. The guard becomes a [crossing](crate::Guard::crossing). The condition
+    /// holds in all modes that have this surface. Of several conditions all must hold.
     ///
     /// An event at which the sign of h is lost in rounding is [`ConditionError::Undecided`](crate::ConditionError::Undecided). So is one
     /// at which h has no value. A guard that is declared a contact or a switch later is an error.

@@ -9,8 +9,9 @@ use super::motion::{ClosedForm, Motion};
 use super::part::ModelPart;
 use crate::crossing::QuasiPolynomial;
 use crate::execution::Execution;
+#[cfg(feature = "ode")]
 use crate::guard::Guard;
-use crate::limits::Limits;
+use crate::limits::{Limits, MOST_EVENTS};
 #[cfg(feature = "ode")]
 use crate::ode::Tolerances;
 use crate::sliding::Sliding;
@@ -61,11 +62,12 @@ use std::marker::PhantomData;
 /// | method | part of the model |
 /// |---|---|
 /// | [`closed_form`](Self::closed_form), `integrated` | the motion |
-/// | [`closed_form_in_time`](Self::closed_form_in_time), `integrated_in_time` | a motion that depends on the time: all closures take `\|t, x\|` |
+/// | [`closed_form_in_time`](Self::closed_form_in_time), `integrated_in_time` | a motion that depends on the time: guards, conditions, resets and rests take `\|t, x\|` |
 /// | [`rising`](Self::rising), [`falling`](Self::falling), [`either`](Self::either) | a guard of one mode, with a number |
 /// | [`contact`](Self::contact), [`crossing`](Self::crossing) | what a state beyond the surface of the last guard means |
 /// | [`guard`](Self::guard), [`guard_everywhere`](Self::guard_everywhere) | a guard with a name, of one mode or of all |
 /// | [`terminal`](Self::terminal), [`observer`](Self::observer) | a guard that ends the execution, or only watches |
+/// | [`only_where`](Self::only_where) | a condition: an event counts only in some states |
 /// | [`clock`](Self::clock), [`clock_everywhere`](Self::clock_everywhere) | events at preset times |
 /// | [`signal`](Self::signal), [`enclosure`](Self::enclosure) | bounds on a guard: its crossings are certain |
 /// | [`field`](Self::field) | the field of a flow in closed form, for sliding points and derivatives |
@@ -97,10 +99,6 @@ pub struct Model<M, S, X, F, P = (), C = Autonomous> {
 /// How the closures of a [`Model`] are called: without the time, which they do not depend on.
 #[derive(Debug, Clone, Copy)]
 pub enum Autonomous {}
-
-/// The limit on the number of events of [`Model::run`]: far above what a user looks at event by event, and a run ends
-/// within seconds. [`Execution::new`] takes any other limit.
-const MOST_EVENTS: usize = 1_000_000;
 
 impl<M: Copy + Eq, S: Copy + Eq + Debug, X, F, C> Model<M, S, X, F, (), C> {
     pub(super) fn new(motion: F) -> Self {

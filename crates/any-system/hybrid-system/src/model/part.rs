@@ -7,6 +7,11 @@ use crate::sliding::Sliding;
 use crate::system::Reset;
 use interval_arithmetic::Enclosure;
 
+/// The smaller one; NaN if one is NaN, which decides nothing.
+fn smaller(first: f64, second: f64) -> f64 {
+    if first < second || first.is_nan() { first } else { second }
+}
+
 /// Writes the methods of a part: by default each is `None`, and a pair asks its first part first.
 macro_rules! methods {
     ($($(#[$about:meta])* fn $name:ident($($argument:ident: $kind:ty),*) -> $answer:ty;)*) => {
@@ -19,6 +24,12 @@ macro_rules! methods {
                 let _ = ($($argument,)*);
                 None
             })*
+            /// Where an event counts: at the states at which this is positive. Of several conditions all must hold.
+            #[inline]
+            fn condition(&self, mode: M, surface: S, before: &X) -> Option<f64> {
+                let _ = (mode, surface, before);
+                None
+            }
             /// A value of a guard function of this surface, if it differs from `value`. Two NaN count as equal: the
             /// search reports them.
             fn other_value(&self, surface: S, state: &X, value: f64) -> Option<f64> {
@@ -38,6 +49,15 @@ macro_rules! methods {
             fn $name(&self, $($argument: $kind),*) -> Option<$answer> {
                 self.0.$name($($argument),*).or_else(|| self.1.$name($($argument),*))
             })*
+            #[inline]
+            fn condition(&self, mode: M, surface: S, before: &X) -> Option<f64> {
+                let [first, second] =
+                    [self.0.condition(mode, surface, before), self.1.condition(mode, surface, before)];
+                match (first, second) {
+                    (Some(first), Some(second)) => Some(smaller(first, second)),
+                    (one, other) => one.or(other),
+                }
+            }
             fn other_value(&self, surface: S, state: &X, value: f64) -> Option<f64> {
                 let first = self.0.other_value(surface, state, value);
                 first.or_else(|| self.1.other_value(surface, state, value))
@@ -59,8 +79,6 @@ methods! {
     fn unknown_surface(known: &dyn Fn(S) -> bool) -> S;
     /// Mode and state after an event.
     fn reset(mode: M, surface: S, before: &X) -> Reset<M, X>;
-    /// Where an event counts: at the states at which this is positive.
-    fn condition(mode: M, surface: S, before: &X) -> f64;
     /// Why the state after an event, or a Zeno limit, is not finite.
     fn reset_error(mode: M, surface: Option<S>, before: &X, time: f64) -> Error;
     /// The next preset time. The outer `None` means that the surface belongs to another part.

@@ -5,8 +5,8 @@ use crate::system::Reset;
 use nalgebra::DVector;
 
 /// A vector without the time: an array, a [`State<N>`](State), a `Vec` or a `DVector`. It is what the closures of a model with the
-/// time return. A state with the time will do too: its last component is replaced. An array of another length does not
-/// compile.
+/// time return. An array of another length than the state has without its time does not compile. What a closure returns may be a state
+/// with the time, too, such as its own argument: its last component is replaced.
 pub trait Untimed<X> {
     /// The vector with `time` as its last component. `dimension` is the number of components with it, if that is known.
     #[doc(hidden)]
@@ -15,15 +15,15 @@ pub trait Untimed<X> {
 
 impl<const M: usize, const N: usize> Untimed<State<N>> for [f64; M] {
     fn with_time(self, _: Option<usize>, time: f64) -> State<N> {
-        const { assert!(M == N || M + 1 == N, "the state has one component more: the time") };
+        const { assert!(M + 1 == N, "the state has one component more: the time") };
         State::from_fn(|axis, _| if axis + 1 < N { self[axis] } else { time })
     }
 }
 
 impl<const M: usize, const N: usize> Untimed<State<N>> for State<M> {
-    fn with_time(self, dimension: Option<usize>, time: f64) -> State<N> {
-        let [components] = self.data.0;
-        components.with_time(dimension, time)
+    fn with_time(self, _: Option<usize>, time: f64) -> State<N> {
+        const { assert!(M == N || M + 1 == N, "the state has one component more: the time") };
+        State::from_fn(|axis, _| if axis + 1 < N { self[axis] } else { time })
     }
 }
 

@@ -1,4 +1,4 @@
-//! The first steps of an arc that are known before its events are searched.
+//! The first steps of an arc that are known before its events are searched: `many_fates` writes them.
 
 use equations::Step;
 
@@ -12,7 +12,8 @@ pub(crate) struct Ahead {
 }
 
 impl Ahead {
-    /// The steps of a search up to this time, from the start of the arc on.
+    /// The steps of a search up to this time, from the start of the arc on. A step may end at the horizon: one to another horizon would
+    /// be another one.
     pub(crate) fn steps(&self, horizon: f64) -> &[Step] {
         let count = if horizon == self.horizon { self.count } else { 0 };
         &self.steps[..count]

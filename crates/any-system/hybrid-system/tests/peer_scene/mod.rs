@@ -180,6 +180,25 @@ fn run_backward(end: f64, searched: Searched, guards: Vec<Watched>) -> Vec<(usiz
     arcs.filter_map(|arc| arc.event().map(|event| (event.surface, event.time))).collect()
 }
 
+/// The events of a scene that only watches, from its end back to its start, with the times forward.
+fn run_back(end: f64, tolerance: f64, guards: Vec<Watched>) -> Vec<(usize, f64)> {
+    let scene = scene(Searched::Integrated(tolerance), guards);
+    let last = scene.flow((), &X::zeros(), end);
+    let back = Backward::new(&scene, Tolerances::both(tolerance));
+    let run = back.run((), last, (end, 0.0));
+    // A guard that is zero at the start comes back to it, and stays: an error at the end.
+    let goes_on = |arc: &Result<_, Error>| !matches!(arc, Err(Error::Grazing { .. }));
+    let arcs = run.take_while(goes_on).map(|arc| arc.unwrap_or_else(|error| panic!("{error}")));
+    let events = arcs.filter_map(|arc| {
+        let event = *arc.event()?;
+        let BackwardSurface::Model(surface) = event.surface else { panic!("{event:?}") };
+        Some((surface, -event.time))
+    });
+    let mut events: Vec<_> = events.collect();
+    events.reverse();
+    events
+}
+
 /// The events up to `end` from a start at time 0: surfaces and times, with the last state and the reason of the end.
 pub(crate) fn run(
     start: [f64; 4],
@@ -231,8 +250,22 @@ pub(crate) fn assert_events(found: &[(usize, f64)], expected: &[(usize, f64)], s
 #[track_caller]
 pub(crate) fn expect(end: f64, guards: impl Fn() -> Vec<Watched>, expected: &[(usize, f64)]) {
     for searched in SEARCHES {
-        let (found, ..) = run([0.0; 4], end, searched, guards());
+        let (found, last, stop) = run([0.0; 4], end, searched, guards());
         assert_events(&found, expected, searched);
+        // A scene that only watches comes back through the same events.
+        let passed = scene(searched, guards()).flow((), &X::zeros(), end);
+        if let (Searched::Integrated(tolerance), Some(Stop::TimeLimit)) = (searched, stop)
+            && (last - passed).norm() < 1e-9
+        {
+            let sorted = |events: &[(usize, f64)]| {
+                let mut events: Vec<_> =
+                    events.iter().map(|(surface, time)| ((time * 1e9).round(), *surface)).collect();
+                events.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+                events
+            };
+            let back = run_back(end, tolerance, guards());
+            assert_eq!(sorted(&back), sorted(expected), "{tolerance}");
+        }
         assert_events(&run_backward(end, searched, guards()), expected, searched);
     }
 }
