@@ -24,6 +24,29 @@ pub enum Error {
     /// The execution failed.
     #[error("the execution failed: {0}")]
     Execution(#[from] hybrid_system::Error),
+    /// A formula that is refused, or has no value.
+    #[error(transparent)]
+    Formula(#[from] equations::Error),
+    /// A map gives no finite image.
+    #[error("the map has no finite image at {point:?} and the parameter {parameter}")]
+    NoImage {
+        /// The point.
+        point: Vec<f64>,
+        /// The parameter.
+        parameter: f64,
+    },
+    /// The map has another piece, or none, next to a point, so that its derivatives by differences are unknown.
+    #[error(
+        "no derivatives at {point:?} and the parameter {parameter}: the map is not smooth within {distance} of the point, on its scale"
+    )]
+    Differences {
+        /// The point.
+        point: Vec<f64>,
+        /// The parameter.
+        parameter: f64,
+        /// The smallest distance that was tried.
+        distance: f64,
+    },
     /// A window that is empty or not finite, or a number of samples that is too small or too large.
     #[error(
         "cannot search [{left}, {right}] with {samples} samples: the ends must be finite, the left one smaller, and \
@@ -47,6 +70,14 @@ pub enum Error {
         residual: f64,
         /// Newton steps taken.
         steps: usize,
+    },
+    /// A window, a step or a start from which no branch can be followed.
+    #[error("no branch can be followed: {what} cannot be {value}")]
+    BadBranch {
+        /// What is wrong.
+        what: &'static str,
+        /// Its value.
+        value: f64,
     },
     /// A period that is too long for a search.
     #[error("cannot search a point of period {period}: the period must be at most {most}")]

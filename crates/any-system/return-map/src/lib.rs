@@ -66,14 +66,23 @@
 //! - Monotone branches and jumps of scalar maps: `basin_of_attraction::monotone_branches` takes any closure, and so a
 //!   return map.
 
+mod branches;
 mod error;
+mod families;
 mod fixed_point;
 mod periodic_point;
 mod return_map;
 mod section;
 mod stability;
 
+pub use branches::{
+    Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, BranchSteps, cascade,
+    doubled_branch, follow_branch,
+};
 pub use error::Error;
+pub use families::{
+    Closure, EquationReturns, FormulaMap, Image, MapFamily, family, pieces, scalar_family,
+};
 pub use fixed_point::{FixedPoint, Intersection, fixed_points};
 pub use periodic_point::{PeriodicPoint, periodic_point, periodic_point_with_derivative};
 pub use return_map::{Return, ReturnMap, SmoothReturn};

@@ -28,17 +28,23 @@ const LARGEST_CHANGE_ALLOWED: f64 = 0.1;
 /// A crossing after this part of the present time is at the same instant as the event before.
 const SAME_INSTANT: f64 = 4.0 * f64::EPSILON;
 
-/// How start and parameters change with ε.
+/// How start and parameters change with ε: along a straight line, or along a curve.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Along {
-    start: Vec<f64>,
-    parameters: Vec<(String, f64)>,
+    /// For each component the coefficients of ε, ε², …
+    start: Vec<Vec<f64>>,
+    parameters: Vec<(String, Vec<f64>)>,
+}
+
+/// The coefficients of ε, ε², …
+fn powers<const T: usize>(jet: &Jet<T>) -> Vec<f64> {
+    jet.0.iter().skip(1).copied().collect()
 }
 
 impl Along {
     /// The start changes by ε times this vector.
     pub fn start(change: &[f64]) -> Along {
-        Along { start: change.to_vec(), parameters: Vec::new() }
+        Along { start: change.iter().map(|rate| vec![*rate]).collect(), parameters: Vec::new() }
     }
 
     /// The parameter with this name changes by ε.
@@ -49,7 +55,19 @@ impl Along {
     /// The same, and the parameter with this name changes by ε times this number.
     #[must_use]
     pub fn and_parameter(mut self, name: &str, change: f64) -> Along {
-        self.parameters.push((name.to_owned(), change));
+        self.parameters.push((name.to_owned(), vec![change]));
+        self
+    }
+
+    /// The start moves on a curve: as these components do, whose values do not count.
+    pub fn curve<const T: usize>(start: &[Jet<T>]) -> Along {
+        Along { start: start.iter().map(powers).collect(), parameters: Vec::new() }
+    }
+
+    /// The same, and the parameter with this name moves as this number does, whose value does not count.
+    #[must_use]
+    pub fn and_parameter_curve<const T: usize>(mut self, name: &str, value: Jet<T>) -> Along {
+        self.parameters.push((name.to_owned(), powers(&value)));
         self
     }
 }
@@ -149,19 +167,19 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
                 found,
             });
         }
-        let change = |axis: usize| direction.start.get(axis).copied().unwrap_or(0.0);
-        let states = start.components().iter().enumerate();
-        let mut jets: Vec<_> =
-            states.map(|(axis, value)| Jet::moving(*value, change(axis))).collect();
-        let mut changes = vec![0.0; names.parameters.len()];
-        for (name, change) in &direction.parameters {
+        let moved = |jet: &mut Jet<T>, powers: &[f64]| {
+            jet.0.iter_mut().skip(1).zip(powers).for_each(|(own, power)| *own += power);
+        };
+        let mut jets: Vec<Jet<T>> = start.components().iter().copied().map(Jet::number).collect();
+        jets.iter_mut().zip(&direction.start).for_each(|(jet, powers)| moved(jet, powers));
+        let first = jets.len();
+        jets.extend(names.values.iter().map(|value| Jet::number(value.value())));
+        for (name, powers) in &direction.parameters {
             let place = names.parameters.iter().position(|known| known == name);
             let reason = "no parameter of these equations";
             let place = place.ok_or(equations::Error::Name { name: name.clone(), reason })?;
-            changes[place] += change;
+            moved(&mut jets[first + place], powers);
         }
-        let parameters = names.values.iter().zip(changes);
-        jets.extend(parameters.map(|(value, change)| Jet::moving(value.value(), change)));
         Ok(jets)
     }
 

@@ -12,8 +12,8 @@ use crate::system::HybridSystem;
 use equations::{Series, TaylorFlow};
 use smallvec::SmallVec;
 
-/// The states that show whether a guard that is no formula stays far from zero are this part of a step apart: Taylor's steps are twice as
-/// long as those of the Runge–Kutta pairs, which have eight parts. More of them cost values; fewer miss longer dips.
+/// The states that show whether a guard that is no formula stays far from zero are this part of a step apart. More of them
+/// cost values; fewer miss longer dips.
 const PARTS: u32 = 16;
 
 /// The first step towards an infinite end, where no other length is known: of a motion that is a polynomial. Each further

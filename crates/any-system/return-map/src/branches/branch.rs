@@ -1,0 +1,112 @@
+//! What a branch consists of.
+
+use nalgebra::Complex;
+
+/// A branch of fixed or periodic points, from one end to the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Branch {
+    /// The period n of its points: fⁿ(x; p) = x.
+    pub period: usize,
+    /// The points, in order.
+    pub points: Vec<BranchPoint>,
+    /// The bifurcations, in the same order.
+    pub bifurcations: Vec<Bifurcation>,
+    /// Why it ends before its first point, and behind its last one.
+    pub ends: [BranchEnd; 2],
+}
+
+/// A point of a branch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BranchPoint {
+    /// The point x.
+    pub point: Vec<f64>,
+    /// The parameter p.
+    pub parameter: f64,
+    /// The multipliers: the eigenvalues of the derivative of fⁿ. If all are inside the unit circle, the point attracts.
+    pub multipliers: Vec<Complex<f64>>,
+    /// The pieces of the map that the orbit meets.
+    pub itinerary: Vec<String>,
+    /// How far the point is known: the last Newton step, in units of its size.
+    pub error: f64,
+}
+
+impl BranchPoint {
+    /// The largest size of a multiplier; NaN if they are not known.
+    pub fn spectral_radius(&self) -> f64 {
+        let larger =
+            |largest: f64, m: &Complex<f64>| if m.norm() > largest { m.norm() } else { largest };
+        match self.multipliers.is_empty() {
+            true => f64::NAN,
+            false => self.multipliers.iter().fold(0.0, larger),
+        }
+    }
+
+    /// True if all multipliers are inside the unit circle: the point attracts.
+    pub fn is_stable(&self) -> bool {
+        self.spectral_radius() < 1.0
+    }
+}
+
+/// A bifurcation of a branch, located on it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bifurcation {
+    /// What happens.
+    pub kind: BifurcationKind,
+    /// Where.
+    pub at: BranchPoint,
+    /// The eigenvector of the critical multiplier; for a Neimark–Sacker bifurcation its real part.
+    pub direction: Vec<f64>,
+    /// The coefficient of the normal form, with the eigenvector of length 1; `None` if it is not known.
+    ///
+    /// | kind | normal form | meaning |
+    /// |---|---|---|
+    /// | fold | ξ + a ξ² | not zero: two points meet |
+    /// | doubling | −ξ + b ξ³ | b > 0: the orbit of twice the period is stable (supercritical) |
+    /// | Neimark–Sacker | e^(iθ) ζ (1 + d \|ζ\|²) | Re d < 0: the invariant circle is stable (supercritical) |
+    /// | transcritical | ξ + a ξ² | not zero: two branches cross |
+    /// | pitchfork | ξ + c ξ³ | c < 0: the other branches are stable (supercritical) |
+    pub coefficient: Option<f64>,
+}
+
+/// What happens at a bifurcation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum BifurcationKind {
+    /// A multiplier is 1, and the branch turns back: two points are born or vanish.
+    Fold,
+    /// A multiplier is −1: a branch of twice the period begins.
+    Doubling,
+    /// Two multipliers pass the unit circle: an invariant circle begins.
+    NeimarkSacker,
+    /// A multiplier is 1, and another branch crosses this one.
+    Transcritical,
+    /// A multiplier is 1, and another branch crosses this one on both sides of the same parameter.
+    Pitchfork,
+}
+
+/// Why a branch ends.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BranchEnd {
+    /// At the border of the window, on it.
+    Window,
+    /// The branch comes back to its first point.
+    Closed,
+    /// The limit on the number of points.
+    PointLimit,
+    /// It was stopped.
+    Stopped,
+    /// The orbit meets other pieces of the map behind this point, which is the last one on its own pieces: a border collision; for a
+    /// return map a grazing, or two events at one instant.
+    Border {
+        /// The last point, as near to the border as the map tells.
+        at: BranchPoint,
+        /// The pieces behind the border, where they are known.
+        beyond: Vec<String>,
+        /// Where the two sequences of pieces differ first.
+        place: usize,
+    },
+    /// No further point was found, however short the step: with the reason of the last try.
+    Lost {
+        /// The reason, in words.
+        reason: String,
+    },
+}

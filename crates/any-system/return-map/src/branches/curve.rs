@@ -1,0 +1,96 @@
+//! A curve of solutions of m − 1 equations in m unknowns, by predictor and corrector.
+
+use crate::error::Error;
+use nalgebra::{DMatrix, DVector};
+
+/// The equations of a curve.
+pub(super) trait Curve {
+    /// The m − 1 values that are zero on the curve.
+    fn values(&self, at: &DVector<f64>) -> Result<DVector<f64>, Error>;
+    /// Their derivatives, m − 1 rows of m.
+    fn slopes(&self, at: &DVector<f64>) -> Result<DMatrix<f64>, Error>;
+    /// The sizes of the unknowns: lengths along the curve are in these units.
+    fn scales(&self) -> &DVector<f64>;
+}
+
+/// A point of a curve.
+#[derive(Debug, Clone)]
+pub(super) struct OnCurve {
+    /// The unknowns.
+    pub(super) at: DVector<f64>,
+    /// The unit tangent, in units of the scales.
+    pub(super) tangent: DVector<f64>,
+    /// The derivatives of the equations, in units of the scales.
+    pub(super) slopes: DMatrix<f64>,
+    /// The length of the last Newton step: how far the point is known.
+    pub(super) error: f64,
+    /// The number of Newton steps.
+    pub(super) steps: usize,
+}
+
+/// Newton steps of a corrector. From a good prediction it takes three or four; more mean that the step is too long.
+const MOST_NEWTON_STEPS: usize = 12;
+
+/// A Newton step of this length ends the corrector: some hundred roundings.
+const ROUNDING: f64 = 1e-14;
+
+/// A Newton step that is not shorter than half of the one before is noise of the map, if it is at most this long. The noise of an
+/// integrated map is of the size of its tolerance; a larger number would accept points that are none.
+const NOISE: f64 = 1e-8;
+
+/// The slopes of a curve, in units of the scales.
+fn scaled_slopes(curve: &impl Curve, at: &DVector<f64>) -> Result<DMatrix<f64>, Error> {
+    let mut slopes = curve.slopes(at)?;
+    for (mut column, scale) in slopes.column_iter_mut().zip(curve.scales().iter()) {
+        column *= *scale;
+    }
+    Ok(slopes)
+}
+
+/// The slopes with a further row.
+pub(super) fn bordered(slopes: &DMatrix<f64>, row: &DVector<f64>) -> DMatrix<f64> {
+    let mut matrix = slopes.clone().insert_row(slopes.nrows(), 0.0);
+    matrix.set_row(slopes.nrows(), &row.transpose());
+    matrix
+}
+
+/// The unit tangent on the side of `along`; `None` if there is none.
+pub(super) fn tangent(slopes: &DMatrix<f64>, along: &DVector<f64>) -> Option<DVector<f64>> {
+    let mut side = DVector::zeros(along.len());
+    side[along.len() - 1] = 1.0;
+    let tangent = bordered(slopes, along).lu().solve(&side)?;
+    let length = tangent.norm();
+    (length.is_finite() && length > 0.0).then(|| tangent / length)
+}
+
+/// The point of the curve in the plane through `predicted` that is normal to `along`, near `predicted`; `None` if Newton's method finds
+/// none. Errors are those of the equations.
+pub(super) fn corrected(
+    curve: &impl Curve,
+    predicted: &DVector<f64>,
+    along: &DVector<f64>,
+) -> Result<Option<OnCurve>, Error> {
+    let mut at = predicted.clone();
+    let mut before = f64::INFINITY;
+    for steps in 1..=MOST_NEWTON_STEPS {
+        let slopes = scaled_slopes(curve, &at)?;
+        let values = curve.values(&at)?;
+        let off = (&at - predicted).component_div(curve.scales()).dot(along);
+        let side = -values.push(off);
+        let Some(step) = bordered(&slopes, along).lu().solve(&side) else { return Ok(None) };
+        let length = step.amax();
+        if !length.is_finite() {
+            return Ok(None);
+        }
+        at += step.component_mul(curve.scales());
+        let size = 1.0 + at.component_div(curve.scales()).amax();
+        let is_noise = length <= NOISE * size && length > 0.5 * before;
+        if length <= ROUNDING * size || is_noise {
+            let slopes = scaled_slopes(curve, &at)?;
+            let Some(tangent) = tangent(&slopes, along) else { return Ok(None) };
+            return Ok(Some(OnCurve { at, tangent, slopes, error: length, steps }));
+        }
+        before = length;
+    }
+    Ok(None)
+}

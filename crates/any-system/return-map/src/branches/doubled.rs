@@ -1,0 +1,136 @@
+//! The branch of twice the period behind a doubling, and cascades of doublings.
+
+use super::branch::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint};
+use super::curve::{OnCurve, corrected};
+use super::follow::{BranchSteps, Follower, follow_branch, point_of, predicted};
+use super::orbit::Orbit;
+use crate::error::Error;
+use crate::families::MapFamily;
+use nalgebra::{DMatrix, DVector};
+use std::ops::ControlFlow;
+
+/// The branch of twice the period that begins at a doubling. It is followed in one direction: in the other one are the same orbits, from
+/// their other points.
+///
+/// # Errors
+/// [`Error::BadBranch`] if the bifurcation is no doubling, or outside of the window; [`Error::NoPeriodicPoint`] if no point is found
+/// beside it.
+pub fn doubled_branch<M: MapFamily + ?Sized>(
+    map: &M,
+    (period, doubling): (usize, &Bifurcation),
+    window: (f64, f64),
+    steps: BranchSteps,
+    mut see: impl FnMut(&BranchPoint) -> ControlFlow<()>,
+) -> Result<Branch, Error> {
+    if doubling.kind != BifurcationKind::Doubling || doubling.direction.is_empty() {
+        return Err(Error::BadBranch {
+            what: "a bifurcation that is no doubling",
+            value: f64::NAN,
+        });
+    }
+    let at = &doubling.at;
+    super::follow::check(map, period, (&at.point, at.parameter), window, steps)?;
+    let size = at.point.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+    let scales = DVector::from_element(at.point.len(), if size > 0.0 { size } else { 1.0 });
+    let orbit = Orbit { map, period: 2 * period, scales: scales.push(window.1 - window.0) };
+    // The eigenvector, without a change of the parameter.
+    let mut tangent = DVector::from_column_slice(&doubling.direction).push(0.0);
+    tangent.component_div_assign(&orbit.scales);
+    tangent /= tangent.norm();
+    let start = DVector::from_column_slice(&at.point).push(at.parameter);
+    let slopes = DMatrix::zeros(start.len() - 1, start.len());
+    let root = OnCurve { at: start, tangent, slopes, error: at.error, steps: 0 };
+    let mut length = steps.first;
+    while length >= steps.shortest {
+        let predicted = predicted(&orbit.scales, &root, length);
+        let first = corrected(&orbit, &predicted, &root.tangent).ok().flatten();
+        if let Some(first) = first
+            && let Ok(itinerary) = orbit.itinerary(&first.at)
+        {
+            let start = point_of(&orbit, &first, itinerary.clone());
+            let mut points = vec![at.clone(), start.clone()];
+            let stopped = see(&start).is_break();
+            let mut bifurcations = Vec::new();
+            let mut end = BranchEnd::Stopped;
+            if !stopped {
+                let steps = BranchSteps { first: length, ..steps };
+                let mut follower =
+                    Follower { orbit, window, steps, see: &mut see, period: 2 * period };
+                let way = follower.one_way(first, &itinerary);
+                (bifurcations, end) = (way.located, way.end);
+                points.extend(way.points);
+            }
+            let ends = [BranchEnd::Closed, end];
+            return Ok(Branch { period: 2 * period, points, bifurcations, ends });
+        }
+        length *= 0.5;
+    }
+    Err(Error::NoPeriodicPoint { residual: f64::NAN, steps: 0 })
+}
+
+/// A cascade of doublings: the branch through a point, the branch of twice the period behind its first doubling, and so on, up to
+/// `depth` doublings. Each branch is followed up to its first doubling in one direction, and the steps get shorter as the doublings
+/// come closer.
+///
+/// ```
+/// use return_map::{BranchSteps, cascade, scalar_family};
+/// let logistic = scalar_family(|x, r| r * x * (1.0 - x));
+/// let doublings = cascade(&logistic, 1, (&[0.6], 2.8), (2.5, 4.0), BranchSteps::default(), 4)?;
+/// let exact = [3.0, 1.0 + 6f64.sqrt(), 3.5440903596, 3.5644072661];
+/// for (found, exact) in doublings.iter().zip(exact) {
+///     assert!((found.at.parameter - exact).abs() < 1e-8);
+/// }
+/// # Ok::<(), return_map::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`follow_branch`]. A branch without a doubling ends the cascade, whose doublings stay.
+pub fn cascade<M: MapFamily + ?Sized>(
+    map: &M,
+    period: usize,
+    start: (&[f64], f64),
+    window: (f64, f64),
+    steps: BranchSteps,
+    depth: usize,
+) -> Result<Vec<Bifurcation>, Error> {
+    let mut doublings: Vec<Bifurcation> = Vec::new();
+    let is_doubling = |found: &&Bifurcation| found.kind == BifurcationKind::Doubling;
+    let branch = follow_branch(map, period, start, window, steps, |_| ControlFlow::Continue(()))?;
+    let mut next = branch.bifurcations.iter().find(is_doubling).cloned();
+    let (mut period, mut steps) = (period, steps);
+    while let Some(doubling) = next.take() {
+        if doublings.len() >= depth {
+            break;
+        }
+        let before = doublings.last().cloned();
+        doublings.push(doubling.clone());
+        if doublings.len() == depth {
+            break;
+        }
+        // The branch up to the next doubling is some 2.5 times smaller than the last one.
+        if let Some(before) = before {
+            let size = doubling.at.point.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+            let off = doubling.at.point.iter().zip(&before.at.point).map(|(a, b)| (a - b) / size);
+            let off = off.fold(0.0, |sum, off| sum + off * off).sqrt();
+            let along = (doubling.at.parameter - before.at.parameter) / (window.1 - window.0);
+            steps.longest = steps.longest.min(CASCADE_STEP * off.max(along.abs()));
+            steps.first = steps.first.min(steps.longest);
+        }
+        // It is stopped behind its first doubling.
+        let mut critical: Option<f64> = None;
+        let see = |point: &BranchPoint| {
+            let flips = point.multipliers.iter().filter(|m| m.im == 0.0 && m.re < -1.0).count();
+            match critical.replace(flips as f64) {
+                Some(before) if before != flips as f64 => ControlFlow::Break(()),
+                _ => ControlFlow::Continue(()),
+            }
+        };
+        let branch = doubled_branch(map, (period, &doubling), window, steps, see)?;
+        period *= 2;
+        next = branch.bifurcations.into_iter().find(|found| is_doubling(&found));
+    }
+    Ok(doublings)
+}
+
+/// The longest step on a doubled branch, as a part of the distance of the last two doublings: some twenty steps up to the next one.
+const CASCADE_STEP: f64 = 0.02;

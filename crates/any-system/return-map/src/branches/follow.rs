@@ -1,0 +1,318 @@
+//! Follows a branch from a point in both directions.
+
+use super::branch::{Branch, BranchEnd, BranchPoint};
+use super::curve::{OnCurve, corrected, tangent};
+use super::locate::{Located, between};
+use super::orbit::{Orbit, derivative, eigenvalues, split};
+use crate::error::Error;
+use crate::families::MapFamily;
+use nalgebra::DVector;
+use std::ops::ControlFlow;
+
+/// How a branch is followed. Lengths are in units of the size of the first point, and of the width of the window.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BranchSteps {
+    /// The length of the first step.
+    pub first: f64,
+    /// The longest step. Two bifurcations of one kind within one step would be missed.
+    pub longest: f64,
+    /// The shortest step, behind which the branch is lost.
+    pub shortest: f64,
+    /// The most points in one direction.
+    pub points: usize,
+}
+
+impl Default for BranchSteps {
+    /// A hundredth, a fiftieth, 10⁻¹⁰, and ten thousand points.
+    fn default() -> Self {
+        BranchSteps { first: 0.01, longest: 0.02, shortest: 1e-10, points: 10_000 }
+    }
+}
+
+/// The largest angle between tangents at two neighbouring points, as its cosine: 18°. A larger angle would let a step change to
+/// another branch.
+const STRAIGHT: f64 = 0.95;
+
+/// Looks ahead of the last point for other pieces of the map, each twice as far as the one before: up to 10⁶ shortest steps.
+const LOOKS_AHEAD: usize = 20;
+
+/// After a step with at most so many Newton steps the next one is longer by this factor.
+const QUICK: usize = 4;
+const LONGER: f64 = 1.5;
+
+/// The branch of points of period `period` through a point near `start` at the parameter `parameter`, in the window of parameters, in
+/// both directions.
+///
+/// `see` receives each point as it is found; if it breaks, the branch ends there. An end of the window is met exactly. The step adapts to
+/// the curve, and never passes to other pieces of the map: there the branch ends with the reason.
+///
+/// ```
+/// use return_map::{BifurcationKind, BranchSteps, follow_branch, scalar_family};
+/// use std::ops::ControlFlow::Continue;
+/// let logistic = scalar_family(|x, r| r * x * (1.0 - x));
+/// let steps = BranchSteps::default();
+/// let branch = follow_branch(&logistic, 1, (&[0.6], 2.5), (1.5, 3.5), steps, |_| Continue(()))?;
+/// let doubling = &branch.bifurcations[0];
+/// assert_eq!(doubling.kind, BifurcationKind::Doubling);
+/// assert!((doubling.at.parameter - 3.0).abs() < 1e-9);
+/// # Ok::<(), return_map::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::BadBranch`] for a window that is empty or does not contain the parameter, and for steps that are not positive;
+/// [`Error::NoPeriodicPoint`] if there is no point near the start; errors of the map there. An error further on ends the branch, whose
+/// points stay.
+pub fn follow_branch<M: MapFamily + ?Sized>(
+    map: &M,
+    period: usize,
+    (start, parameter): (&[f64], f64),
+    window: (f64, f64),
+    steps: BranchSteps,
+    mut see: impl FnMut(&BranchPoint) -> ControlFlow<()>,
+) -> Result<Branch, Error> {
+    check(map, period, (start, parameter), window, steps)?;
+    let mut at = DVector::from_column_slice(start);
+    let size = at.amax();
+    at = at.push(parameter);
+    let mut scales = DVector::from_element(start.len(), if size > 0.0 { size } else { 1.0 });
+    scales = scales.push(window.1 - window.0);
+    let orbit = Orbit { map, period, scales };
+    let mut along = DVector::zeros(start.len() + 1);
+    along[start.len()] = 1.0;
+    let none = || Error::NoPeriodicPoint { residual: f64::NAN, steps: 0 };
+    let first = corrected(&orbit, &at, &along)?.ok_or_else(none)?;
+    let mut follower = Follower { orbit, window, steps, see: &mut see, period };
+    follower.both_ways(first)
+}
+
+pub(super) fn check<M: MapFamily + ?Sized>(
+    map: &M,
+    period: usize,
+    (start, parameter): (&[f64], f64),
+    (left, right): (f64, f64),
+    steps: BranchSteps,
+) -> Result<(), Error> {
+    let bad = |what: &'static str, value: f64| Err(Error::BadBranch { what, value });
+    let (expected, found) = (map.dimension(), start.len());
+    if expected != found || found == 0 {
+        let what = "the start of a branch";
+        return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
+    }
+    if period == 0 {
+        return bad("the period of a branch", 0.0);
+    }
+    if !(left < right && (right - left).is_finite()) {
+        return bad("the width of the window of a branch", right - left);
+    }
+    if !(left <= parameter && parameter <= right) {
+        return bad("a parameter outside of the window", parameter);
+    }
+    let BranchSteps { first, longest, shortest, .. } = steps;
+    for (what, value) in [
+        ("the first step of a branch", first),
+        ("the longest step of a branch", longest),
+        ("the shortest step of a branch", shortest),
+    ] {
+        if !(value > 0.0 && value.is_finite()) {
+            return bad(what, value);
+        }
+    }
+    Ok(())
+}
+
+/// Follows a branch.
+pub(super) struct Follower<'a, M: ?Sized, S> {
+    pub(super) orbit: Orbit<'a, M>,
+    pub(super) window: (f64, f64),
+    pub(super) steps: BranchSteps,
+    pub(super) see: &'a mut S,
+    pub(super) period: usize,
+}
+
+/// One direction of a branch.
+pub(super) struct OneWay {
+    pub(super) points: Vec<BranchPoint>,
+    pub(super) located: Vec<super::branch::Bifurcation>,
+    pub(super) end: BranchEnd,
+}
+
+impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<'_, M, S> {
+    fn both_ways(&mut self, first: OnCurve) -> Result<Branch, Error> {
+        let itinerary = self.orbit.itinerary(&first.at)?;
+        let start = point_of(&self.orbit, &first, itinerary.clone());
+        if (self.see)(&start).is_break() {
+            let ends = [BranchEnd::Stopped, BranchEnd::Stopped];
+            let (points, bifurcations) = (vec![start], Vec::new());
+            return Ok(Branch { period: self.period, points, bifurcations, ends });
+        }
+        let back = OnCurve { tangent: -&first.tangent, ..first.clone() };
+        let forward = self.one_way(first, &itinerary);
+        // A closed branch has one direction.
+        if matches!(forward.end, BranchEnd::Closed) {
+            let mut points = vec![start];
+            points.extend(forward.points);
+            let ends = [BranchEnd::Closed, BranchEnd::Closed];
+            return Ok(Branch { period: self.period, points, bifurcations: forward.located, ends });
+        }
+        let mut backward = self.one_way(back, &itinerary);
+        backward.points.reverse();
+        backward.located.reverse();
+        let points = backward.points.into_iter().chain([start]).chain(forward.points).collect();
+        let bifurcations = backward.located.into_iter().chain(forward.located).collect();
+        Ok(Branch { period: self.period, points, bifurcations, ends: [backward.end, forward.end] })
+    }
+
+    /// Follows the branch in the direction of the tangent.
+    pub(super) fn one_way(&mut self, first: OnCurve, itinerary: &[String]) -> OneWay {
+        let mut way =
+            OneWay { points: Vec::new(), located: Vec::new(), end: BranchEnd::PointLimit };
+        let (mut last, mut length) = (first.clone(), self.steps.first.min(self.steps.longest));
+        let mut reason = String::from("the tangent turns faster than the shortest step");
+        while way.points.len() < self.steps.points {
+            if length < self.steps.shortest {
+                way.end = self.lost(&last, itinerary, reason);
+                return way;
+            }
+            let next = match self.step(&last, length) {
+                Ok(Some(next)) => next,
+                Ok(None) => {
+                    length *= 0.5;
+                    continue;
+                }
+                Err(error) => {
+                    reason = error.to_string();
+                    length *= 0.5;
+                    continue;
+                }
+            };
+            match self.orbit.itinerary(&next.at) {
+                Ok(own) if own == itinerary => {}
+                Ok(other) => {
+                    way.end = self.border(&last, itinerary, other, length);
+                    return way;
+                }
+                Err(error) => {
+                    reason = error.to_string();
+                    length *= 0.5;
+                    continue;
+                }
+            }
+            let is_out = |p: f64| p < self.window.0 || p > self.window.1;
+            let parameter = next.at[next.at.len() - 1];
+            let (next, leaves) = match is_out(parameter) {
+                false => (next, false),
+                true => match self.at_window(&next, parameter) {
+                    Some(next) => (next, true),
+                    None => {
+                        length *= 0.5;
+                        continue;
+                    }
+                },
+            };
+            for Located { bifurcation } in between(&self.orbit, (&last, &next), itinerary) {
+                way.located.push(bifurcation);
+            }
+            let point = point_of(&self.orbit, &next, itinerary.to_vec());
+            let stopped = (self.see)(&point).is_break();
+            way.points.push(point);
+            if leaves || stopped {
+                way.end = if leaves { BranchEnd::Window } else { BranchEnd::Stopped };
+                return way;
+            }
+            if way.points.len() > 2 && self.closes(&first, (&last, &next)) {
+                way.end = BranchEnd::Closed;
+                return way;
+            }
+            if next.steps <= QUICK {
+                length = (length * LONGER).min(self.steps.longest);
+            }
+            last = next;
+        }
+        way
+    }
+
+    /// A step along the tangent; `None` if it is too long.
+    fn step(&self, last: &OnCurve, length: f64) -> Result<Option<OnCurve>, Error> {
+        let predicted = predicted(&self.orbit.scales, last, length);
+        let next = corrected(&self.orbit, &predicted, &last.tangent)?;
+        Ok(next.filter(|next| next.tangent.dot(&last.tangent) > STRAIGHT))
+    }
+
+    /// The point at the end of the window.
+    fn at_window(&self, next: &OnCurve, parameter: f64) -> Option<OnCurve> {
+        let last = next.at.len() - 1;
+        let end = if parameter < self.window.0 { self.window.0 } else { self.window.1 };
+        let mut along = DVector::zeros(last + 1);
+        along[last] = 1.0;
+        let mut predicted = next.at.clone();
+        predicted[last] = end;
+        let mut found = corrected(&self.orbit, &predicted, &along).ok()??;
+        found.tangent = tangent(&found.slopes, &next.tangent)?;
+        found.at[last] = end;
+        Some(found)
+    }
+
+    /// True if the step between two points passes the first point of the branch.
+    fn closes(&self, first: &OnCurve, (last, next): (&OnCurve, &OnCurve)) -> bool {
+        let apart =
+            |a: &OnCurve, b: &OnCurve| (&a.at - &b.at).component_div(&self.orbit.scales).norm();
+        apart(last, first) <= apart(last, next)
+            && apart(next, first) <= apart(last, next)
+            && next.tangent.dot(&first.tangent) > STRAIGHT
+    }
+
+    /// The end of a branch of which no further point was found: a border of the map, if other pieces are ahead.
+    fn lost(&self, last: &OnCurve, itinerary: &[String], reason: String) -> BranchEnd {
+        let mut ahead = self.steps.shortest;
+        for _ in 0..LOOKS_AHEAD {
+            if let Ok(other) = self.orbit.itinerary(&predicted(&self.orbit.scales, last, ahead))
+                && other != itinerary
+            {
+                return self.border(last, itinerary, other, 0.0);
+            }
+            ahead *= 2.0;
+        }
+        BranchEnd::Lost { reason }
+    }
+
+    /// The last point before a border of the map, within a step: by halving.
+    fn border(
+        &self,
+        last: &OnCurve,
+        itinerary: &[String],
+        mut beyond: Vec<String>,
+        length: f64,
+    ) -> BranchEnd {
+        let (mut near, mut far, mut at) = (0.0, length, last.clone());
+        while far - near > f64::EPSILON * self.steps.longest {
+            let middle = 0.5 * (near + far);
+            let found = self.step(last, middle).ok().flatten();
+            let own = found.as_ref().map(|found| self.orbit.itinerary(&found.at));
+            match (found, own) {
+                (Some(found), Some(Ok(own))) if own == itinerary => (near, at) = (middle, found),
+                (_, Some(Ok(other))) => (far, beyond) = (middle, other),
+                _ => far = middle,
+            }
+        }
+        let place = itinerary.iter().zip(&beyond).position(|(own, other)| own != other);
+        let place = place.unwrap_or(itinerary.len().min(beyond.len()));
+        let at = point_of(&self.orbit, &at, itinerary.to_vec());
+        BranchEnd::Border { at, beyond, place }
+    }
+}
+
+/// The unknowns at a length along the tangent.
+pub(super) fn predicted(scales: &DVector<f64>, from: &OnCurve, length: f64) -> DVector<f64> {
+    &from.at + (length * &from.tangent).component_mul(scales)
+}
+
+/// The point of a branch, with its multipliers.
+pub(super) fn point_of<M: MapFamily + ?Sized>(
+    orbit: &Orbit<'_, M>,
+    found: &OnCurve,
+    itinerary: Vec<String>,
+) -> BranchPoint {
+    let (point, parameter) = split(&found.at);
+    let multipliers = eigenvalues(&derivative(&found.slopes, &orbit.scales));
+    BranchPoint { point, parameter, multipliers, itinerary, error: found.error }
+}

@@ -1,0 +1,112 @@
+//! The bifurcations between two points of a branch.
+
+use super::branch::{Bifurcation, BifurcationKind};
+use super::curve::{OnCurve, corrected};
+use super::follow::{point_of, predicted};
+use super::normal_form::normal_form;
+use super::orbit::Orbit;
+use super::tests::{TESTS, Test};
+use crate::families::MapFamily;
+use interval_arithmetic::bracketed_root;
+
+/// A bifurcation.
+pub(super) struct Located {
+    pub(super) bifurcation: Bifurcation,
+}
+
+/// The bifurcations between two neighbouring points of a branch, in order.
+pub(super) fn between<M: MapFamily + ?Sized>(
+    orbit: &Orbit<'_, M>,
+    (from, to): (&OnCurve, &OnCurve),
+    itinerary: &[String],
+) -> Vec<Located> {
+    let length = (&to.at - &from.at).component_div(&orbit.scales).dot(&from.tangent);
+    let mut found: Vec<(f64, Located)> = Vec::new();
+    for test in TESTS {
+        let [before, behind] = [from, to].map(|point| test.value(point, &orbit.scales));
+        if before * behind < 0.0
+            && let Some((place, at)) = zero(orbit, (from, length), test)
+            && let Some(bifurcation) = bifurcation(orbit, test, &at, itinerary)
+        {
+            found.push((place, Located { bifurcation }));
+        }
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found.into_iter().map(|(_, located)| located).collect()
+}
+
+/// Where a test is zero, up to a length along the tangent.
+fn zero<M: MapFamily + ?Sized>(
+    orbit: &Orbit<'_, M>,
+    (from, length): (&OnCurve, f64),
+    test: Test,
+) -> Option<(f64, OnCurve)> {
+    let at = |along: f64| {
+        corrected(orbit, &predicted(&orbit.scales, from, along), &from.tangent).ok().flatten()
+    };
+    // Where another branch crosses, the equations are singular: no point is found there, and it is the zero.
+    let value = |along: f64| at(along).map_or(0.0, |point| test.value(&point, &orbit.scales));
+    let place = bracketed_root(value, 0.0, length).ok()?;
+    if test == Test::Cross {
+        return crossing(orbit, test, &at, (place, length));
+    }
+    Some((place, at(place)?))
+}
+
+/// How far beside a crossing of branches points are found, as a part of the step.
+///
+/// At the crossing itself the equations are singular, and a point next to it is known to rounding over its distance. A cubic through
+/// four points beside it is wrong by the fourth power of this distance.
+const BESIDE: f64 = 0.05;
+
+/// The place where a test is zero at a crossing of branches, near `place`, and the point there.
+fn crossing<M: MapFamily + ?Sized>(
+    orbit: &Orbit<'_, M>,
+    test: Test,
+    at: &impl Fn(f64) -> Option<OnCurve>,
+    (place, length): (f64, f64),
+) -> Option<(f64, OnCurve)> {
+    const OFFSETS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
+    let unit = BESIDE * length;
+    let points = OFFSETS.map(|offset| at(place + offset * unit));
+    let [Some(a), Some(b), Some(c), Some(d)] = points else { return None };
+    let points = [a, b, c, d];
+    let weights = |x: f64| {
+        OFFSETS.map(|own| {
+            let others = OFFSETS.iter().filter(|other| **other != own);
+            others.fold(1.0, |product, other| product * (x - other) / (own - other))
+        })
+    };
+    let values = [0, 1, 2, 3].map(|k| test.value(&points[k], &orbit.scales));
+    let value = |x: f64| weights(x).iter().zip(values).map(|(w, v)| w * v).sum::<f64>();
+    let zero = bracketed_root(value, -2.0, 2.0).ok()?;
+    let mut found = points[1].clone();
+    found.at *= 0.0;
+    found.slopes *= 0.0;
+    for (weight, point) in weights(zero).iter().zip(&points) {
+        found.at += &point.at * *weight;
+        found.slopes += &point.slopes * *weight;
+    }
+    found.error = points.iter().fold(0.0, |error: f64, point| error.max(point.error));
+    Some((place + zero * unit, found))
+}
+
+fn bifurcation<M: MapFamily + ?Sized>(
+    orbit: &Orbit<'_, M>,
+    test: Test,
+    at: &OnCurve,
+    itinerary: &[String],
+) -> Option<Bifurcation> {
+    let point = point_of(orbit, at, itinerary.to_vec());
+    let kind = test.kind(&point.multipliers)?;
+    let form = normal_form(orbit, kind, at);
+    let (direction, coefficient, is_symmetric) = match form {
+        Some(form) => (form.direction, form.coefficient, form.is_symmetric),
+        None => (Vec::new(), None, false),
+    };
+    let kind = match kind {
+        BifurcationKind::Transcritical if is_symmetric => BifurcationKind::Pitchfork,
+        kind => kind,
+    };
+    Some(Bifurcation { kind, at: point, direction, coefficient })
+}

@@ -1,0 +1,301 @@
+//! Return maps of hybrid systems that are given by their equations, as families of maps.
+
+use super::family::{Image, MapFamily};
+use crate::error::Error;
+use equations::{Formulas, Jet, JetSeries, Names};
+use hybrid_system::{
+    Along, Arc, Equations, EquationsModel, Execution, Label, Limits, Stop, Tolerances,
+};
+use nalgebra::DVector;
+
+/// The return map of [`Equations`] to the events of a surface, as one of their parameters changes. (feature `ode` of
+/// `hybrid-system`)
+///
+/// The coordinates of the section have names. The start of a return is given by formulas of the coordinates, one for each component of
+/// the state; the image by formulas of the state after the event, one for each coordinate. An event at the start itself, after no
+/// time, is no return. Each return begins at the time 0: a forcing has the same phase at each start.
+///
+/// The itinerary of an image has the mode and the surface of each event on the way, those of observers too. Derivatives are exact: by
+/// the Taylor series of the motion, through all events.
+///
+/// ```
+/// use hybrid_system::Equations;
+/// use return_map::{EquationReturns, MapFamily};
+/// // A ball on the floor keeps the part r of its speed at each bounce. The coordinate is the speed after it.
+/// let ball = Equations::new(&["height", "speed"], &[("r", "0.5")])
+///     .mode_text("flight", &["speed", "-1"])
+///     .falling_text("floor", "height")
+///     .resets_text(&["0", "-r*speed"]);
+/// let bounces = EquationReturns::new(&ball, "r", ("flight", "floor"), &["v"])?
+///     .starting_text(&["0", "v"])?
+///     .coordinates_text(&["speed"])?;
+/// let image = bounces.image(&[1.0], 0.25)?;
+/// assert!((image.point[0] - 0.25).abs() < 1e-15);
+/// assert_eq!(image.itinerary, ["flight: floor"]);
+/// # Ok::<(), return_map::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct EquationReturns {
+    equations: Equations,
+    parameter: String,
+    mode: Label,
+    surface: Label,
+    /// The names of the coordinates, with the parameters of the equations.
+    section: Names,
+    /// The start from the coordinates.
+    start: Option<Map>,
+    /// The coordinates from the state.
+    coordinates: Option<Map>,
+    tolerances: Tolerances,
+    limits: Limits,
+}
+
+/// Some formulas, with derivatives.
+#[derive(Debug)]
+struct Map(JetSeries);
+
+impl Map {
+    fn new(formulas: &Formulas) -> Result<Map, Error> {
+        Ok(Map(JetSeries::of_values(formulas)?))
+    }
+}
+
+/// The time at which each return begins.
+const START: f64 = 0.0;
+
+/// The longest return of a map that states no limits: a thousand time units and ten thousand events.
+const LONGEST: (f64, usize) = (1e3, 10_000);
+
+impl EquationReturns {
+    /// The returns from a section to the next event of a surface: the executions start in `mode`. `coordinates` are the names of the
+    /// section's coordinates. By default the start has the components of these names, and the others are zero; the image has the
+    /// components of these names after the event.
+    ///
+    /// # Errors
+    /// Those of the equations, and of names that are no parameter, mode or surface of them.
+    pub fn new(
+        equations: &Equations,
+        parameter: &str,
+        (mode, surface): (&str, &str),
+        coordinates: &[&str],
+    ) -> Result<EquationReturns, Error> {
+        equations.check()?;
+        let names = equations.names();
+        let unknown = |name: &str, reason: &'static str| {
+            Error::from(equations::Error::Name { name: name.to_owned(), reason })
+        };
+        if !names.parameters.iter().any(|known| known == parameter) {
+            return Err(unknown(parameter, "no parameter of these equations"));
+        }
+        let section = Names {
+            states: coordinates.iter().map(|name| (*name).to_owned()).collect(),
+            ..names.clone()
+        };
+        let returns = EquationReturns {
+            equations: equations.clone(),
+            parameter: parameter.to_owned(),
+            mode: Label::new(mode)?,
+            surface: Label::new(surface)?,
+            section,
+            start: None,
+            coordinates: None,
+            tolerances: Tolerances::both(1e-13),
+            limits: Limits::new(LONGEST.0, LONGEST.1),
+        };
+        // A mode that is not there is an error of its executions.
+        let model = returns.model(None)?;
+        if model.series(mode).is_none() {
+            return Err(unknown(mode, "no mode of these equations"));
+        }
+        Ok(returns)
+    }
+
+    /// The start of a return by formulas of the coordinates, one for each component of the state.
+    ///
+    /// # Errors
+    /// Those of the formulas.
+    pub fn starting_text(mut self, state: &[&str]) -> Result<Self, Error> {
+        let formulas = Formulas::from_text(self.section.clone(), state)?;
+        let (needed, given) = (self.equations.names().states.len(), formulas.count());
+        if needed != given {
+            let what = "formulas of the start";
+            return Err(equations::Error::Length { what, needed, given }.into());
+        }
+        self.start = Some(Map::new(&formulas)?);
+        Ok(self)
+    }
+
+    /// The coordinates by formulas of the state after the event.
+    ///
+    /// # Errors
+    /// Those of the formulas.
+    pub fn coordinates_text(mut self, coordinates: &[&str]) -> Result<Self, Error> {
+        let formulas = Formulas::from_text(self.equations.names().clone(), coordinates)?;
+        let (needed, given) = (self.section.states.len(), formulas.count());
+        if needed != given {
+            let what = "formulas of the coordinates";
+            return Err(equations::Error::Length { what, needed, given }.into());
+        }
+        self.coordinates = Some(Map::new(&formulas)?);
+        Ok(self)
+    }
+
+    /// The same, with these tolerances of the motion. Default: 1e-13.
+    #[must_use]
+    pub fn tolerances(mut self, tolerances: Tolerances) -> Self {
+        self.tolerances = tolerances;
+        self
+    }
+
+    /// The same, with these limits on one return. Default: a thousand time units and ten thousand events.
+    #[must_use]
+    pub fn limits(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
+    }
+
+    /// The model at a value of the parameter.
+    fn model(&self, value: Option<f64>) -> Result<EquationsModel<DVector<f64>>, Error> {
+        let equations = match value {
+            Some(value) => {
+                self.equations.clone().with_parameters(&[(&self.parameter, &format!("{value:?}"))])
+            }
+            None => self.equations.clone(),
+        };
+        Ok(equations.model::<DVector<f64>>()?.tolerances(self.tolerances))
+    }
+
+    /// The parameters of the equations as jets, with one of them moving.
+    fn parameters<const T: usize>(&self, moving: Jet<T>) -> impl Iterator<Item = Jet<T>> + '_ {
+        let names = self.equations.names();
+        names.parameters.iter().zip(&names.values).map(move |(name, value)| {
+            if *name == self.parameter { moving } else { Jet::number(value.value()) }
+        })
+    }
+
+    /// The start of a return.
+    fn start<const T: usize>(
+        &self,
+        coordinates: &[Jet<T>],
+        parameter: Jet<T>,
+    ) -> Result<Vec<Jet<T>>, Error> {
+        let (expected, found) = (self.section.states.len(), coordinates.len());
+        if expected != found {
+            let what = "the coordinates of a section";
+            return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
+        }
+        match &self.start {
+            Some(Map(start)) => {
+                let all: Vec<_> =
+                    coordinates.iter().copied().chain(self.parameters(parameter)).collect();
+                Ok(start.values(&all)?)
+            }
+            None => {
+                let place = |name| self.section.states.iter().position(|own| own == name);
+                let names = self.equations.names().states.iter();
+                let of = |name| place(name).map_or(Jet::number(0.0), |place| coordinates[place]);
+                Ok(names.map(of).collect())
+            }
+        }
+    }
+
+    /// The coordinates of a state.
+    fn image_of<const T: usize>(
+        &self,
+        state: &[Jet<T>],
+        parameter: Jet<T>,
+    ) -> Result<Vec<Jet<T>>, Error> {
+        // The time is no component of the formulas.
+        let names = &self.equations.names().states;
+        let state = &state[..names.len().min(state.len())];
+        match &self.coordinates {
+            Some(Map(coordinates)) => {
+                let all: Vec<_> = state.iter().copied().chain(self.parameters(parameter)).collect();
+                Ok(coordinates.values(&all)?)
+            }
+            None => {
+                let of = |name: &String| {
+                    let place = names.iter().position(|own| own == name);
+                    let reason = "no component of the state: give the coordinates by formulas";
+                    let name = name.clone();
+                    place.map(|place| state[place]).ok_or(equations::Error::Name { name, reason })
+                };
+                Ok(self.section.states.iter().map(of).collect::<Result<_, _>>()?)
+            }
+        }
+    }
+
+    /// The arcs of a return from a state.
+    fn arcs(
+        &self,
+        model: &EquationsModel<DVector<f64>>,
+        start: &[f64],
+    ) -> Result<Vec<Arc<Label, Label, DVector<f64>>>, Error> {
+        let mut state = start.to_vec();
+        let dimension = model.series(self.mode.as_str()).map_or(0, equations::Series::dimension);
+        if state.len() + 1 == dimension {
+            state.push(START);
+        }
+        let mut run = Execution::new(model, self.mode, DVector::from(state), self.limits);
+        let (mut arcs, mut last) = (Vec::new(), None);
+        while let Some(arc) = run.next() {
+            let arc = arc?;
+            let back = arc.event().is_some_and(|event| {
+                last = Some(event.surface);
+                let at_once = event.time <= event.time_rounding;
+                event.surface == self.surface && !at_once && event.after.is_some()
+            });
+            arcs.push(arc);
+            if back {
+                return Ok(arcs);
+            }
+        }
+        let stop = run.stop().unwrap_or(Stop::Failed);
+        let surface = last.filter(|_| stop == Stop::Terminal).map(|surface| surface.to_string());
+        let (time, events) = (run.time(), run.jump());
+        Err(Error::NoReturn { stop, surface, time, events })
+    }
+}
+
+impl MapFamily for EquationReturns {
+    fn dimension(&self) -> usize {
+        self.section.states.len()
+    }
+
+    fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error> {
+        let still = |value: &f64| Jet::<1>([*value]);
+        let coordinates: Vec<Jet<1>> = point.iter().map(still).collect();
+        let start = self.start(&coordinates, still(&parameter))?;
+        let start: Vec<f64> = start.iter().map(Jet::value).collect();
+        let arcs = self.arcs(&self.model(Some(parameter))?, &start)?;
+        let itinerary = itinerary(&arcs);
+        let after = arcs.last().and_then(|arc| arc.event()?.after.as_ref());
+        let state = after.map_or(&[][..], |(_, state)| state.as_slice());
+        let state: Vec<Jet<1>> = state.iter().map(still).collect();
+        let image = self.image_of(&state, still(&parameter))?;
+        Ok(Image { point: image.iter().map(Jet::value).collect(), itinerary })
+    }
+
+    fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
+        let start = self.start(curve, parameter)?;
+        let values: Vec<f64> = start.iter().map(Jet::value).collect();
+        let model = self.model(Some(parameter.value()))?;
+        let arcs = self.arcs(&model, &values)?;
+        let mut whole = start;
+        if arcs.first().is_some_and(|arc| arc.start.len() > whole.len()) {
+            // The time, at which each return begins.
+            whole.push(Jet::number(START));
+        }
+        let along = Along::curve(&whole).and_parameter_curve(&self.parameter, parameter);
+        let back = model.jet::<4>(&arcs, &along)?;
+        self.image_of(&back.state, parameter)
+    }
+}
+
+/// The mode and the surface of each event.
+fn itinerary(arcs: &[Arc<Label, Label, DVector<f64>>]) -> Vec<String> {
+    let of = |arc: &Arc<Label, Label, DVector<f64>>| {
+        Some(format!("{}: {}", arc.mode, arc.event()?.surface))
+    };
+    arcs.iter().filter_map(of).collect()
+}
