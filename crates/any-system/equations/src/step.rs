@@ -47,6 +47,11 @@ impl Step {
         self.coefficients.states().map(|series| horner(series, time - self.time)).collect()
     }
 
+    /// The number of coefficients in memory.
+    pub fn size(&self) -> usize {
+        self.coefficients.all.len()
+    }
+
     /// Whether the polynomial of a watched formula is the formula, as far as two values show.
     pub fn is_trusted(&self, formula: usize) -> bool {
         self.trust.get(formula).is_some_and(|trust| *trust == 1.0)

@@ -68,13 +68,17 @@ impl<T: HybridSystem> Execution<'_, T> {
         }
         self.at.chain.push(self.at.mode, surface);
         self.at.chain.check(time.value())?;
+        let mut resizes = false;
         let after = match self.system.reset(self.at.mode, surface, &state) {
             _ if !counts => Some((self.at.mode, state.clone())),
             Reset::Jump { mode, state: after } => {
                 check_dimension("the state after a reset that is no `Resize`", &state, &after)?;
                 Some((mode, after))
             }
-            Reset::Resize { mode, state: after } => Some((mode, after)),
+            Reset::Resize { mode, state: after } => {
+                resizes = true;
+                Some((mode, after))
+            }
             Reset::Stop => None,
         };
         if after.as_ref().is_some_and(|(_, after)| !after.is_finite())
@@ -83,8 +87,6 @@ impl<T: HybridSystem> Execution<'_, T> {
         {
             return Err(error);
         }
-        let dimension = |(_, after): &(T::Mode, T::State)| after.dimension();
-        let resizes = after.as_ref().map(dimension).is_some_and(|own| own != state.dimension());
         let direction = self.direction(surface, (kind, from), &leaving);
         let end = ArcEnd::Event(Event {
             surface,

@@ -18,14 +18,17 @@ use std::fmt::Debug;
 /// A jump is undone by its inverse, if [`inverse`](Self::inverse) gives it: in the mode to which the jump leads, where the guard
 /// is zero at the state before it, and goes there in its direction. A start on this surface is such an event.
 ///
-/// An event that leads out of a mode ends the run at its surface: no state comes from there. Jumps that lead *into* a mode from
+/// An event that leads out of a mode ends the run at its surface: no state comes from beyond it. Jumps that lead *into* a mode from
 /// another one are known by their inverses alone. Without one the run goes on, as if the state had come by the flow. So a run
 /// without jumps on its way needs no inverse.
 ///
 /// - Where a state may have come by such a jump or by the flow alone, it has come by the jump: the past need not be unique.
-/// - An observer has its events at the same points: a guard that rises in t falls in s.
-/// - No state beyond the surface of a contact or a switch has a past in its mode. The run ends where it would go beyond. A surface
-///   by which a jump leads into the mode belongs to that jump.
+/// - An observer ([`HybridSystem::observes`]) has its events at the same points: a guard that rises in t falls in s.
+/// - A mode flows on one side of its contacts and switches, backward too: a start beyond is an error, and the run ends where it would
+///   go beyond. At a crossing it ends where the event would have been.
+/// - A state within the tolerances of a surface is on it.
+/// - Jumps at one instant are undone in the reverse order of their guards. A jump that was an event at once, from a state beyond a
+///   contact, is not undone.
 /// - An inverse is compared with the jump: a state that the jump does not bring back is an error.
 /// - Where the guard has no rate at the state before a jump, its direction is not decided: the run ends in
 ///   [`ConditionError::Undecided`](crate::ConditionError::Undecided).
@@ -59,14 +62,19 @@ pub struct Backward<'a, T: HybridSystem> {
     guards: GuardTable<T::Mode, BackwardSurface<T::Mode, T::Surface>>,
 }
 
-/// How near a jump leads back to the state from which its inverse comes, relative to the states: far above the rounding of both, and
-/// far below what a wrong formula misses.
+/// How near a jump leads back to the state from which its inverse comes, relative to each component: far above the rounding of both,
+/// and far below what a wrong formula misses.
 const RETURN: f64 = 1e-6;
+
+/// The same for a component that is small beside others, relative to the largest one: it may be rounding of theirs.
+const RETURN_OF_SMALL: f64 = 1e-10;
 
 /// True if two states are one, as far as two formulas for it tell.
 pub(crate) fn is_back<X: StateVector>(found: &X, state: &X) -> bool {
-    let size = 1.0 + state.largest();
-    let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= RETURN * size;
+    let largest = state.largest();
+    let is_near = |(a, b): (&f64, &f64)| {
+        (a - b).abs() <= RETURN * a.abs().max(b.abs()) + RETURN_OF_SMALL * largest
+    };
     found.dimension() == state.dimension()
         && found.components().iter().zip(state.components()).all(is_near)
 }
@@ -153,6 +161,22 @@ impl<'a, T: HybridSystem> Backward<'a, T> {
         Some((self.inverses.iter().find(is_it)?.undo)(state))
     }
 
+    /// An error for an inverse of a surface that is no guard where it leads.
+    fn check_inverses(&self, mode: T::Mode, state: &T::State) -> Result<(), Error> {
+        for inverse in self.inverses.iter().filter(|inverse| inverse.after == mode) {
+            let (before, _) = (inverse.undo)(state);
+            let surface = inverse.surface;
+            let is_it = |guard: &&Guard<_>| guard.surface == surface && guard.role != Role::Clock;
+            if !self.system.guards(before).iter().any(|guard| is_it(&guard)) {
+                let reason = format!(
+                    "the inverse of {surface:?} leads to mode {before:?}, where it is no guard with a function: correct the inverse"
+                );
+                return Err(Error::Model { reason });
+            }
+        }
+        Ok(())
+    }
+
     /// True if a jump leads from a mode and a state to another mode and state.
     fn brings_back(
         &self,
@@ -187,21 +211,19 @@ impl<'a, T: HybridSystem> Backward<'a, T> {
 
     /// The guards of a mode: first the jumps that lead to it, then its own surfaces.
     fn guards_of(&self, mode: T::Mode) -> Vec<Guard<BackwardSurface<T::Mode, T::Surface>>> {
-        let leading = self.inverses.iter().filter(|inverse| inverse.after == mode);
-        let undone: Vec<T::Surface> = leading.map(|inverse| inverse.surface).collect();
-        let jumps = undone.iter().map(|&surface| {
-            let surface = BackwardSurface::Undone { surface, after: mode };
+        // Of jumps at one instant the last one is undone first.
+        let place =
+            |surface| self.system.guards(mode).iter().position(|own| own.surface == surface);
+        let mut leading: Vec<_> =
+            self.inverses.iter().rev().filter(|inverse| inverse.after == mode).collect();
+        leading.sort_by_key(|inverse| std::cmp::Reverse(place(inverse.surface)));
+        let jumps = leading.into_iter().map(|inverse| {
+            let surface = BackwardSurface::Undone { surface: inverse.surface, after: mode };
             Guard { role: Role::Undone, ..Guard::either(surface) }
         });
-        let own = self.system.guards(mode).iter();
-        let own = own.filter(|guard| !undone.contains(&guard.surface)).map(|guard| {
-            let direction = match guard.role.bounds_flow() {
-                true => Direction::Either,
-                false => guard.direction.backward(),
-            };
-            let surface = BackwardSurface::Model(guard.surface);
-            let role = if guard.role == Role::Clock { Role::Clock } else { Role::Crossing };
-            Guard { surface, direction, role, touch: guard.touch }
+        let own = self.system.guards(mode).iter().map(|guard| {
+            let observes = self.system.observes(guard.surface);
+            guard.backward(observes).named(BackwardSurface::Model(guard.surface))
         });
         jumps.chain(own).collect()
     }
@@ -262,6 +284,23 @@ impl<T: HybridSystem> HybridSystem for Backward<'_, T> {
         }
     }
 
+    /// By the tolerances: a start is often the end of a run forward, and known no better.
+    fn start_error(&self, surface: Self::Surface, state: &T::State) -> f64 {
+        let here = self.guard_value(surface, state);
+        let mut error = 0.0;
+        for axis in 0..state.dimension() {
+            let mut beside = state.clone();
+            let component = &mut beside.components_mut()[axis];
+            *component += self.tolerances.of(axis, *component);
+            error += (self.guard_value(surface, &beside) - here).abs();
+        }
+        error
+    }
+
+    fn observes(&self, surface: Self::Surface) -> bool {
+        matches!(surface, BackwardSurface::Model(surface) if self.system.observes(surface))
+    }
+
     fn reset(
         &self,
         mode: T::Mode,
@@ -278,14 +317,12 @@ impl<T: HybridSystem> HybridSystem for Backward<'_, T> {
                     true => before,
                     false => before.filled(|_| f64::NAN),
                 };
-                Reset::Jump { mode, state: before }
+                // The sides of the guards after the jump say nothing about those before it.
+                Reset::Resize { mode, state: before }
             }
-            // An observer changes nothing.
-            BackwardSurface::Model(surface) => match self.system.reset(mode, surface, state) {
-                same @ Reset::Jump { .. } if same == Reset::Jump { mode, state: state.clone() } => {
-                    same
-                }
-                _ => Reset::Stop,
+            BackwardSurface::Model(surface) => match self.system.observes(surface) {
+                true => Reset::Jump { mode, state: state.clone() },
+                false => Reset::Stop,
             },
         }
     }
@@ -341,6 +378,7 @@ impl<T: HybridSystem> HybridSystem for Backward<'_, T> {
         search: &Search<Self::Surface>,
     ) -> Result<NextEvent<Self::Surface, T::State>, Error> {
         self.check(mode)?;
+        self.check_inverses(mode, start)?;
         integrated_crossing(self, mode, start, search, self.tolerances)
     }
 }

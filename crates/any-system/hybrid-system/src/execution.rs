@@ -187,6 +187,10 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 "the limit on time, which is not before the start (backward: see `Backward`),";
             return Err(Error::BadLimit { what, value: self.limits.time });
         }
+        if !self.at.time.value().is_finite() {
+            let (what, value) = ("the time of the start", self.at.time.value());
+            return Err(Error::BadLimit { what, value });
+        }
         self.check_state(self.at.time.value(), &self.at.state)?;
         if self.at.initial { self.system.validate(self.at.mode, &self.at.state) } else { Ok(()) }
     }

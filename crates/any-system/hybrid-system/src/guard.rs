@@ -126,6 +126,27 @@ impl<S> Guard<S> {
     }
 }
 
+#[cfg(feature = "ode")]
+impl<S: Copy> Guard<S> {
+    /// The guard of a run backward, in the mode that its events leave. The mode flows on the same side of its bounds; a crossing that is
+    /// no observer ends the run where the event would have been.
+    pub(crate) fn backward(self, observes: bool) -> Self {
+        match self.role {
+            Role::Clock => self,
+            Role::Switch | Role::Contact if !observes && self.direction != Direction::Either => {
+                Guard { role: Role::Contact, ..self }
+            }
+            _ => Guard { role: Role::Crossing, direction: self.direction.backward(), ..self },
+        }
+    }
+
+    /// The same guard with the name of another surface.
+    pub(crate) fn named<R>(self, surface: R) -> Guard<R> {
+        let Guard { direction, role, touch, .. } = self;
+        Guard { surface, direction, role, touch }
+    }
+}
+
 impl<S: Copy> Guard<S> {
     /// The same guard as a contact that holds: a jump to a state beyond the surface is an event at once.
     #[must_use]

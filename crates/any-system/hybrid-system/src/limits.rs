@@ -22,8 +22,8 @@ pub struct Limits {
     /// hold as well: the steps of the tolerances of a flow, a million by default, and a billion samples of one
     /// search. It is also the most events of one arc that do not count, up to a million.
     pub steps: usize,
-    /// True if a clock whose preset time is the start of the execution has its event there. Default: false. If another
-    /// guard has an event at the start, the clock has its event after it in either case.
+    /// True if a clock whose preset time is the start of the execution has its event there, after the events of other guards
+    /// there. Default: false.
     pub ticks_at_start: bool,
     /// True if a clock whose preset time is the limit on time has its event there. Default: true. Without it the event is the
     /// first one of an execution that goes on.

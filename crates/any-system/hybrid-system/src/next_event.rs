@@ -76,6 +76,9 @@ impl<T: HybridSystem> Execution<'_, T> {
             true => NextEvent::None { state: Some(state.clone()), certainty: Certainty::Certain },
             false => self.system.first_crossing(mode, state, &search)?,
         };
+        if let (NextEvent::Crossing(crossing), Some(clock)) = (&found, clock) {
+            self.check_order(crossing, clock)?;
+        }
         let found = match (found, clock) {
             (NextEvent::None { state: end, certainty }, Some(clock)) => {
                 let state = end.unwrap_or_else(|| flow_to(&flow, clock.until));
@@ -84,6 +87,27 @@ impl<T: HybridSystem> Execution<'_, T> {
             (found, _) => found,
         };
         Ok((found, leaving, clock))
+    }
+
+    /// An error for a jump that is undone at the instant of a tick: forward the tick came after the jump, so that it would have to be
+    /// undone before.
+    fn check_order(
+        &self,
+        crossing: &Crossing<T::Surface, T::State>,
+        clock: ClockEvent<T::Surface>,
+    ) -> Result<(), Error> {
+        let mut guards = self.system.guards(self.at.mode).iter();
+        let undoes = guards.any(|g| g.surface == crossing.surface && g.role == Role::Undone);
+        if !undoes || crossing.time + crossing.time_rounding < clock.until {
+            return Ok(());
+        }
+        let (jump, clock) = (crossing.surface, clock.surface);
+        let time = self.at.time.value() + crossing.time;
+        let reason = format!(
+            "backward the jump of {jump:?} and the tick of {clock:?} are at one instant, {time}: in which order they are undone is \
+             not decided; end the run before"
+        );
+        Err(Error::Model { reason })
     }
 
     /// The time from here to the limit, or to the next tick of a clock.

@@ -42,6 +42,10 @@ impl<T: HybridSystem> HybridSystem for Searched<T> {
         self.0.condition(mode, surface, before)
     }
 
+    fn observes(&self, surface: T::Surface) -> bool {
+        self.0.observes(surface)
+    }
+
     fn reset_error(
         &self,
         mode: T::Mode,

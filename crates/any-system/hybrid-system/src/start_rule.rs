@@ -137,12 +137,16 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         let by_time = arrival
             .filter(|_| now != 0.0 && !crossed_by_flow)
             .map_or(0.0, |arrival| arrival.error_after(flow, surface));
-        let error = rounding + by_time.max(residue);
+        // Without an arrival the error of the state is that of a start.
+        let by_start = match arrival {
+            None => flow.system.start_error(surface, flow.start),
+            Some(_) => 0.0,
+        };
+        let error = rounding + by_time.max(residue) + by_start;
         let on_surface = now.abs() <= error;
         // A state on it has come by the jump: the initial one, or one to which another jump has been undone. The start is
-        // known to be on the surface as far as its rounding tells.
-        let comes_by_jump = role == Role::Undone && continued.is_none() && !had_its_event(surface);
-        if on_surface && comes_by_jump && (initial || arrival.is_some()) {
+        // known to be on the surface as far as its errors tell.
+        if on_surface && role == Role::Undone && arrival.is_none() && !had_its_event(surface) {
             let (certainty, errors) = (Certainty::Certain, (0.0, 0.0));
             return Ok(ArcStart::Event { surface, certainty, errors, undeclared: None });
         }

@@ -99,6 +99,22 @@ pub trait HybridSystem {
         None
     }
 
+    /// How far from zero a guard may be at a start that is on its surface, besides rounding: by the error of the start itself.
+    ///
+    /// Default: 0. The start is exact.
+    fn start_error(&self, surface: Self::Surface, start: &Self::State) -> f64 {
+        let _ = (surface, start);
+        0.0
+    }
+
+    /// True for a surface whose events change nothing, as those of an observer. A run backward passes them.
+    ///
+    /// Default: false.
+    fn observes(&self, surface: Self::Surface) -> bool {
+        let _ = surface;
+        false
+    }
+
     /// Why the state after an event at this time is not finite, if the model knows more than that. Without a surface: the
     /// state after a Zeno limit.
     ///

@@ -207,3 +207,158 @@ fn a_jump_from_another_mode_is_known_by_its_inverse() {
     let fate = known.run(false, [20.5], (0.0, -0.1)).fate();
     assert_eq!((fate.mode, fate.events), (true, 1));
 }
+
+/// From the very end of a run forward, on a surface within rounding: through its landing, or up the flight that a stop has ended.
+#[test]
+fn a_run_back_begins_where_a_run_forward_ends() {
+    let floor = |x: &State<2>| x[0];
+    let bounce = Model::integrated(|(), x: &State<2>| [x[1], -1.0]).tolerance(1e-12).guard(
+        (),
+        Guard::falling("floor"),
+        floor,
+        |x| ((), [x[0], -0.5 * x[1]]),
+    );
+    let stop = Model::integrated(|(), x: &State<2>| [x[1], -1.0]).tolerance(1e-12).terminal(
+        (),
+        Guard::falling("floor"),
+        floor,
+    );
+    let equations = |stops: bool| {
+        let floor = Equations::new(&["height", "speed"], &[])
+            .mode_text("flight", &["speed", "-1"])
+            .falling_text("floor", "height");
+        match stops {
+            true => floor.stops(),
+            false => {
+                floor.resets_text(&["height", "-0.5*speed"]).inverse_text(&["height", "-2*speed"])
+            }
+        }
+    };
+    let models = [false, true].map(|stops| equations(stops).model::<State<2>>().unwrap());
+    let backs = [false, true]
+        .map(|stops| equations(stops).reversed().unwrap().model::<State<2>>().unwrap());
+    for k in 0..100 {
+        let start = State::from([0.3 + 0.618 * f64::from(k) % 1.0, 0.1 * f64::from(k % 7)]);
+        let landing = stop.run((), start, 9.0).fate();
+        let time = landing.time;
+        let back = Backward::new(&stop, TIGHT).run((), landing.state, (time, 0.0)).fate();
+        assert!((back.state - start).norm() < 1e-9 && back.events == 0, "{k} {back:?}");
+        let end = bounce.run((), start, time).fate();
+        let back = Backward::new(&bounce, TIGHT)
+            .inverse("floor", (), |x| ((), [x[0], -2.0 * x[1]].into()))
+            .run((), end.state, (time, 0.0))
+            .fate();
+        assert!((back.state - start).norm() < 1e-9, "{k} {back:?}");
+        assert_eq!(back.events, end.events, "{k}");
+        for (model, back) in models.iter().zip(&backs) {
+            let end = model.start("flight", start, time).unwrap().fate();
+            let first = back.start_at("flight", end.state, (-end.time, 0.0)).unwrap().fate();
+            assert!((first.state - start).norm() < 1e-9, "{k} {end:?} {first:?}");
+        }
+    }
+}
+
+/// No past beyond a floor: a start there is an error, and from its surface downward the run ends at once.
+#[test]
+fn there_is_no_past_beyond_a_bound() {
+    let ball = Model::integrated(|(), x: &State<2>| [x[1], -1.0]).falling(
+        (),
+        |x| x[0],
+        |x| ((), [x[0], -0.5 * x[1]]),
+    );
+    let alone = Backward::new(&ball, TIGHT);
+    let beyond = alone.run((), [-1.0, 0.0], (5.0, 0.0)).fate();
+    assert!(matches!(beyond.end, End::Failed(Error::StartsBeyond { .. })), "{beyond:?}");
+    let down = alone.run((), [0.0, 0.5], (1.0, 0.0)).fate();
+    assert_eq!((down.end, down.time), (End::Terminal(BackwardSurface::Model(0)), -1.0));
+    // From −1 the state goes to 1, and jumps back to −1: none comes from between 1 and 1.5.
+    let saw = Model::integrated(|(), _: &State<1>| [1.0]).rising(
+        (),
+        |x| x[0] - 1.0,
+        |x| ((), [x[0] - 2.0]),
+    );
+    let back = Backward::new(&saw, TIGHT).inverse(0, (), |x| ((), [x[0] + 2.0].into()));
+    let beyond = back.run((), [1.5], (1.0, 0.0)).fate();
+    assert!(matches!(beyond.end, End::Failed(Error::StartsBeyond { .. })), "{beyond:?}");
+    let crossing = Model::integrated(|(), _: &State<1>| [1.0])
+        .rising((), |x| x[0] - 1.0, |x| ((), [x[0] - 2.0]))
+        .crossing();
+    let back = Backward::new(&crossing, TIGHT).inverse(0, (), |x| ((), [x[0] + 2.0].into()));
+    let ends = back.run((), [1.5], (1.0, 0.0)).fate();
+    assert_eq!(ends.end, End::Terminal(BackwardSurface::Model(0)));
+    // A reset that changes nothing here is no observer.
+    let flag = Model::integrated(|(), _: &State<2>| [1.0, 0.0])
+        .rising((), |x| x[0] - 1.0, |x| ((), [x[0], 1.0]))
+        .crossing();
+    let ends = Backward::new(&flag, TIGHT).run((), [1.5, 1.0], (1.0, 0.0)).fate();
+    assert_eq!(ends.end, End::Terminal(BackwardSurface::Model(0)));
+}
+
+/// Of two jumps at one instant the last one is undone first; a tick at the instant of a jump is an error.
+#[test]
+fn the_order_of_jumps_at_one_instant() {
+    let pair = Model::integrated(|(), _: &State<3>| [1.0, 1.0, 0.0])
+        .guard((), Guard::rising("a"), |x| x[0] - 1.0, |x| ((), [x[0] - 1.0, x[1], 2.0 * x[2]]))
+        .guard((), Guard::rising("b"), |x| x[1] - 1.0, |x| ((), [x[0], x[1] - 1.0, x[2] + 1.0]));
+    let end = pair.run((), [0.5, 0.5, 3.0], 1.0).fate();
+    assert_eq!(end.state[2], 7.0);
+    let back = Backward::new(&pair, TIGHT)
+        .inverse("a", (), |x| ((), [x[0] + 1.0, x[1], x[2] / 2.0].into()))
+        .inverse("b", (), |x| ((), [x[0], x[1] + 1.0, x[2] - 1.0].into()));
+    let first = back.run((), end.state, (1.0, 0.0)).fate();
+    assert!((first.state - State::from([0.5, 0.5, 3.0])).norm() < 1e-9, "{first:?}");
+    let equations = Equations::new(&["x", "y", "z"], &[])
+        .mode_text("m", &["1", "1", "0"])
+        .rising_text("a", "x - 1")
+        .resets_text(&["x - 1", "y", "2*z"])
+        .inverse_text(&["x + 1", "y", "z/2"])
+        .rising_text("b", "y - 1")
+        .resets_text(&["x", "y - 1", "z + 1"])
+        .inverse_text(&["x", "y + 1", "z - 1"]);
+    let back = equations.reversed().unwrap().model::<State<3>>().unwrap();
+    let first = back.start_at("m", end.state, (-1.0, 0.0)).unwrap().fate();
+    assert!((first.state - State::from([0.5, 0.5, 3.0])).norm() < 1e-9, "{first:?}");
+    let ticks = equations
+        .ticks_text("tick", &["0.5"])
+        .resets_text(&["x", "y", "z*3"])
+        .inverse_text(&["x", "y", "z/3"]);
+    let back = ticks.reversed().unwrap().model::<State<3>>().unwrap();
+    let fate = back.start_at("m", end.state, (-1.0, 0.0)).unwrap().fate();
+    let End::Failed(error) = fate.end else { panic!("{fate:?}") };
+    assert!(error.to_string().contains("at one instant"), "{error}");
+}
+
+/// Ticks at both ends, there and back.
+#[test]
+fn ticks_at_the_ends_go_back() {
+    let equations = Equations::new(&["x"], &[])
+        .ticks_text("tick", &["0", "0.5", "1"])
+        .resets_text(&["2*x + 1"])
+        .inverse_text(&["(x - 1)/2"])
+        .mode_text("m", &["x/10"]);
+    let end = equations.model::<State<1>>().unwrap().start("m", [1.0], 1.0).unwrap().fate();
+    let back = equations.reversed().unwrap().model::<State<1>>().unwrap();
+    let first = back.start_at("m", end.state, (-1.0, 0.0)).unwrap().fate();
+    assert!((first.state[0] - 1.0).abs() < 1e-12 && first.events == end.events, "{first:?}");
+}
+
+/// Two modes whose jumps move their own guards.
+#[test]
+fn jumps_between_modes_that_move_their_guards() {
+    let equations = Equations::new(&["x"], &[])
+        .mode_text("a", &["1"])
+        .rising_text("fires", "x - 1")
+        .resets_text(&["x - 1"])
+        .inverse_text(&["x + 1"])
+        .to("b")
+        .mode_text("b", &["1"])
+        .rising_text("back", "x - 1")
+        .resets_text(&["x - 1"])
+        .inverse_text(&["x + 1"])
+        .to("a");
+    let end = equations.model::<State<1>>().unwrap().start("a", [0.3], 4.5).unwrap().fate();
+    let back = equations.reversed().unwrap().model::<State<1>>().unwrap();
+    let first = back.start_at("a", end.state, (-4.5, 0.0)).unwrap().fate();
+    assert_eq!((end.events, end.mode.as_str(), first.events), (4, "a", 4));
+    assert!((first.state[0] - 0.3).abs() < 1e-11, "{first:?}");
+}

@@ -114,6 +114,22 @@ fn all_kinds_of_ends_side_by_side() {
     }
 }
 
+/// A start of another length is an error, in a mode with a closed form too.
+#[test]
+fn a_start_of_another_length_is_an_error() {
+    let fall = Equations::new(&["x", "v"], &[])
+        .mode_text("c", &["v", "-1"])
+        .falling_text("floor", "x")
+        .model::<nalgebra::DVector<f64>>()
+        .unwrap();
+    let run = |_| {
+        let (mode, start) = (Label::new("c")?, nalgebra::DVector::zeros(1));
+        Ok(Execution::new(&fall, mode, start, Limits::new(5.0, 9)))
+    };
+    let fate = fall.fates(1, run, |_| Continue(())).remove(0).unwrap().unwrap();
+    assert!(matches!(fate.end, End::Failed(Error::Dimension { .. })), "{fate:?}");
+}
+
 /// After a break no further block of runs begins, and those that have finished are right.
 #[test]
 fn many_fates_can_be_stopped() {

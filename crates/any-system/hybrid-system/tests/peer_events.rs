@@ -54,6 +54,7 @@ fn simultaneous_discontinuous_events_after_reset() {
         assert_events(&found, &[(0, PI)], searched);
         // The resets of the contacts count in the flag, so that each holds until it has had its event.
         let contact = |bit: f64| Watched {
+            observes: false,
             guard: |surface| Guard::rising(surface).contact(),
             value: Box::new(move |x: &X| if x[FLAG] < bit - 0.5 { x[0] } else { -1.0 }),
             reset: Box::new(|x: &X| Some(X::new(x[0], x[1], x[2], x[FLAG] + 1.0))),

@@ -55,6 +55,8 @@ pub struct Equations {
     pub(super) modes: Vec<ModeEquations>,
     /// What was wrong first.
     pub(super) wrong: Option<Error>,
+    /// True for equations backward in time.
+    pub(super) backward: bool,
 }
 
 /// The model of some [`Equations`], without closures.
@@ -95,11 +97,15 @@ pub(super) struct Jump {
 }
 
 impl GuardEquations {
+    /// True if its events change nothing.
+    pub(super) fn observes(&self) -> bool {
+        self.jump.as_ref().is_some_and(|jump| *jump == Jump::default())
+    }
+
     /// The guard as a model lists it: an observer bounds no flow.
     fn declared(&self) -> Guard<Label> {
-        let observes = self.jump.as_ref().is_some_and(|jump| *jump == Jump::default());
         match self.guard.role {
-            Role::Switch if observes => self.guard.crossing(),
+            Role::Switch if self.observes() => self.guard.crossing(),
             _ => self.guard,
         }
     }
@@ -167,7 +173,7 @@ impl Equations {
     }
 
     pub(super) fn of_names(names: Names) -> Equations {
-        Equations { names, everywhere: vec![], modes: vec![], wrong: None }
+        Equations { names, everywhere: vec![], modes: vec![], wrong: None, backward: false }
     }
 
     /// The same equations with other values of parameters, as decimals by name.

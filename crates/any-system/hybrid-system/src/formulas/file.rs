@@ -75,6 +75,9 @@ impl Equations {
         });
         if let (Some(file), Value::Object(names)) = (file.as_object_mut(), self.names.to_value()) {
             file.extend(names);
+            if self.backward {
+                file.insert("backward".into(), true.into());
+            }
         }
         Ok(file)
     }
@@ -111,6 +114,11 @@ impl Equations {
         }
         let names = Names::from_value(file)?.with_functions(functions)?;
         let mut equations = Equations::of_names(names.clone());
+        equations.backward = match &file["backward"] {
+            Value::Null => false,
+            Value::Bool(backward) => *backward,
+            _ => return bad("backward", "true or false is expected"),
+        };
         equations.everywhere = guards(&file["everywhere"], &names)?;
         for mode in list(&file["modes"], "modes")? {
             let name = label(mode, "name")?;

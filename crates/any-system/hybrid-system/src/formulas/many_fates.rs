@@ -22,6 +22,9 @@ const TOGETHER: usize = 64;
 /// behind fewer ones the rest of a long arc is followed alone.
 const MOST_AHEAD: usize = 2000;
 
+/// The most numbers that are kept of an arc in one lane: 16 MB.
+const MEMORY: usize = 1 << 21;
+
 /// The fate of a run, or why it has not begun.
 type Ended<X> = Result<FateOf<EquationsModel<X>>, Error>;
 
@@ -165,6 +168,7 @@ impl<'m, X: StateVector, N: Fn()> Block<'m, X, N> {
         let flow = taylor_flow(series, series.dimension(), tolerances)?;
         let mut motions = SideBySide::new(&flow)?;
         let outline = flow.outline()?;
+        let most_ahead = MOST_AHEAD.min(MEMORY / outline.size()).max(1);
         let guards = self.model.guards(program.name).iter();
         let guards = guards.filter(|guard| guard.role != Role::Clock);
         let directions: Vec<Direction> = guards.map(|guard| guard.direction).collect();
@@ -195,7 +199,7 @@ impl<'m, X: StateVector, N: Fn()> Block<'m, X, N> {
                     Ok(time) => {
                         let goes_on = time != run.horizon && !may_end_in(step, &directions);
                         run.execution.ahead.keep();
-                        goes_on && run.execution.ahead.count() < MOST_AHEAD
+                        goes_on && run.execution.ahead.count() < most_ahead
                     }
                     // The search meets the same error on its own step.
                     Err(_) => false,
@@ -221,8 +225,10 @@ fn arc_in_a_lane<X: StateVector>(
 ) -> Option<(usize, f64)> {
     let mode = programs.iter().position(|program| program.name == execution.mode())?;
     let start = execution.state().components();
+    // Another length is an error of the execution.
+    let fits = programs[mode].series.dimension() == start.len();
     let is_integrated =
-        !programs[mode].guards.is_empty() && programs[mode].closed_form(start).is_none();
+        fits && !programs[mode].guards.is_empty() && programs[mode].closed_form(start).is_none();
     let horizon = execution.horizon().ok()?;
     let goes_on = execution.stop().is_none() && horizon.is_finite() && horizon > 0.0;
     (is_integrated && goes_on).then_some((mode, horizon))

@@ -197,7 +197,7 @@ where
     ) -> Result<Execution<'_, Self>, Error> {
         let (mode, start) = (Label::new(mode)?, self.start_state(start, 0.0)?);
         self.validate(mode, &start)?;
-        Ok(self.run(mode, start, time))
+        Ok(self.with_ticks(self.run(mode, start, time)))
     }
 
     /// The same from a time on, up to another one. Formulas have this time, also if the start has another one.
@@ -226,7 +226,15 @@ where
             *time = from;
         }
         self.validate(mode, &start)?;
-        Ok(self.run(mode, start, to).starting_at(from))
+        Ok(self.with_ticks(self.run(mode, start, to)).starting_at(from))
+    }
+
+    /// Backward a tick at the start has been one at the end, and the other way round.
+    fn with_ticks<'m>(&self, mut run: Execution<'m, Self>) -> Execution<'m, Self> {
+        if self.equations().backward {
+            (run.limits.ticks_at_start, run.limits.ticks_at_end) = (true, false);
+        }
+        run
     }
 
     fn start_state(&self, start: impl Start<X>, time: f64) -> Result<X, Error> {

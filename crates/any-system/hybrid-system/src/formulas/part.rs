@@ -14,6 +14,10 @@ use interval_arithmetic::Enclosure;
 use smallvec::SmallVec;
 use std::sync::Arc;
 
+/// The error of states in equations backward, relative and absolute: a start is often the end of a run forward, which is known to its
+/// tolerances. By rounding alone it would be beside the surface on which it is. It is that of the usual tolerance.
+const START_ERROR: f64 = 1e-12;
+
 /// How far beside a state a guard that may jump is looked at, relative to the state: far beyond the rounding of the guard's
 /// arithmetic, and near enough for the same error.
 const BESIDE: f64 = 1e-8;
@@ -124,10 +128,30 @@ impl<X: StateVector> ModelPart<Label, Label, X> for FormulaPart {
                 .as_ref()
                 .is_none_or(|inverse| is_back(&vector(inverse, &state), before))
             {
+                // Backward the sides of the guards after the jump say nothing about those before it.
+                true if self.0.equations.backward => Reset::Resize { mode, state },
                 true => Reset::Jump { mode, state },
                 false => Reset::Jump { mode, state: before.filled(|_| f64::NAN) },
             }
         }))
+    }
+
+    /// Backward a start is often the end of a run forward.
+    fn start_error(&self, surface: Label, start: &X) -> Option<f64> {
+        if !self.0.equations.backward {
+            return None;
+        }
+        let guard = self.guard(surface)?;
+        let around = |x: &f64| {
+            let error = START_ERROR * (1.0 + x.abs());
+            Enclosure::new(x - error, x + error)
+        };
+        let state: SmallVec<[Enclosure; 8]> = start.components().iter().map(around).collect();
+        Some(guard.function.enclosures(Enclosure::ZERO, &state).ok()?.first()?.width())
+    }
+
+    fn observes(&self, surface: Label) -> Option<bool> {
+        Some(self.guard(surface)?.jump.as_ref().is_some_and(|jump| *jump == Jump::default()))
     }
 
     /// Without a value it is NaN, which the execution reports.

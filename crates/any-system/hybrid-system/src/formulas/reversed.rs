@@ -9,6 +9,9 @@ use crate::error::Error;
 use crate::guard::{Direction, Role};
 use equations::Formulas;
 
+/// What the name of a surface has behind it where a run backward ends.
+const ENDS: &str = " ends";
+
 impl Equations {
     /// The same system backward: its time is s = −t, so that an execution from t₀ starts at −t₀, and its events are at −t. Each
     /// jump that changes the state needs its [`inverse`](Self::inverse).
@@ -17,9 +20,12 @@ impl Equations {
     ///   in its direction. A start on this surface is such an event.
     /// - Where a state may have come by such a jump or by the flow alone, it has come by the jump: the past need not be unique.
     /// - An observer has its events at the same points: a guard that rises in t falls in s.
-    /// - An event that stops the run forward stops it backward. In the mode that a jump leaves, its surface stops the run backward,
-    ///   unless a jump of the same surface leads into that mode: no run forward comes from beyond it. A
-    ///   [crossing](Self::crossing), on both sides of which the mode flows, stops it only where the event would have been.
+    /// - A mode flows on one side of its contacts and switches, backward too: a start beyond is an error, and the run ends where it would
+    ///   go beyond. Where a jump leaves a mode this end has the surface `"NAME ends"`. At a [crossing](Self::crossing) the run ends where
+    ///   the event would have been.
+    /// - A state within 10⁻¹² of a surface is on it: the end of a run forward is known no better.
+    /// - Jumps at one instant are undone in the reverse order of their guards; a tick at the instant of another jump is an error.
+    /// - A tick at the start of a run backward is undone, and none at its end: forward it is the other way round.
     /// - The rest after a Zeno limit is left out. A periodic clock is an error, since its last tick is not known.
     ///
     /// ```
@@ -49,6 +55,7 @@ impl Equations {
             [-t].into_iter().chain(x.iter().copied()).collect()
         })?;
         let mut reversed = Equations::of_names(self.names.clone());
+        reversed.backward = !self.backward;
         for mode in &self.modes {
             let field = mode.field.composed(&back)?.negative();
             let (guards, after_limit) = (Vec::new(), None);
@@ -56,14 +63,20 @@ impl Equations {
         }
         let guards = || {
             let of = |mode| move |guard| (mode, guard);
+            // What the first reversal has added is not reversed again.
+            let is_end = |guard: &&GuardEquations| {
+                self.backward && guard.guard.surface.as_str().ends_with(ENDS)
+            };
             let modes = self.modes.iter();
-            modes.flat_map(move |mode| self.everywhere.iter().chain(&mode.guards).map(of(mode)))
+            modes.flat_map(move |mode| {
+                let own = self.everywhere.iter().chain(&mode.guards);
+                own.filter(move |guard| !is_end(guard)).map(of(mode))
+            })
         };
-        let changes = |guard: &GuardEquations| {
-            guard.jump.as_ref().is_some_and(|jump| *jump != Jump::default())
-        };
-        // First the jumps, in the modes to which they lead: they are its past.
-        for (mode, guard) in guards().filter(|(_, guard)| changes(guard)) {
+        let changes = |guard: &GuardEquations| guard.jump.is_some() && !guard.observes();
+        // First the jumps, in the modes to which they lead: they are its past. Of jumps at one instant the last one is undone first.
+        let jumps: Vec<_> = guards().filter(|(_, guard)| changes(guard)).collect();
+        for (mode, guard) in jumps.into_iter().rev() {
             reversed.add_reversed(&back, mode, guard)?;
         }
         // Then the observers and the stops, and the ends of the past where a jump leaves a mode.
@@ -115,7 +128,8 @@ impl Equations {
         }
     }
 
-    /// Adds the end of the past at an event that leads out of a mode, unless the same surface leads into it.
+    /// Adds the end of the past at an event that leads out of a mode, under a name of its own: the surface of the jump backward is another
+    /// one.
     fn add_end(
         &mut self,
         back: &Formulas,
@@ -127,8 +141,12 @@ impl Equations {
         }
         let mut guard = guard.crossed_at(back)?;
         guard.jump = None;
-        self.push_guard(mode, guard);
-        Ok(())
+        let name = format!("{}{ENDS}", guard.guard.surface);
+        guard.guard.surface = Label::new(&name)?;
+        match self.push_guard(mode, guard.clone()) {
+            true => Ok(()),
+            false => guard.bad("its name is that of the end of another guard backward"),
+        }
     }
 
     /// Adds a guard, and returns true, if its mode has none of its surface.
@@ -148,17 +166,10 @@ impl GuardEquations {
     /// The guard backward, as a crossing of the surface where it is zero at another time and state. A clock has its times backward.
     fn crossed_at(&self, inner: &Formulas) -> Result<GuardEquations, Error> {
         let mut guard = self.clone();
-        // No state beyond a surface that bounds the flow has a past there: the run ends where it would go beyond, and where it
-        // would come from beyond.
-        let observes = self.jump.as_ref().is_some_and(|jump| *jump == Jump::default());
-        guard.guard.direction = match self.guard.role.bounds_flow() && !observes {
-            true => Direction::Either,
-            false => self.guard.direction.backward(),
-        };
+        guard.guard = self.guard.backward(self.observes());
         if self.guard.role == Role::Clock {
             guard.function = self.times_backward()?;
         } else {
-            guard.guard.role = Role::Crossing;
             guard.function = self.function.composed(inner)?;
         }
         let condition = self.condition.as_ref();

@@ -93,6 +93,9 @@ where
     X: Clone,
     G: Fn(&X) -> f64,
 {
+    fn observes(&self, surface: S) -> Option<bool> {
+        (surface == self.surface).then_some(true)
+    }
     #[inline]
     fn value(&self, surface: S, state: &X) -> Option<f64> {
         (surface == self.surface).then(|| (self.guard)(state))

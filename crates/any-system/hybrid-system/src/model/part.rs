@@ -79,6 +79,10 @@ methods! {
     fn unknown_surface(known: &dyn Fn(S) -> bool) -> S;
     /// Mode and state after an event.
     fn reset(mode: M, surface: S, before: &X) -> Reset<M, X>;
+    /// The error of a guard by that of the start.
+    fn start_error(surface: S, start: &X) -> f64;
+    /// True for an observer.
+    fn observes(surface: S) -> bool;
     /// Why the state after an event, or a Zeno limit, is not finite.
     fn reset_error(mode: M, surface: Option<S>, before: &X, time: f64) -> Error;
     /// The next preset time. The outer `None` means that the surface belongs to another part.

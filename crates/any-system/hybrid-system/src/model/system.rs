@@ -55,6 +55,14 @@ where
         self.parts.condition(mode, surface, before)
     }
 
+    fn start_error(&self, surface: S, start: &X) -> f64 {
+        self.parts.start_error(surface, start).unwrap_or(0.0)
+    }
+
+    fn observes(&self, surface: S) -> bool {
+        self.parts.observes(surface).unwrap_or(false)
+    }
+
     fn reset_error(&self, mode: M, surface: Option<S>, before: &X, time: f64) -> Option<Error> {
         self.parts.reset_error(mode, surface, before, time)
     }

@@ -6,7 +6,8 @@ use nalgebra::DVector;
 
 /// A vector without the time: an array, a [`State<N>`](State), a `Vec` or a `DVector`. It is what the closures of a model with the
 /// time return. An array of another length than the state has without its time does not compile. What a closure returns may be a state
-/// with the time, too, such as its own argument: its last component is replaced.
+/// with the time, too, such as its own argument: its last component is replaced. A start, and a state of another length
+/// ([`Reset::Resize`]), never has it.
 pub trait Untimed<X> {
     /// The vector with `time` as its last component. `dimension` is the number of components with it, if that is known.
     #[doc(hidden)]

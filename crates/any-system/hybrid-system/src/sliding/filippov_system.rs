@@ -193,6 +193,10 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
         }
     }
 
+    fn observes(&self, surface: Self::Surface) -> bool {
+        matches!(surface, FilippovSurface::Model(surface) if self.system.observes(surface))
+    }
+
     fn reset_error(
         &self,
         mode: Self::Mode,

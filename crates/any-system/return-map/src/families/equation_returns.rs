@@ -238,7 +238,7 @@ impl EquationReturns {
         }
         let mut run = Execution::new(model, self.mode, DVector::from(state), self.limits);
         let (mut arcs, mut last) = (Vec::new(), None);
-        while let Some(arc) = run.next() {
+        for arc in run.by_ref() {
             let arc = arc?;
             let back = arc.event().is_some_and(|event| {
                 last = Some(event.surface);
