@@ -13,6 +13,11 @@
 //! | [`fixed_points`], [`FixedPoint`] | transverse and tangent fixed points of a scalar map |
 //! | [`periodic_point`], [`periodic_point_with_derivative`], [`PeriodicPoint`] | fixed and periodic points in any dimension, with their multipliers |
 //! | [`one_sided_stability`] | attracting or repelling from the left or right, with its power law |
+//! | [`MapFamily`], [`FormulaMap`], [`EquationReturns`], [`family`](fn@family), [`scalar_family`], [`pieces`] | maps that depend on a parameter: by formulas, as returns of `hybrid_system::Equations`, by closures |
+//! | [`follow_branch`], [`follow_equilibria`], [`Branch`] | how fixed points, periodic points and equilibria change with the parameter |
+//! | [`Bifurcation`], [`BifurcationKind`] | where they are born, change and end, located on the branch, with normal forms |
+//! | [`doubled_branch`], [`cascade`], [`bifurcation_curve`] | the branch behind a doubling, cascades, curves in two parameters |
+//! | [`bifurcation_diagram`], [`lyapunov_exponents`] | where orbits end over a parameter; how fast neighbours part |
 //!
 //! A ball keeps half of its speed at each bounce. The return map maps the speed after a bounce to the speed after the
 //! next bounce:
@@ -62,28 +67,58 @@
 //! A plain flow is a hybrid system with one mode, and a guard whose reset keeps the state. The example `lorenz`
 //! shows it for the Lorenz system, with the derivative.
 //!
+//! # Branches
+//! A runner on a spring leg, by its equations, over the angle at which the leg is put down. The map is that from one apex to the next:
+//!
+//! ```
+//! use return_map::{BifurcationKind, BranchSteps, EquationReturns, follow_branch};
+//! use std::ops::ControlFlow::Continue;
+//! let leg = example_systems::spring_leg::spring_leg();
+//! // The coordinate is the height of the apex. The energy is that of 5 m/s at 1 m.
+//! let apexes = EquationReturns::new(&leg, "attack", ("flight", "apex"), &["h"])?
+//!     .starting_text(&["0", "h", "sqrt(25 + 2*gravity*(1 - h))", "0"])?
+//!     .coordinates_text(&["height"])?;
+//! let steps = BranchSteps { longest: 0.1, ..BranchSteps::default() };
+//! let branch = follow_branch(&apexes, 1, (&[0.94], 68.0), (67.0, 69.0), steps, |_| Continue(()))?;
+//! // Up to 68.85° the run is stable without any control.
+//! let doubling = &branch.bifurcations[0];
+//! assert_eq!(doubling.kind, BifurcationKind::Doubling);
+//! assert!((doubling.at.parameter - 68.85).abs() < 0.01);
+//! # Ok::<(), return_map::Error>(())
+//! ```
+//!
+//! A step never passes to other pieces of the map. At a grazing, or where two events come at one instant, the branch ends in
+//! [`BranchEnd::Border`] with the surface. Derivatives of `FormulaMap` and `EquationReturns` are exact; those of closures are differences
+//! of order six, which have some twelve digits of the first derivative of a smooth map with values to rounding.
+//!
 //! # Not here
+//! - Touches that come and go within one step of a branch; curves of grazings.
+//! - Invariant manifolds, circles and tori; cycles of flows without a section.
 //! - Monotone branches and jumps of scalar maps: `basin_of_attraction::monotone_branches` takes any closure, and so a
 //!   return map.
 
 mod branches;
+mod diagram;
 mod error;
 mod families;
 mod fixed_point;
+mod lyapunov;
 mod periodic_point;
 mod return_map;
 mod section;
 mod stability;
 
 pub use branches::{
-    Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, BranchSteps, cascade,
-    doubled_branch, follow_branch,
+    Bifurcation, BifurcationCurvePoint, BifurcationKind, Branch, BranchEnd, BranchPoint,
+    BranchSteps, bifurcation_curve, cascade, doubled_branch, follow_branch, follow_equilibria,
 };
+pub use diagram::{DiagramColumn, OrbitLength, Seeds, bifurcation_diagram};
 pub use error::Error;
 pub use families::{
     Closure, EquationReturns, FormulaMap, Image, MapFamily, family, pieces, scalar_family,
 };
 pub use fixed_point::{FixedPoint, Intersection, fixed_points};
+pub use lyapunov::{OrbitMean, lyapunov_exponents};
 pub use periodic_point::{PeriodicPoint, periodic_point, periodic_point_with_derivative};
 pub use return_map::{Return, ReturnMap, SmoothReturn};
 pub use section::{Section, SmoothSection};

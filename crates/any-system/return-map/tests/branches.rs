@@ -4,8 +4,9 @@
 
 use equations::{Formulas, Names};
 use return_map::{
-    BifurcationKind, Branch, BranchEnd, BranchSteps, EquationReturns, Error, FormulaMap, MapFamily,
-    cascade, doubled_branch, family, follow_branch, pieces, scalar_family,
+    BifurcationKind, Branch, BranchEnd, BranchSteps, DiagramColumn, EquationReturns, Error,
+    FormulaMap, MapFamily, OrbitLength, Seeds, bifurcation_diagram, cascade, doubled_branch,
+    family, follow_branch, follow_equilibria, lyapunov_exponents, pieces, scalar_family,
 };
 use std::ops::ControlFlow::{Break, Continue};
 
@@ -40,7 +41,7 @@ fn the_logistic_map() {
             let r = point.parameter;
             assert!((point.point[0] - (1.0 - 1.0 / r)).abs() < 1e-13, "{point:?}");
             assert!((point.multipliers[0].re - (2.0 - r)).abs() < 1e-9, "{point:?}");
-            assert_eq!(point.is_stable(), (1.0..3.0).contains(&r));
+            assert_eq!(point.is_stable, (1.0..3.0).contains(&r));
         }
         assert_eq!(branch.ends, [BranchEnd::Window, BranchEnd::Window]);
         let ends = [branch.points.first().unwrap(), branch.points.last().unwrap()];
@@ -206,7 +207,7 @@ fn a_grazing_ends_a_branch_of_a_return_map() {
     let strobe =
         EquationReturns::new(&oscillator, "forcing", ("free", "strobe"), &["x", "v"]).unwrap();
     let [x, v, _] = steady_start(0.3);
-    let steps = BranchSteps { longest: 0.1, ..BranchSteps::default() };
+    let steps = BranchSteps { first: 0.3, longest: 0.5, ..BranchSteps::default() };
     let branch =
         follow_branch(&strobe, 1, (&[x, v], 0.3), (0.1, 0.9), steps, |_| Continue(())).unwrap();
     for point in &branch.points {
@@ -226,4 +227,130 @@ fn a_grazing_ends_a_branch_of_a_return_map() {
         grazing_forcing()
     );
     assert_eq!(beyond[*place], "free: stop");
+}
+
+/// A field with a fold, ẋ = p + x², and one with a pitchfork, ẋ = p x − x³.
+#[test]
+fn equilibria_fold_and_fork() {
+    let fold = family(1, |x, p| Ok(vec![p + x[0] * x[0]]));
+    let steps = BranchSteps::default();
+    let branch =
+        follow_equilibria(&fold, (&[-0.5], -0.25), (-1.0, 1.0), steps, |_| Continue(())).unwrap();
+    assert_eq!(kinds(&branch)[0].0, BifurcationKind::Fold);
+    assert!(branch.bifurcations[0].at.parameter.abs() < 1e-13);
+    assert!((branch.bifurcations[0].coefficient.unwrap().abs() - 1.0).abs() < 1e-8);
+    for point in &branch.points {
+        let x = point.point[0];
+        assert!((point.parameter + x * x).abs() < 1e-12 && (point.is_stable == (x < 0.0)));
+    }
+    let fork = family(1, |x, p| Ok(vec![p * x[0] - x[0] * x[0] * x[0]]));
+    let branch =
+        follow_equilibria(&fork, (&[0.0], -0.5), (-1.0, 1.0), steps, |_| Continue(())).unwrap();
+    assert_eq!(kinds(&branch)[0].0, BifurcationKind::Pitchfork);
+    assert!((branch.bifurcations[0].coefficient.unwrap() + 1.0).abs() < 1e-6);
+}
+
+/// The Hopf bifurcation of ẋ = p x − y − x (x² + y²), ẏ = x + p y − y (x² + y²): ṙ = p r − r³. With the eigenvector of length 1 the
+/// coefficient is −2 (q = (1, −i)/√2, |z|² = 2 r²/… as Kuznetsov's l₁).
+#[test]
+fn a_cycle_begins_at_an_equilibrium() {
+    for (sign, stable) in [(-1.0, true), (1.0, false)] {
+        let field = family(2, move |x, p| {
+            let r = sign * (x[0] * x[0] + x[1] * x[1]);
+            Ok(vec![p * x[0] - x[1] + r * x[0], x[0] + p * x[1] + r * x[1]])
+        });
+        let steps = BranchSteps::default();
+        let branch =
+            follow_equilibria(&field, (&[0.0, 0.0], -0.5), (-1.0, 1.0), steps, |_| Continue(()))
+                .unwrap();
+        let hopf = &branch.bifurcations[0];
+        assert_eq!(hopf.kind, BifurcationKind::Hopf);
+        assert!(hopf.at.parameter.abs() < 1e-12);
+        assert_eq!(hopf.coefficient.unwrap() < 0.0, stable);
+        assert!((hopf.coefficient.unwrap().abs() - 2.0).abs() < 1e-6, "{hopf:?}");
+    }
+}
+
+/// ln 2 of the logistic map at r = 4; of Hénon's map the sum is ln b, and the largest 0.4192.
+#[test]
+fn lyapunov_exponents_are_the_known_ones() {
+    let logistic = scalar_family(|x, r| r * x * (1.0 - x));
+    let found = lyapunov_exponents(&logistic, (&[0.3], 4.0), 100, 32_000).unwrap();
+    assert!((found[0].value - 2f64.ln()).abs() < 5e-3, "{found:?}");
+    // A cycle: the multiplier −0.5 of r = 2.5.
+    let cycle = lyapunov_exponents(&logistic, (&[0.3], 2.5), 1000, 160).unwrap();
+    assert!(
+        (cycle[0].value - 0.5f64.ln()).abs() < 1e-10 && cycle[0].upper - cycle[0].lower < 1e-10
+    );
+    let names = Names::new(&["x", "y"], &[("a", "1.4"), ("b", "0.3")]).unwrap();
+    let henon =
+        FormulaMap::new(&Formulas::from_text(names, &["1 - a*x^2 + y", "b*x"]).unwrap(), "a")
+            .unwrap();
+    let found = lyapunov_exponents(&henon, (&[0.1, 0.1], 1.4), 100, 32_000).unwrap();
+    assert!((found[0].value + found[1].value - 0.3f64.ln()).abs() < 1e-10, "{found:?}");
+    assert!(found[0].lower < 0.4192 && 0.4192 < found[0].upper, "{found:?}");
+    assert!(found[0].upper - found[0].lower < 0.04);
+}
+
+/// Carried seeds stay on their attractor: ẋ-like cubic map with two attractors, in both directions.
+#[test]
+fn diagrams_carry_their_seeds() {
+    // x ↦ x + (p + x − x³)/5 has three fixed points for |p| < 2/√27.
+    let map = scalar_family(|x, p| x + 0.2 * (p + x - x * x * x));
+    let up: Vec<f64> = (0..=80).map(|k| -0.8 + 0.02 * f64::from(k)).collect();
+    let length = OrbitLength { transient: 400, keep: 1 };
+    let seeds = [vec![-1.0]];
+    let last = |columns: &[DiagramColumn], k: usize| columns[k].orbits[0].as_ref().unwrap()[0][0];
+    let carried =
+        bifurcation_diagram(&map, &up, (&seeds, Seeds::Carried), length, |_| Continue(()));
+    let down: Vec<f64> = up.iter().rev().copied().collect();
+    let back =
+        bifurcation_diagram(&map, &down, (&[vec![1.0]], Seeds::Carried), length, |_| Continue(()));
+    // At p = 0 the branch below and the one above.
+    assert!((last(&carried, 40) + 1.0).abs() < 1e-9 && (last(&back, 40) - 1.0).abs() < 1e-9);
+    let both = [vec![-1.0], vec![1.0]];
+    let fresh = bifurcation_diagram(&map, &[0.0], (&both, Seeds::Fresh), length, |_| Continue(()));
+    let found: Vec<f64> =
+        fresh[0].orbits.iter().map(|orbit| orbit.as_ref().unwrap()[0][0]).collect();
+    assert!((found[0] + 1.0).abs() < 1e-9 && (found[1] - 1.0).abs() < 1e-9);
+    // An orbit without an image is its own error, and the columns can be stopped.
+    let gap = family(1, |x, p| match p < 0.5 {
+        true => Ok(vec![0.5 * x[0]]),
+        false => Err(Error::NoImage { point: x.to_vec(), parameter: p }),
+    });
+    let columns =
+        bifurcation_diagram(&gap, &[0.0, 1.0], (&seeds, Seeds::Fresh), length, |_| Continue(()));
+    assert!(columns[0].orbits[0].is_ok() && columns[1].orbits[0].is_err());
+    let stopped = bifurcation_diagram(&map, &up, (&seeds, Seeds::Fresh), length, |_| Break(()));
+    assert!(stopped.len() < up.len());
+}
+
+/// The spring leg at 5 m/s over its angle of attack: stable between a fold and a doubling, or the end of its flights.
+#[test]
+fn the_spring_leg_over_its_angle_of_attack() {
+    let leg = example_systems::spring_leg::spring_leg();
+    let apex = EquationReturns::new(&leg, "attack", ("flight", "apex"), &["h"])
+        .unwrap()
+        .starting_text(&["0", "h", "sqrt(25 + 2*gravity*(1 - h))", "0"])
+        .unwrap()
+        .coordinates_text(&["height"])
+        .unwrap();
+    let steps = BranchSteps { first: 0.05, longest: 0.15, ..BranchSteps::default() };
+    let start = (&[example_systems::spring_leg::APEX][..], 68.0);
+    let branch = follow_branch(&apex, 1, start, (66.2, 68.95), steps, |_| Continue(())).unwrap();
+    let found = kinds(&branch);
+    let of = |kind| found.iter().find(|found| found.0 == kind).unwrap().1;
+    let (fold, doubling) = (of(BifurcationKind::Fold), of(BifurcationKind::Doubling));
+    assert!((66.30..66.31).contains(&fold) && (68.8..68.9).contains(&doubling), "{found:?}");
+    for point in &branch.points {
+        // Between them the lower one of two runs is stable.
+        let is_lower = point.point[0] < 1.05;
+        let inside = point.parameter < doubling && is_lower;
+        assert_eq!(point.is_stable, inside && point.multipliers[0].re < 1.0, "{point:?}");
+    }
+    let at = |angle: f64| branch.points.iter().find(|point| point.parameter == angle).unwrap();
+    assert!((at(68.0).multipliers[0].re + 0.161).abs() < 1e-3);
+    assert!((at(68.0).point[0] - example_systems::spring_leg::APEX).abs() < 1e-9);
+    let itinerary = ["flight: touchdown", "stance: take-off", "flight: apex"];
+    assert_eq!(at(68.0).itinerary, itinerary);
 }

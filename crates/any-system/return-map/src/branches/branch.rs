@@ -2,10 +2,10 @@
 
 use nalgebra::Complex;
 
-/// A branch of fixed or periodic points, from one end to the other.
+/// A branch of fixed points, periodic points or equilibria, from one end to the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Branch {
-    /// The period n of its points: fⁿ(x; p) = x.
+    /// The period n of its points: fⁿ(x; p) = x. 0 for equilibria.
     pub period: usize,
     /// The points, in order.
     pub points: Vec<BranchPoint>,
@@ -22,8 +22,10 @@ pub struct BranchPoint {
     pub point: Vec<f64>,
     /// The parameter p.
     pub parameter: f64,
-    /// The multipliers: the eigenvalues of the derivative of fⁿ. If all are inside the unit circle, the point attracts.
+    /// The multipliers: the eigenvalues of the derivative of fⁿ. For an equilibrium the eigenvalues of the derivative of the field.
     pub multipliers: Vec<Complex<f64>>,
+    /// True if the point attracts: all multipliers are inside the unit circle, all eigenvalues of a field left of the imaginary axis.
+    pub is_stable: bool,
     /// The pieces of the map that the orbit meets.
     pub itinerary: Vec<String>,
     /// How far the point is known: the last Newton step, in units of its size.
@@ -40,11 +42,6 @@ impl BranchPoint {
             false => self.multipliers.iter().fold(0.0, larger),
         }
     }
-
-    /// True if all multipliers are inside the unit circle: the point attracts.
-    pub fn is_stable(&self) -> bool {
-        self.spectral_radius() < 1.0
-    }
 }
 
 /// A bifurcation of a branch, located on it.
@@ -54,7 +51,7 @@ pub struct Bifurcation {
     pub kind: BifurcationKind,
     /// Where.
     pub at: BranchPoint,
-    /// The eigenvector of the critical multiplier; for a Neimark–Sacker bifurcation its real part.
+    /// The eigenvector of the critical multiplier; for a Neimark–Sacker or Hopf bifurcation its real part.
     pub direction: Vec<f64>,
     /// The coefficient of the normal form, with the eigenvector of length 1; `None` if it is not known.
     ///
@@ -63,6 +60,7 @@ pub struct Bifurcation {
     /// | fold | ξ + a ξ² | not zero: two points meet |
     /// | doubling | −ξ + b ξ³ | b > 0: the orbit of twice the period is stable (supercritical) |
     /// | Neimark–Sacker | e^(iθ) ζ (1 + d \|ζ\|²) | Re d < 0: the invariant circle is stable (supercritical) |
+    /// | Hopf | iω ζ + l ζ \|ζ\|² | Re l < 0: the cycle is stable (supercritical) |
     /// | transcritical | ξ + a ξ² | not zero: two branches cross |
     /// | pitchfork | ξ + c ξ³ | c < 0: the other branches are stable (supercritical) |
     pub coefficient: Option<f64>,
@@ -77,6 +75,8 @@ pub enum BifurcationKind {
     Doubling,
     /// Two multipliers pass the unit circle: an invariant circle begins.
     NeimarkSacker,
+    /// Two eigenvalues of an equilibrium pass the imaginary axis: a cycle begins.
+    Hopf,
     /// A multiplier is 1, and another branch crosses this one.
     Transcritical,
     /// A multiplier is 1, and another branch crosses this one on both sides of the same parameter.

@@ -3,7 +3,7 @@
 use super::branch::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint};
 use super::curve::{OnCurve, corrected};
 use super::follow::{BranchSteps, Follower, follow_branch, point_of, predicted};
-use super::orbit::Orbit;
+use super::orbit::{Kind, Orbit};
 use crate::error::Error;
 use crate::families::MapFamily;
 use nalgebra::{DMatrix, DVector};
@@ -29,10 +29,11 @@ pub fn doubled_branch<M: MapFamily + ?Sized>(
         });
     }
     let at = &doubling.at;
-    super::follow::check(map, period, (&at.point, at.parameter), window, steps)?;
+    super::follow::check(map, (&at.point, at.parameter), window, steps)?;
     let size = at.point.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
     let scales = DVector::from_element(at.point.len(), if size > 0.0 { size } else { 1.0 });
-    let orbit = Orbit { map, period: 2 * period, scales: scales.push(window.1 - window.0) };
+    let orbit =
+        Orbit { map, kind: Kind::Periodic(2 * period), scales: scales.push(window.1 - window.0) };
     // The eigenvector, without a change of the parameter.
     let mut tangent = DVector::from_column_slice(&doubling.direction).push(0.0);
     tangent.component_div_assign(&orbit.scales);
@@ -54,8 +55,7 @@ pub fn doubled_branch<M: MapFamily + ?Sized>(
             let mut end = BranchEnd::Stopped;
             if !stopped {
                 let steps = BranchSteps { first: length, ..steps };
-                let mut follower =
-                    Follower { orbit, window, steps, see: &mut see, period: 2 * period };
+                let mut follower = Follower { orbit, window, steps, see: &mut see };
                 let way = follower.one_way(first, &itinerary);
                 (bifurcations, end) = (way.located, way.end);
                 points.extend(way.points);

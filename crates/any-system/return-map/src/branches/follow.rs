@@ -3,7 +3,7 @@
 use super::branch::{Branch, BranchEnd, BranchPoint};
 use super::curve::{OnCurve, corrected, tangent};
 use super::locate::{Located, between};
-use super::orbit::{Orbit, derivative, eigenvalues, split};
+use super::orbit::{Kind, Orbit, eigenvalues, split};
 use crate::error::Error;
 use crate::families::MapFamily;
 use nalgebra::DVector;
@@ -65,29 +65,70 @@ const LONGER: f64 = 1.5;
 pub fn follow_branch<M: MapFamily + ?Sized>(
     map: &M,
     period: usize,
+    start: (&[f64], f64),
+    window: (f64, f64),
+    steps: BranchSteps,
+    see: impl FnMut(&BranchPoint) -> ControlFlow<()>,
+) -> Result<Branch, Error> {
+    if period == 0 {
+        return Err(Error::BadBranch { what: "the period of a branch", value: 0.0 });
+    }
+    follow(map, Kind::Periodic(period), start, window, steps, see)
+}
+
+/// The branch of equilibria of a field f(x; p), the points with f = 0: as [`follow_branch`]. A [`MapFamily`] is taken for the field: its
+/// image of x is the rate ẋ. A bifurcation at which a cycle begins is a [Hopf](super::branch::BifurcationKind::Hopf) bifurcation.
+///
+/// ```
+/// use return_map::{BifurcationKind, BranchSteps, family, follow_equilibria};
+/// use std::ops::ControlFlow::Continue;
+/// // Van der Pol's oscillator: a cycle begins where the damping changes its sign.
+/// let field = family(2, |x, mu| Ok(vec![x[1], mu * x[1] - x[0] - x[0] * x[0] * x[1]]));
+/// let steps = BranchSteps::default();
+/// let branch = follow_equilibria(&field, (&[0.0, 0.0], -0.5), (-1.0, 1.0), steps, |_| Continue(()))?;
+/// let hopf = &branch.bifurcations[0];
+/// assert_eq!(hopf.kind, BifurcationKind::Hopf);
+/// assert!(hopf.at.parameter.abs() < 1e-10 && hopf.coefficient.is_some_and(|l| l < 0.0));
+/// # Ok::<(), return_map::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`follow_branch`].
+pub fn follow_equilibria<M: MapFamily + ?Sized>(
+    field: &M,
+    start: (&[f64], f64),
+    window: (f64, f64),
+    steps: BranchSteps,
+    see: impl FnMut(&BranchPoint) -> ControlFlow<()>,
+) -> Result<Branch, Error> {
+    follow(field, Kind::Equilibrium, start, window, steps, see)
+}
+
+fn follow<M: MapFamily + ?Sized>(
+    map: &M,
+    kind: Kind,
     (start, parameter): (&[f64], f64),
     window: (f64, f64),
     steps: BranchSteps,
     mut see: impl FnMut(&BranchPoint) -> ControlFlow<()>,
 ) -> Result<Branch, Error> {
-    check(map, period, (start, parameter), window, steps)?;
+    check(map, (start, parameter), window, steps)?;
     let mut at = DVector::from_column_slice(start);
     let size = at.amax();
     at = at.push(parameter);
     let mut scales = DVector::from_element(start.len(), if size > 0.0 { size } else { 1.0 });
     scales = scales.push(window.1 - window.0);
-    let orbit = Orbit { map, period, scales };
+    let orbit = Orbit { map, kind, scales };
     let mut along = DVector::zeros(start.len() + 1);
     along[start.len()] = 1.0;
     let none = || Error::NoPeriodicPoint { residual: f64::NAN, steps: 0 };
     let first = corrected(&orbit, &at, &along)?.ok_or_else(none)?;
-    let mut follower = Follower { orbit, window, steps, see: &mut see, period };
+    let mut follower = Follower { orbit, window, steps, see: &mut see };
     follower.both_ways(first)
 }
 
 pub(super) fn check<M: MapFamily + ?Sized>(
     map: &M,
-    period: usize,
     (start, parameter): (&[f64], f64),
     (left, right): (f64, f64),
     steps: BranchSteps,
@@ -97,9 +138,6 @@ pub(super) fn check<M: MapFamily + ?Sized>(
     if expected != found || found == 0 {
         let what = "the start of a branch";
         return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
-    }
-    if period == 0 {
-        return bad("the period of a branch", 0.0);
     }
     if !(left < right && (right - left).is_finite()) {
         return bad("the width of the window of a branch", right - left);
@@ -126,7 +164,6 @@ pub(super) struct Follower<'a, M: ?Sized, S> {
     pub(super) window: (f64, f64),
     pub(super) steps: BranchSteps,
     pub(super) see: &'a mut S,
-    pub(super) period: usize,
 }
 
 /// One direction of a branch.
@@ -137,13 +174,20 @@ pub(super) struct OneWay {
 }
 
 impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<'_, M, S> {
+    fn period(&self) -> usize {
+        match self.orbit.kind {
+            Kind::Periodic(period) => period,
+            Kind::Equilibrium => 0,
+        }
+    }
+
     fn both_ways(&mut self, first: OnCurve) -> Result<Branch, Error> {
         let itinerary = self.orbit.itinerary(&first.at)?;
         let start = point_of(&self.orbit, &first, itinerary.clone());
         if (self.see)(&start).is_break() {
             let ends = [BranchEnd::Stopped, BranchEnd::Stopped];
             let (points, bifurcations) = (vec![start], Vec::new());
-            return Ok(Branch { period: self.period, points, bifurcations, ends });
+            return Ok(Branch { period: self.period(), points, bifurcations, ends });
         }
         let back = OnCurve { tangent: -&first.tangent, ..first.clone() };
         let forward = self.one_way(first, &itinerary);
@@ -152,14 +196,24 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
             let mut points = vec![start];
             points.extend(forward.points);
             let ends = [BranchEnd::Closed, BranchEnd::Closed];
-            return Ok(Branch { period: self.period, points, bifurcations: forward.located, ends });
+            return Ok(Branch {
+                period: self.period(),
+                points,
+                bifurcations: forward.located,
+                ends,
+            });
         }
         let mut backward = self.one_way(back, &itinerary);
         backward.points.reverse();
         backward.located.reverse();
         let points = backward.points.into_iter().chain([start]).chain(forward.points).collect();
         let bifurcations = backward.located.into_iter().chain(forward.located).collect();
-        Ok(Branch { period: self.period, points, bifurcations, ends: [backward.end, forward.end] })
+        Ok(Branch {
+            period: self.period(),
+            points,
+            bifurcations,
+            ends: [backward.end, forward.end],
+        })
     }
 
     /// Follows the branch in the direction of the tangent.
@@ -313,6 +367,7 @@ pub(super) fn point_of<M: MapFamily + ?Sized>(
     itinerary: Vec<String>,
 ) -> BranchPoint {
     let (point, parameter) = split(&found.at);
-    let multipliers = eigenvalues(&derivative(&found.slopes, &orbit.scales));
-    BranchPoint { point, parameter, multipliers, itinerary, error: found.error }
+    let multipliers = eigenvalues(&orbit.derivative(&found.slopes));
+    let is_stable = orbit.kind.is_stable(&multipliers);
+    BranchPoint { point, parameter, multipliers, is_stable, itinerary, error: found.error }
 }

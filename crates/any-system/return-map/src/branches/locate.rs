@@ -23,7 +23,7 @@ pub(super) fn between<M: MapFamily + ?Sized>(
     let length = (&to.at - &from.at).component_div(&orbit.scales).dot(&from.tangent);
     let mut found: Vec<(f64, Located)> = Vec::new();
     for test in TESTS {
-        let [before, behind] = [from, to].map(|point| test.value(point, &orbit.scales));
+        let [before, behind] = [from, to].map(|point| test.value(point, orbit));
         if before * behind < 0.0
             && let Some((place, at)) = zero(orbit, (from, length), test)
             && let Some(bifurcation) = bifurcation(orbit, test, &at, itinerary)
@@ -45,7 +45,7 @@ fn zero<M: MapFamily + ?Sized>(
         corrected(orbit, &predicted(&orbit.scales, from, along), &from.tangent).ok().flatten()
     };
     // Where another branch crosses, the equations are singular: no point is found there, and it is the zero.
-    let value = |along: f64| at(along).map_or(0.0, |point| test.value(&point, &orbit.scales));
+    let value = |along: f64| at(along).map_or(0.0, |point| test.value(&point, orbit));
     let place = bracketed_root(value, 0.0, length).ok()?;
     if test == Test::Cross {
         return crossing(orbit, test, &at, (place, length));
@@ -77,7 +77,7 @@ fn crossing<M: MapFamily + ?Sized>(
             others.fold(1.0, |product, other| product * (x - other) / (own - other))
         })
     };
-    let values = [0, 1, 2, 3].map(|k| test.value(&points[k], &orbit.scales));
+    let values = [0, 1, 2, 3].map(|k| test.value(&points[k], orbit));
     let value = |x: f64| weights(x).iter().zip(values).map(|(w, v)| w * v).sum::<f64>();
     let zero = bracketed_root(value, -2.0, 2.0).ok()?;
     let mut found = points[1].clone();
@@ -98,7 +98,7 @@ fn bifurcation<M: MapFamily + ?Sized>(
     itinerary: &[String],
 ) -> Option<Bifurcation> {
     let point = point_of(orbit, at, itinerary.to_vec());
-    let kind = test.kind(&point.multipliers)?;
+    let kind = test.kind(orbit.kind, &point.multipliers)?;
     let form = normal_form(orbit, kind, at);
     let (direction, coefficient, is_symmetric) = match form {
         Some(form) => (form.direction, form.coefficient, form.is_symmetric),

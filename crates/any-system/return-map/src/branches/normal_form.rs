@@ -4,7 +4,7 @@
 
 use super::branch::BifurcationKind;
 use super::curve::OnCurve;
-use super::orbit::{Orbit, derivative, eigenvalues};
+use super::orbit::{Kind, Orbit, eigenvalues};
 use crate::families::MapFamily;
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -70,14 +70,14 @@ pub(super) fn normal_form<M: MapFamily + ?Sized>(
     kind: BifurcationKind,
     at: &OnCurve,
 ) -> Option<NormalForm> {
-    let matrix = derivative(&at.slopes, &orbit.scales);
+    let matrix = orbit.derivative(&at.slopes);
     let forms = Forms { orbit, at: &at.at };
     match kind {
         BifurcationKind::Fold | BifurcationKind::Transcritical | BifurcationKind::Pitchfork => {
-            real_form(&forms, &matrix, 1.0, kind)
+            real_form(&forms, &matrix, orbit.kind.at_fold(), kind)
         }
         BifurcationKind::Doubling => real_form(&forms, &matrix, -1.0, kind),
-        BifurcationKind::NeimarkSacker => circle_form(&forms, &matrix),
+        BifurcationKind::NeimarkSacker | BifurcationKind::Hopf => circle_form(&forms, &matrix),
     }
 }
 
@@ -101,11 +101,12 @@ fn real_form<M: MapFamily + ?Sized>(
     let second = p.dot(&half_b);
     let b = &half_b * 2.0;
     // At the multiplier 1 the inverse of A − 1 is taken on vectors without a part along q.
+    let fixed = &identity * forms.orbit.kind.at_fold();
     let bent = match multiplier < 0.0 {
-        true => (&identity - matrix).lu().solve(&b),
+        true => (&fixed - matrix).lu().solve(&b),
         false => {
             let side = (&b - &q * p.dot(&b)).push(0.0);
-            let mut bordered = (&identity - matrix).insert_row(n, 0.0).insert_column(n, 0.0);
+            let mut bordered = (&fixed - matrix).insert_row(n, 0.0).insert_column(n, 0.0);
             bordered.view_mut((n, 0), (1, n)).copy_from(&p.transpose());
             bordered.view_mut((0, n), (n, 1)).copy_from(&q);
             bordered.lu().solve(&side).map(|solution| solution.rows(0, n).into_owned())
@@ -122,7 +123,7 @@ fn real_form<M: MapFamily + ?Sized>(
     Some(NormalForm { direction, coefficient, is_symmetric })
 }
 
-/// The normal form at two multipliers on the unit circle.
+/// The normal form at two multipliers on the unit circle, or at two eigenvalues on the imaginary axis.
 fn circle_form<M: MapFamily + ?Sized>(
     forms: &Forms<'_, M>,
     matrix: &DMatrix<f64>,
@@ -130,9 +131,23 @@ fn circle_form<M: MapFamily + ?Sized>(
     let on_circle = |m: &&Complex<f64>| m.im > 0.0;
     let values = eigenvalues(matrix);
     let critical = values.iter().filter(on_circle);
-    let multiplier =
-        *critical.min_by(|a, b| (a.norm() - 1.0).abs().total_cmp(&(b.norm() - 1.0).abs()))?;
-    let multiplier = multiplier / multiplier.norm();
+    // e^(iθ), or iω, with its square, or its double.
+    let kind = forms.orbit.kind;
+    let off = |m: &Complex<f64>| match kind {
+        Kind::Periodic(_) => (m.norm() - 1.0).abs(),
+        Kind::Equilibrium => m.re.abs(),
+    };
+    let multiplier = *critical.min_by(|a, b| off(a).total_cmp(&off(b)))?;
+    let (multiplier, second_harmonic, unit) = match kind {
+        Kind::Periodic(_) => {
+            let multiplier = multiplier / multiplier.norm();
+            (multiplier, multiplier * multiplier, multiplier.conj())
+        }
+        Kind::Equilibrium => {
+            let multiplier = Complex::new(0.0, multiplier.im);
+            (multiplier, multiplier * 2.0, Complex::new(1.0 / multiplier.im, 0.0))
+        }
+    };
     let n = matrix.nrows();
     let complex = |matrix: &DMatrix<f64>| matrix.map(|entry| Complex::new(entry, 0.0));
     let a = complex(matrix);
@@ -148,8 +163,8 @@ fn circle_form<M: MapFamily + ?Sized>(
         let ri = forms.second(&re, &im)?;
         let qq = ComplexVector::from_fn(n, |k, _| Complex::new(rr[k] - ii[k], 2.0 * ri[k]));
         let q_conjugate = (&rr + &ii).map(|x| Complex::new(x, 0.0));
-        let bent = (&identity - &a).lu().solve(&q_conjugate)?;
-        let turned = (&identity * (multiplier * multiplier) - &a).lu().solve(&qq)?;
+        let bent = (&identity * Complex::new(kind.at_fold(), 0.0) - &a).lu().solve(&q_conjugate)?;
+        let turned = (&identity * second_harmonic - &a).lu().solve(&qq)?;
         // B(u, v) of complex vectors.
         let second = |u: &ComplexVector, v: &ComplexVector| {
             let parts = |w: &ComplexVector| [w.map(|x| x.re), w.map(|x| x.im)];
@@ -165,7 +180,7 @@ fn circle_form<M: MapFamily + ?Sized>(
         let cubic = ComplexVector::from_fn(n, |k, _| Complex::new(cubes[0][k], cubes[1][k]));
         let two = Complex::new(2.0, 0.0);
         let all = cubic + second(&q, &bent)? * two + second(&q.conjugate(), &turned)?;
-        Some(0.5 * (multiplier.conj() * p.dotc(&all)).re)
+        Some(0.5 * (unit * p.dotc(&all)).re)
     })();
     Some(NormalForm { direction, coefficient, is_symmetric: false })
 }

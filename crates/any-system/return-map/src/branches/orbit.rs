@@ -6,10 +6,39 @@ use crate::families::MapFamily;
 use equations::Jet;
 use nalgebra::{Complex, DMatrix, DVector};
 
-/// The curve fⁿ(x; p) = x of points and parameters: the unknowns are the components of x, and p.
+/// What the points of a branch are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// fⁿ(x) = x for a map f.
+    Periodic(usize),
+    /// f(x) = 0 for a field f.
+    Equilibrium,
+}
+
+impl Kind {
+    /// The eigenvalue at which two points meet.
+    pub(super) fn at_fold(self) -> f64 {
+        match self {
+            Kind::Periodic(_) => 1.0,
+            Kind::Equilibrium => 0.0,
+        }
+    }
+
+    /// True if perturbations with these eigenvalues decay.
+    pub(super) fn is_stable(self, eigenvalues: &[Complex<f64>]) -> bool {
+        let decays = |value: &Complex<f64>| match self {
+            Kind::Periodic(_) => value.norm() < 1.0,
+            Kind::Equilibrium => value.re < 0.0,
+        };
+        !eigenvalues.is_empty() && eigenvalues.iter().all(decays)
+    }
+}
+
+/// The curve of points and parameters: the unknowns are the components of x, and p.
 pub(super) struct Orbit<'m, M: ?Sized> {
+    /// The map, or the field.
     pub(super) map: &'m M,
-    pub(super) period: usize,
+    pub(super) kind: Kind,
     pub(super) scales: DVector<f64>,
 }
 
@@ -17,9 +46,17 @@ pub(super) struct Orbit<'m, M: ?Sized> {
 pub(super) type Pushed = (Vec<Jet<4>>, Jet<4>);
 
 impl<M: MapFamily + ?Sized> Orbit<'_, M> {
-    /// The image of a curve under fⁿ, to third order.
+    /// How often the map is applied.
+    fn times(&self) -> usize {
+        match self.kind {
+            Kind::Periodic(period) => period,
+            Kind::Equilibrium => 1,
+        }
+    }
+
+    /// The image of a curve under fⁿ, or under the field, to third order.
     pub(super) fn pushed(&self, (mut curve, parameter): Pushed) -> Result<Vec<Jet<4>>, Error> {
-        for _ in 0..self.period {
+        for _ in 0..self.times() {
             curve = self.map.pushed(&curve, parameter)?;
         }
         Ok(curve)
@@ -37,7 +74,7 @@ impl<M: MapFamily + ?Sized> Orbit<'_, M> {
     pub(super) fn itinerary(&self, at: &DVector<f64>) -> Result<Vec<String>, Error> {
         let (mut point, parameter) = split(at);
         let mut itinerary = Vec::new();
-        for _ in 0..self.period {
+        for _ in 0..self.times() {
             let image = self.map.image(&point, parameter)?;
             itinerary.extend(image.itinerary);
             point = image.point;
@@ -57,10 +94,12 @@ impl<M: MapFamily + ?Sized> Curve for Orbit<'_, M> {
     fn values(&self, at: &DVector<f64>) -> Result<DVector<f64>, Error> {
         let (start, parameter) = split(at);
         let mut point = start.clone();
-        for _ in 0..self.period {
+        for _ in 0..self.times() {
             point = self.map.image(&point, parameter)?.point;
         }
-        Ok(DVector::from_iterator(start.len(), point.iter().zip(&start).map(|(f, x)| f - x)))
+        let shift = self.kind.at_fold();
+        let off = point.iter().zip(&start).map(|(f, x)| f - shift * x);
+        Ok(DVector::from_iterator(start.len(), off))
     }
 
     fn slopes(&self, at: &DVector<f64>) -> Result<DMatrix<f64>, Error> {
@@ -71,7 +110,7 @@ impl<M: MapFamily + ?Sized> Curve for Orbit<'_, M> {
             direction[axis] = 1.0;
             let image = self.pushed(self.line(at, &direction))?;
             for (row, jet) in image.iter().enumerate() {
-                slopes[(row, axis)] = jet.0[1] - f64::from(row == axis);
+                slopes[(row, axis)] = jet.0[1] - self.kind.at_fold() * f64::from(row == axis);
             }
         }
         Ok(slopes)
@@ -82,12 +121,14 @@ impl<M: MapFamily + ?Sized> Curve for Orbit<'_, M> {
     }
 }
 
-/// Dfⁿ from the slopes of a point of the curve, in units of the scales.
-pub(super) fn derivative(slopes: &DMatrix<f64>, scales: &DVector<f64>) -> DMatrix<f64> {
-    let dimension = slopes.nrows();
-    DMatrix::from_fn(dimension, dimension, |row, axis| {
-        slopes[(row, axis)] / scales[axis] + f64::from(row == axis)
-    })
+impl<M: ?Sized> Orbit<'_, M> {
+    /// Dfⁿ, or that of the field, from the slopes of a point of the curve, in units of the scales.
+    pub(super) fn derivative(&self, slopes: &DMatrix<f64>) -> DMatrix<f64> {
+        let dimension = slopes.nrows();
+        DMatrix::from_fn(dimension, dimension, |row, axis| {
+            slopes[(row, axis)] / self.scales[axis] + self.kind.at_fold() * f64::from(row == axis)
+        })
+    }
 }
 
 /// The eigenvalues of a matrix; none if it has an entry that is not finite.

@@ -2,63 +2,80 @@
 
 use super::branch::BifurcationKind;
 use super::curve::{OnCurve, bordered};
-use super::orbit::{derivative, eigenvalues};
-use nalgebra::{Complex, DMatrix, DVector};
+use super::orbit::{Kind, Orbit, eigenvalues};
+use nalgebra::{Complex, DMatrix};
 
 /// A number that changes its sign at a bifurcation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Test {
     /// dp/ds: it is zero where the branch turns back.
     Turn,
+    /// The determinant of Dfⁿ − 1: it is zero where two points meet, too, but does not tell where the branch goes on.
+    Meet,
     /// The determinant of slopes and tangent: it is zero where another branch crosses this one.
     Cross,
-    /// The determinant of Dfⁿ + 1.
+    /// The determinant of Dfⁿ + 1. It is no test of equilibria.
     Flip,
-    /// The product of μᵢ μⱼ − 1 over all pairs of multipliers.
+    /// The product of μᵢ μⱼ − 1 over all pairs of multipliers; of λᵢ + λⱼ for the eigenvalues of a field.
     Circle,
 }
 
 pub(super) const TESTS: [Test; 4] = [Test::Turn, Test::Cross, Test::Flip, Test::Circle];
 
-/// Two multipliers whose product is 1 are on the unit circle if they are not real.
+/// Two multipliers whose product is 1 are on the unit circle if they are not real, two eigenvalues whose sum is zero on the imaginary axis.
+/// A smaller number would refuse those of integrated maps.
 const ON_CIRCLE: f64 = 1e-6;
 
 impl Test {
     /// The number at a point of a branch.
-    pub(super) fn value(self, point: &OnCurve, scales: &DVector<f64>) -> f64 {
+    pub(super) fn value<M: ?Sized>(self, point: &OnCurve, orbit: &Orbit<'_, M>) -> f64 {
         let last = point.tangent.len() - 1;
         match self {
             Test::Turn => point.tangent[last],
+            Test::Meet => {
+                let matrix = orbit.derivative(&point.slopes);
+                let shift = orbit.kind.at_fold();
+                (matrix - DMatrix::identity(last, last) * shift).determinant()
+            }
             Test::Cross => bordered(&point.slopes, &point.tangent).determinant(),
             Test::Flip => {
-                let matrix = derivative(&point.slopes, scales);
-                (&matrix + DMatrix::identity(last, last)).determinant()
+                let matrix = orbit.derivative(&point.slopes);
+                match orbit.kind {
+                    Kind::Periodic(_) => (matrix + DMatrix::identity(last, last)).determinant(),
+                    Kind::Equilibrium => 1.0,
+                }
             }
-            Test::Circle => circle(&eigenvalues(&derivative(&point.slopes, scales))),
+            Test::Circle => circle(orbit.kind, &eigenvalues(&orbit.derivative(&point.slopes))),
         }
     }
 
     /// The bifurcation at which the number is zero; `None` if it is zero without one.
-    pub(super) fn kind(self, multipliers: &[Complex<f64>]) -> Option<BifurcationKind> {
+    pub(super) fn kind(self, of: Kind, values: &[Complex<f64>]) -> Option<BifurcationKind> {
         match self {
-            Test::Turn => Some(BifurcationKind::Fold),
+            Test::Turn | Test::Meet => Some(BifurcationKind::Fold),
             Test::Cross => Some(BifurcationKind::Transcritical),
             Test::Flip => Some(BifurcationKind::Doubling),
             Test::Circle => {
-                let is_on =
-                    |m: &Complex<f64>| m.im.abs() > ON_CIRCLE && (m.norm() - 1.0).abs() < ON_CIRCLE;
-                multipliers.iter().any(is_on).then_some(BifurcationKind::NeimarkSacker)
+                let (off, found): (fn(&Complex<f64>) -> f64, _) = match of {
+                    Kind::Periodic(_) => (|m| m.norm() - 1.0, BifurcationKind::NeimarkSacker),
+                    Kind::Equilibrium => (|m| m.re, BifurcationKind::Hopf),
+                };
+                let is_on = |m: &Complex<f64>| m.im.abs() > ON_CIRCLE && off(m).abs() < ON_CIRCLE;
+                values.iter().any(is_on).then_some(found)
             }
         }
     }
 }
 
-/// The product of μᵢ μⱼ − 1: real, as multipliers come in conjugate pairs. 1 for a single one.
-fn circle(multipliers: &[Complex<f64>]) -> f64 {
+/// The product over all pairs of eigenvalues: real, as they come in conjugate pairs. 1 for a single one.
+fn circle(kind: Kind, values: &[Complex<f64>]) -> f64 {
     let mut product = Complex::new(1.0, 0.0);
-    for (k, first) in multipliers.iter().enumerate() {
-        for second in &multipliers[k + 1..] {
-            product *= first * second - 1.0;
+    for (k, first) in values.iter().enumerate() {
+        for second in &values[k + 1..] {
+            product *= match kind {
+                Kind::Periodic(_) => first * second - 1.0,
+                Kind::Equilibrium => first + second,
+            };
         }
     }
     product.re

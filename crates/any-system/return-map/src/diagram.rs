@@ -1,0 +1,122 @@
+//! Bifurcation diagrams: where orbits are after a transient, over a parameter.
+
+use crate::error::Error;
+use crate::families::MapFamily;
+use hybrid_system::many;
+use std::ops::ControlFlow;
+
+/// The points of a diagram at one value of the parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DiagramColumn {
+    /// The parameter.
+    pub parameter: f64,
+    /// For each seed the points of its orbit after the transient, or why it has none.
+    pub orbits: Vec<Result<Vec<Vec<f64>>, Error>>,
+}
+
+/// Where the orbits of a column begin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Seeds {
+    /// At the seeds, at each parameter. Coexisting attractors are seen if some seed is in their basins.
+    Fresh,
+    /// At the first parameter at the seeds, then where the orbit of the parameter before has ended. An attractor is followed as long as it
+    /// attracts: in the other direction of the parameters the diagram may be another one (hysteresis). An orbit that fails begins
+    /// again at its seed.
+    Carried,
+}
+
+/// How long the orbits of a diagram are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct OrbitLength {
+    /// Images that are not shown.
+    pub transient: usize,
+    /// Images that are shown.
+    pub keep: usize,
+}
+
+/// The bifurcation diagram of a map at some parameters, in their order: the orbits of some seeds after a transient.
+///
+/// It runs on all processors with the feature `parallel`, and has the same bits on any number of them. `progress` receives the number of
+/// finished columns, or of finished seeds if they are carried. If it breaks, the columns that are not finished are left out.
+///
+/// ```
+/// use return_map::{OrbitLength, Seeds, bifurcation_diagram, scalar_family};
+/// use std::ops::ControlFlow::Continue;
+/// let logistic = scalar_family(|x, r| r * x * (1.0 - x));
+/// let length = OrbitLength { transient: 1000, keep: 4 };
+/// let seeds = [vec![0.3]];
+/// let columns = bifurcation_diagram(&logistic, &[2.5, 3.2], (&seeds, Seeds::Fresh), length, |_| Continue(()));
+/// let orbit = columns[1].orbits[0].as_ref().expect("an orbit");
+/// // A cycle of period two.
+/// assert!((orbit[0][0] - orbit[2][0]).abs() < 1e-12 && (orbit[0][0] - orbit[1][0]).abs() > 0.1);
+/// ```
+pub fn bifurcation_diagram<M: MapFamily + ?Sized>(
+    map: &M,
+    parameters: &[f64],
+    (seeds, from): (&[Vec<f64>], Seeds),
+    length: OrbitLength,
+    progress: impl Fn(usize) -> ControlFlow<()> + Sync,
+) -> Vec<DiagramColumn> {
+    match from {
+        Seeds::Fresh => {
+            let column = |k: usize| {
+                let parameter = parameters[k];
+                let orbit = |seed: &Vec<f64>| orbit(map, seed, parameter, length);
+                DiagramColumn { parameter, orbits: seeds.iter().map(orbit).collect() }
+            };
+            many(parameters.len(), column, progress).into_iter().flatten().collect()
+        }
+        Seeds::Carried => {
+            let follow = |k: usize| carried(map, &seeds[k], parameters, length);
+            let rows = many(seeds.len(), follow, progress);
+            // Without one of the seeds no column is complete.
+            let Some(rows) = rows.into_iter().collect::<Option<Vec<_>>>() else {
+                return Vec::new();
+            };
+            let mut rows: Vec<_> = rows.into_iter().map(Vec::into_iter).collect();
+            let columns = parameters.iter().map(|&parameter| {
+                let orbits = rows.iter_mut().filter_map(Iterator::next).collect();
+                DiagramColumn { parameter, orbits }
+            });
+            columns.collect()
+        }
+    }
+}
+
+/// The orbits of one seed, which is carried on.
+fn carried<M: MapFamily + ?Sized>(
+    map: &M,
+    seed: &[f64],
+    parameters: &[f64],
+    length: OrbitLength,
+) -> Vec<Result<Vec<Vec<f64>>, Error>> {
+    let mut start = seed.to_vec();
+    let at = |&parameter: &f64| {
+        let orbit = orbit(map, &start, parameter, length);
+        start = match orbit.as_ref().ok().and_then(|orbit| orbit.last()) {
+            Some(last) => last.clone(),
+            None => seed.to_vec(),
+        };
+        orbit
+    };
+    parameters.iter().map(at).collect()
+}
+
+/// The points of an orbit after a transient.
+fn orbit<M: MapFamily + ?Sized>(
+    map: &M,
+    start: &[f64],
+    parameter: f64,
+    length: OrbitLength,
+) -> Result<Vec<Vec<f64>>, Error> {
+    let mut point = start.to_vec();
+    for _ in 0..length.transient {
+        point = map.image(&point, parameter)?.point;
+    }
+    let mut kept = Vec::with_capacity(length.keep.min(1 << 16));
+    for _ in 0..length.keep {
+        point = map.image(&point, parameter)?.point;
+        kept.push(point.clone());
+    }
+    Ok(kept)
+}

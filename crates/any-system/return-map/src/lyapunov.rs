@@ -1,0 +1,102 @@
+//! Lyapunov exponents of maps.
+
+use crate::error::Error;
+use crate::families::MapFamily;
+use equations::Jet;
+use nalgebra::DMatrix;
+
+/// A mean over an orbit, with an interval that holds the limit with 95 % if the orbit is typical.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OrbitMean {
+    /// The mean.
+    pub value: f64,
+    /// Lower end.
+    pub lower: f64,
+    /// Upper end.
+    pub upper: f64,
+}
+
+/// The orbit is divided into so many parts, whose means are compared: those of neighbouring parts must be nearly independent, so that
+/// more parts need a longer orbit; fewer give a wider interval.
+const BATCHES: usize = 16;
+
+/// The 97.5 % quantile of Student's distribution with 15 degrees of freedom.
+const STUDENT: f64 = 2.131_449_546;
+
+/// The Lyapunov exponents of the orbit of a point, from the largest to the smallest, for one image of the map.
+///
+/// The derivative of the map moves a frame of vectors, which is made orthogonal after each image (Benettin's method). The `transient` images
+/// are not counted; the `steps` after them are, rounded up to a multiple of 16. The interval is that of the means over 16 parts of
+/// the orbit. For the exponents of a flow divide by the return time.
+///
+/// ```
+/// use return_map::{lyapunov_exponents, scalar_family};
+/// let logistic = scalar_family(|x, r| r * x * (1.0 - x));
+/// let found = lyapunov_exponents(&logistic, (&[0.3], 4.0), 100, 100_000)?;
+/// assert!(found[0].lower < 2f64.ln() && 2f64.ln() < found[0].upper);
+/// # Ok::<(), return_map::Error>(())
+/// ```
+///
+/// # Errors
+/// Errors of the map, and of its derivatives: an orbit that grazes has none. [`Error::NoImage`] if the derivative is not finite.
+pub fn lyapunov_exponents<M: MapFamily + ?Sized>(
+    map: &M,
+    (start, parameter): (&[f64], f64),
+    transient: usize,
+    steps: usize,
+) -> Result<Vec<OrbitMean>, Error> {
+    let dimension = map.dimension();
+    let mut point = start.to_vec();
+    for _ in 0..transient {
+        point = map.image(&point, parameter)?.point;
+    }
+    let per_batch = steps.div_ceil(BATCHES).max(1);
+    let mut frame = DMatrix::<f64>::identity(dimension, dimension);
+    let mut batches = vec![vec![0.0; dimension]; BATCHES];
+    for sums in &mut batches {
+        for _ in 0..per_batch {
+            let moved = derivative(map, &point, parameter)?;
+            let (image, slopes) = moved;
+            let qr = (slopes * &frame).qr();
+            let r = qr.r();
+            for (axis, sum) in sums.iter_mut().enumerate() {
+                *sum += pxfm::f_log(r[(axis, axis)].abs());
+            }
+            (frame, point) = (qr.q(), image);
+        }
+    }
+    let mean = |axis: usize| {
+        let means: Vec<f64> = batches.iter().map(|sums| sums[axis] / per_batch as f64).collect();
+        let value = means.iter().sum::<f64>() / BATCHES as f64;
+        let squares = means.iter().map(|mean| (mean - value) * (mean - value)).sum::<f64>();
+        let error = STUDENT * (squares / (BATCHES * (BATCHES - 1)) as f64).sqrt();
+        OrbitMean { value, lower: value - error, upper: value + error }
+    };
+    let mut exponents: Vec<OrbitMean> = (0..dimension).map(mean).collect();
+    exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
+    Ok(exponents)
+}
+
+/// The image and the derivative of a map at a point.
+fn derivative<M: MapFamily + ?Sized>(
+    map: &M,
+    point: &[f64],
+    parameter: f64,
+) -> Result<(Vec<f64>, DMatrix<f64>), Error> {
+    let dimension = point.len();
+    let mut slopes = DMatrix::zeros(dimension, dimension);
+    let mut image = Vec::new();
+    for axis in 0..dimension {
+        let along = |(k, x): (usize, &f64)| Jet::<4>::moving(*x, f64::from(k == axis));
+        let curve: Vec<Jet<4>> = point.iter().enumerate().map(along).collect();
+        let pushed = map.pushed(&curve, Jet::number(parameter))?;
+        for (row, jet) in pushed.iter().enumerate() {
+            slopes[(row, axis)] = jet.0[1];
+        }
+        image = pushed.iter().map(Jet::value).collect();
+    }
+    match slopes.iter().chain(&image).all(|x| x.is_finite()) {
+        true => Ok((image, slopes)),
+        false => Err(Error::NoImage { point: point.to_vec(), parameter }),
+    }
+}
