@@ -21,6 +21,9 @@ pub struct BifurcationCurvePoint {
     pub error: f64,
 }
 
+/// The windows of both parameters.
+type Windows = ((f64, f64), (f64, f64));
+
 /// The distance of the values of a difference, in units of the scales. Values with an error of 10⁻¹³ give slopes with one of 10⁻¹⁰: enough
 /// for Newton's method, which ends where the values themselves are zero.
 const REACH: f64 = 1e-3;
@@ -108,7 +111,7 @@ pub fn bifurcation_curve<M: MapFamily, F: Fn(f64) -> M>(
     family: &F,
     period: usize,
     (start, second): (&Bifurcation, f64),
-    windows: ((f64, f64), (f64, f64)),
+    windows: Windows,
     steps: BranchSteps,
     mut see: impl FnMut(&BifurcationCurvePoint) -> ControlFlow<()>,
 ) -> Result<Vec<BifurcationCurvePoint>, Error> {
@@ -160,7 +163,7 @@ const STRAIGHT: f64 = 0.95;
 fn one_way(
     curve: &impl Curve,
     first: OnCurve,
-    (windows, steps): (((f64, f64), (f64, f64)), BranchSteps),
+    (windows, steps): (Windows, BranchSteps),
     see: &mut impl FnMut(&BifurcationCurvePoint) -> ControlFlow<()>,
 ) -> Vec<BifurcationCurvePoint> {
     let (mut last, mut length, mut points) = (first, steps.first, Vec::new());
