@@ -6,6 +6,7 @@ use crate::execution::Execution;
 use crate::guard::{Direction, Guard, Role};
 use crate::guard_table::GuardTable;
 use crate::limits::{Limits, MOST_EVENTS};
+use crate::model::smaller;
 use crate::ode::{Tolerances, integrated_crossing, integrated_flow, integrated_states};
 use crate::sliding::slope_along;
 use crate::state::StateVector;
@@ -352,7 +353,7 @@ impl<T: HybridSystem> HybridSystem for Backward<'_, T> {
                 let (mode, before) = self.before(surface, after, state)?;
                 let own = self.system.condition(mode, surface, &before);
                 let both = own.into_iter().chain(self.rate_in_direction(mode, surface, &before));
-                both.reduce(f64::min)
+                both.reduce(smaller)
             }
         }
     }

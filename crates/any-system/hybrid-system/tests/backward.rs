@@ -362,3 +362,16 @@ fn jumps_between_modes_that_move_their_guards() {
     assert_eq!((end.events, end.mode.as_str(), first.events), (4, "a", 4));
     assert!((first.state[0] - 0.3).abs() < 1e-11, "{first:?}");
 }
+
+/// A condition without a value decides nothing, backward too.
+#[test]
+fn a_condition_without_a_value_is_an_error() {
+    let line = Model::integrated(|(), _: &State<2>| [1.0, 0.0])
+        .rising((), |x| x[0] - 1.0, |x| ((), [x[0] - 1.0, x[1] + 1.0]))
+        .only_where(0, |x| if x[1] < 1.0 { f64::NAN } else { 1.0 });
+    let back =
+        Backward::new(&line, TIGHT).inverse(0, (), |x| ((), [x[0] + 1.0, x[1] - 1.0].into()));
+    let fate = back.run((), [0.5, 1.0], (1.0, 0.0)).fate();
+    let End::Failed(error) = fate.end else { panic!("{fate:?}") };
+    assert!(matches!(error, Error::Condition(_)), "{error}");
+}

@@ -61,7 +61,7 @@ pub fn bifurcation_diagram<M: MapFamily + ?Sized>(
         Seeds::Fresh => {
             let column = |k: usize| {
                 let parameter = parameters[k];
-                let orbit = |seed: &Vec<f64>| orbit(map, seed, parameter, length);
+                let orbit = |seed: &Vec<f64>| Ok(orbit(map, seed, parameter, length)?.0);
                 DiagramColumn { parameter, orbits: seeds.iter().map(orbit).collect() }
             };
             many(parameters.len(), column, progress).into_iter().flatten().collect()
@@ -93,22 +93,22 @@ fn carried<M: MapFamily + ?Sized>(
     let mut start = seed.to_vec();
     let at = |&parameter: &f64| {
         let orbit = orbit(map, &start, parameter, length);
-        start = match orbit.as_ref().ok().and_then(|orbit| orbit.last()) {
-            Some(last) => last.clone(),
-            None => seed.to_vec(),
+        start = match &orbit {
+            Ok((_, last)) => last.clone(),
+            Err(_) => seed.to_vec(),
         };
-        orbit
+        orbit.map(|(kept, _)| kept)
     };
     parameters.iter().map(at).collect()
 }
 
-/// The points of an orbit after a transient.
+/// The points of an orbit after a transient, and the last one.
 fn orbit<M: MapFamily + ?Sized>(
     map: &M,
     start: &[f64],
     parameter: f64,
     length: OrbitLength,
-) -> Result<Vec<Vec<f64>>, Error> {
+) -> Result<(Vec<Vec<f64>>, Vec<f64>), Error> {
     let mut point = start.to_vec();
     for _ in 0..length.transient {
         point = map.image(&point, parameter)?.point;
@@ -118,5 +118,5 @@ fn orbit<M: MapFamily + ?Sized>(
         point = map.image(&point, parameter)?.point;
         kept.push(point.clone());
     }
-    Ok(kept)
+    Ok((kept, point))
 }

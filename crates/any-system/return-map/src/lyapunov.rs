@@ -27,7 +27,8 @@ const STUDENT: f64 = 2.131_449_546;
 ///
 /// The derivative of the map moves a frame of vectors, which is made orthogonal after each image (Benettin's method). The `transient` images
 /// are not counted; the `steps` after them are, rounded up to a multiple of 16. The interval is that of the means over 16 parts of
-/// the orbit. For the exponents of a flow divide by the return time.
+/// the orbit. For the exponents of a flow divide by the return time. An
+/// orbit with a singular derivative, as a superstable cycle, has the exponent −∞, whose interval has no ends (NaN).
 ///
 /// ```
 /// use return_map::{lyapunov_exponents, scalar_family};
@@ -46,6 +47,11 @@ pub fn lyapunov_exponents<M: MapFamily + ?Sized>(
     steps: usize,
 ) -> Result<Vec<OrbitMean>, Error> {
     let dimension = map.dimension();
+    let (expected, found) = (dimension, start.len());
+    if expected != found {
+        let what = "the start of an orbit";
+        return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
+    }
     let mut point = start.to_vec();
     for _ in 0..transient {
         point = map.image(&point, parameter)?.point;

@@ -30,7 +30,7 @@ const HALVINGS: usize = 30;
 /// The longest period. The error of fᵖ grows with p, and every Newton step evaluates f some p times: a million
 /// steps of a return map take a minute. A period far above this is a mistake, and the search would not end in a
 /// usable time.
-const LONGEST_PERIOD: usize = 1_000_000;
+pub(crate) const LONGEST_PERIOD: usize = 1_000_000;
 
 /// A Newton step that no longer lowers the residual is attributed to noise of the map if it is at most this,
 /// relative to the point. The noise of an integrated return map is of the order of its flow's tolerance, far above

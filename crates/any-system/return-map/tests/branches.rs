@@ -55,7 +55,7 @@ fn the_logistic_map() {
                 .unwrap();
         let next = &doubled.bifurcations[0];
         assert!((next.at.parameter - (1.0 + 6f64.sqrt())).abs() < 10.0 * digits, "{next:?}");
-        for point in doubled.points.iter().skip(1) {
+        for point in &doubled.points {
             let (x, r) = (point.point[0], point.parameter);
             // Roots of the second iterate: (r + 1 ± √((r + 1)(r − 3)))/(2r).
             let root = ((r + 1.0) * (r - 3.0)).sqrt();
@@ -82,7 +82,7 @@ fn a_cascade_of_doublings() {
     assert!(doublings.iter().all(|found| found.coefficient.unwrap() > 0.0));
 }
 
-/// Hénon's map, b = 0.3: the fold at a = −(1 − b)²/4, the doublings at 3(1 − b)²/4 and (1 + b)² − … = 0.9125.
+/// Hénon's map, b = 0.3: the fold at a = −(1 − b)²/4, the doublings at 3(1 − b)²/4 and at 0.9125.
 #[test]
 fn henon_s_map() {
     let names = Names::new(&["x", "y"], &[("a", "1"), ("b", "0.3")]).unwrap();
@@ -250,8 +250,8 @@ fn equilibria_fold_and_fork() {
     assert!((branch.bifurcations[0].coefficient.unwrap() + 1.0).abs() < 1e-6);
 }
 
-/// The Hopf bifurcation of ẋ = p x − y − x (x² + y²), ẏ = x + p y − y (x² + y²): ṙ = p r − r³. With the eigenvector of length 1 the
-/// coefficient is −2 (q = (1, −i)/√2, |z|² = 2 r²/… as Kuznetsov's l₁).
+/// The Hopf bifurcation of ẋ = p x − y − x (x² + y²), ẏ = x + p y − y (x² + y²): ṙ = p r − r³. With the eigenvector (1, −i)/√2 of
+/// length 1 the radius is r = √2 |ζ|, so that l₁ is −2.
 #[test]
 fn a_cycle_begins_at_an_equilibrium() {
     for (sign, stable) in [(-1.0, true), (1.0, false)] {
@@ -353,4 +353,21 @@ fn the_spring_leg_over_its_angle_of_attack() {
     assert!((at(68.0).point[0] - example_systems::spring_leg::APEX).abs() < 1e-9);
     let itinerary = ["flight: touchdown", "stance: take-off", "flight: apex"];
     assert_eq!(at(68.0).itinerary, itinerary);
+}
+
+/// The coefficients of normal forms have units: a map in millionths is no other one. A cyclic shift has its eigenvalues.
+#[test]
+fn units_and_symmetric_matrices() {
+    let scaled = scalar_family(|x, r| r * x * (1.0 - x / 1e6));
+    let branch = followed(&scaled, (&[6e5], 2.5), (0.5, 3.5));
+    let expected = [BifurcationKind::Transcritical, BifurcationKind::Doubling];
+    assert_eq!(kinds(&branch).iter().map(|found| found.0).collect::<Vec<_>>(), expected);
+    // x₁′ = p − x₄/2, x₂′ = x₁, …: the multipliers are the fourth roots of −½.
+    let delay = family(4, |x, p| Ok(vec![p - 0.5 * x[3], x[0], x[1], x[2]]));
+    let branch = followed(&delay, (&[0.3, 0.3, 0.3, 0.3], 0.5), (0.2, 0.9));
+    for point in &branch.points {
+        assert_eq!(point.multipliers.len(), 4);
+        assert!(point.multipliers.iter().all(|m| (m.norm() - 0.5f64.powf(0.25)).abs() < 1e-9));
+    }
+    assert!(branch.bifurcations.is_empty(), "{:?}", kinds(&branch));
 }

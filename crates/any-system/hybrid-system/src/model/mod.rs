@@ -47,4 +47,6 @@ pub use model::{Autonomous, Model};
 pub use motion::{ClosedForm, Motion};
 pub use outcome::Outcome;
 pub use part::ModelPart;
+#[cfg(feature = "ode")]
+pub(crate) use part::smaller;
 pub use untimed::{OutcomeInTime, Untimed};

@@ -8,7 +8,7 @@ use crate::system::Reset;
 use interval_arithmetic::Enclosure;
 
 /// The smaller one; NaN if one is NaN, which decides nothing.
-fn smaller(first: f64, second: f64) -> f64 {
+pub(crate) fn smaller(first: f64, second: f64) -> f64 {
     if first < second || first.is_nan() { first } else { second }
 }
 

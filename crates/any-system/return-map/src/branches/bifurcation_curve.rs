@@ -3,7 +3,7 @@
 use super::branch::{Bifurcation, BifurcationKind};
 use super::curve::{Curve, OnCurve, corrected};
 use super::follow::BranchSteps;
-use super::orbit::{Kind, Orbit};
+use super::orbit::{Kind, Orbit, eigenvalues};
 use super::tests::Test;
 use crate::error::Error;
 use crate::families::MapFamily;
@@ -34,6 +34,8 @@ struct BifurcationCurve<'f, F> {
     period: usize,
     test: Test,
     scales: DVector<f64>,
+    /// The pieces of the map that the orbit meets.
+    itinerary: Vec<String>,
 }
 
 impl<M: MapFamily, F: Fn(f64) -> M> BifurcationCurve<'_, F> {
@@ -52,6 +54,20 @@ impl<M: MapFamily, F: Fn(f64) -> M> BifurcationCurve<'_, F> {
         let point = OnCurve { at, tangent, slopes, error: 0.0, steps: 0 };
         let test = self.test.value(&point, &orbit);
         Ok(orbit.values(&point.at)?.push(test))
+    }
+
+    /// True if the orbit meets the same pieces of the map, and the bifurcation is still one: behind a resonance two real multipliers have
+    /// the product 1, and there is no circle.
+    fn is_kept(&self, at: &DVector<f64>) -> bool {
+        let last = at.len() - 1;
+        let map = (self.family)(at[last]);
+        let scales = DVector::from_element(last, 1.0);
+        let orbit = Orbit { map: &map, kind: Kind::Periodic(self.period), scales };
+        let at = at.rows(0, last).into_owned();
+        let Ok(slopes) = orbit.slopes(&at) else { return false };
+        let multipliers = eigenvalues(&orbit.derivative(&slopes));
+        orbit.itinerary(&at).is_ok_and(|own| own == self.itinerary)
+            && self.test.kind(orbit.kind, &multipliers).is_some()
     }
 }
 
@@ -86,7 +102,8 @@ impl<M: MapFamily, F: Fn(f64) -> M> Curve for BifurcationCurve<'_, F> {
 /// doublings and Neimark–Sacker bifurcations. `family` gives the map at a value of the second parameter, whose value at the
 /// bifurcation is `second`.
 ///
-/// The curve ends with its last point inside both windows. `see` receives each point; if it breaks, the curve ends there.
+/// The curve ends with its last point inside both windows, before the orbit meets other pieces of the map, and where the
+/// bifurcation is none any more: a circle ends at a resonance with two real multipliers. `see` receives each point; if it breaks, the curve ends there.
 ///
 /// ```
 /// use return_map::{BranchSteps, bifurcation_curve, family, follow_branch};
@@ -115,6 +132,7 @@ pub fn bifurcation_curve<M: MapFamily, F: Fn(f64) -> M>(
     steps: BranchSteps,
     mut see: impl FnMut(&BifurcationCurvePoint) -> ControlFlow<()>,
 ) -> Result<Vec<BifurcationCurvePoint>, Error> {
+    super::follow::check_period(period)?;
     let test = match start.kind {
         BifurcationKind::Fold => Test::Meet,
         BifurcationKind::Doubling => Test::Flip,
@@ -132,14 +150,17 @@ pub fn bifurcation_curve<M: MapFamily, F: Fn(f64) -> M>(
     let widths = [windows.0, windows.1].map(|(left, right)| right - left);
     let dimension = start.at.point.len();
     let scales = DVector::from_element(dimension, size).push(widths[0]).push(widths[1]);
-    let curve = BifurcationCurve { family, period, test, scales };
+    let itinerary = start.at.itinerary.clone();
+    let curve = BifurcationCurve { family, period, test, scales, itinerary };
     let at = DVector::from_column_slice(&start.at.point).push(start.at.parameter).push(second);
     // Along the second parameter, or along the first one where the curve turns.
     let mut first = None;
     for axis in [dimension + 1, dimension] {
         let mut along = DVector::zeros(dimension + 2);
         along[axis] = 1.0;
-        first = first.or(corrected(&curve, &at, &along)?);
+        if first.is_none() {
+            first = corrected(&curve, &at, &along)?;
+        }
     }
     let first = first.ok_or(Error::NoPeriodicPoint { residual: f64::NAN, steps: 0 })?;
     let back = OnCurve { tangent: -&first.tangent, ..first.clone() };
@@ -160,8 +181,8 @@ fn point_of(found: &OnCurve) -> BifurcationCurvePoint {
 const STRAIGHT: f64 = 0.95;
 
 /// Follows the curve in the direction of the tangent. An error of the map ends it.
-fn one_way(
-    curve: &impl Curve,
+fn one_way<M: MapFamily>(
+    curve: &BifurcationCurve<'_, impl Fn(f64) -> M>,
     first: OnCurve,
     (windows, steps): (Windows, BranchSteps),
     see: &mut impl FnMut(&BifurcationCurvePoint) -> ControlFlow<()>,
@@ -176,6 +197,9 @@ fn one_way(
             continue;
         };
         let point = point_of(&next);
+        if !curve.is_kept(&next.at) {
+            break;
+        }
         let [p, q] = point.parameters;
         let is_in = |value: f64, (left, right): (f64, f64)| left <= value && value <= right;
         if !is_in(p, windows.0) || !is_in(q, windows.1) {

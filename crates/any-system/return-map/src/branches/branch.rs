@@ -51,7 +51,7 @@ pub struct Bifurcation {
     pub kind: BifurcationKind,
     /// Where.
     pub at: BranchPoint,
-    /// The eigenvector of the critical multiplier; for a Neimark–Sacker or Hopf bifurcation its real part.
+    /// The eigenvector of the critical multiplier, of length 1; for a Neimark–Sacker or Hopf bifurcation its real part, at any phase.
     pub direction: Vec<f64>,
     /// The coefficient of the normal form, with the eigenvector of length 1; `None` if it is not known.
     ///
@@ -60,7 +60,7 @@ pub struct Bifurcation {
     /// | fold | ξ + a ξ² | not zero: two points meet |
     /// | doubling | −ξ + b ξ³ | b > 0: the orbit of twice the period is stable (supercritical) |
     /// | Neimark–Sacker | e^(iθ) ζ (1 + d \|ζ\|²) | Re d < 0: the invariant circle is stable (supercritical) |
-    /// | Hopf | iω ζ + l ζ \|ζ\|² | Re l < 0: the cycle is stable (supercritical) |
+    /// | Hopf | iω ζ + c ζ \|ζ\|² | Re c/ω, Kuznetsov's l₁: below 0 the cycle is stable (supercritical) |
     /// | transcritical | ξ + a ξ² | not zero: two branches cross |
     /// | pitchfork | ξ + c ξ³ | c < 0: the other branches are stable (supercritical) |
     pub coefficient: Option<f64>,
@@ -79,7 +79,7 @@ pub enum BifurcationKind {
     Hopf,
     /// A multiplier is 1, and another branch crosses this one.
     Transcritical,
-    /// A multiplier is 1, and another branch crosses this one on both sides of the same parameter.
+    /// A multiplier is 1, and another branch crosses this one and lies on one side of the parameter.
     Pitchfork,
 }
 
@@ -90,6 +90,8 @@ pub enum BranchEnd {
     Window,
     /// The branch comes back to its first point.
     Closed,
+    /// It begins at a doubling.
+    Doubling,
     /// The limit on the number of points.
     PointLimit,
     /// It was stopped.

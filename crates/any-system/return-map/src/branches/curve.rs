@@ -34,7 +34,7 @@ const MOST_NEWTON_STEPS: usize = 12;
 /// A Newton step of this length ends the corrector: some hundred roundings.
 const ROUNDING: f64 = 1e-14;
 
-/// A Newton step that is not shorter than half of the one before is noise of the map, if it is at most this long. The noise of an
+/// A Newton step that is not shorter than half of the one before is noise of the map, if it is at most this long, in units of the scales. The noise of an
 /// integrated map is of the size of its tolerance; a larger number would accept points that are none.
 const NOISE: f64 = 1e-8;
 
@@ -84,7 +84,7 @@ pub(super) fn corrected(
         }
         at += step.component_mul(curve.scales());
         let size = 1.0 + at.component_div(curve.scales()).amax();
-        let is_noise = length <= NOISE * size && length > 0.5 * before;
+        let is_noise = length <= NOISE && length > 0.5 * before;
         if length <= ROUNDING * size || is_noise {
             let slopes = scaled_slopes(curve, &at)?;
             let Some(tangent) = tangent(&slopes, along) else { return Ok(None) };

@@ -1,8 +1,8 @@
 //! The branch of twice the period behind a doubling, and cascades of doublings.
 
 use super::branch::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint};
-use super::curve::{OnCurve, corrected};
-use super::follow::{BranchSteps, Follower, follow_branch, point_of, predicted};
+use super::curve::{Curve, OnCurve, corrected};
+use super::follow::{BranchSteps, Follower, check_period, follow_branch, point_of, predicted};
 use super::orbit::{Kind, Orbit};
 use crate::error::Error;
 use crate::families::MapFamily;
@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
 
 /// The branch of twice the period that begins at a doubling. It is followed in one direction: in the other one are the same orbits, from
-/// their other points.
+/// their other points. Its first point is the first step from the doubling.
 ///
 /// # Errors
 /// [`Error::BadBranch`] if the bifurcation is no doubling, or outside of the window; [`Error::NoPeriodicPoint`] if no point is found
@@ -28,7 +28,13 @@ pub fn doubled_branch<M: MapFamily + ?Sized>(
             value: f64::NAN,
         });
     }
+    check_period(period.saturating_mul(2))?;
     let at = &doubling.at;
+    if doubling.direction.len() != at.point.len() {
+        let (expected, found) = (at.point.len(), doubling.direction.len());
+        let what = "the direction of a doubling";
+        return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
+    }
     super::follow::check(map, (&at.point, at.parameter), window, steps)?;
     let size = at.point.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
     let scales = DVector::from_element(at.point.len(), if size > 0.0 { size } else { 1.0 });
@@ -45,11 +51,17 @@ pub fn doubled_branch<M: MapFamily + ?Sized>(
     while length >= steps.shortest {
         let predicted = predicted(&orbit.scales, &root, length);
         let first = corrected(&orbit, &predicted, &root.tangent).ok().flatten();
-        if let Some(first) = first
+        // The points of the single period solve the equations too.
+        let is_double = |first: &OnCurve| {
+            let single = Orbit { map, kind: Kind::Periodic(period), scales: orbit.scales.clone() };
+            let off = single.values(&first.at).ok();
+            off.is_some_and(|off| off.push(0.0).component_div(&orbit.scales).norm() > length)
+        };
+        if let Some(first) = first.filter(is_double)
             && let Ok(itinerary) = orbit.itinerary(&first.at)
         {
             let start = point_of(&orbit, &first, itinerary.clone());
-            let mut points = vec![at.clone(), start.clone()];
+            let mut points = vec![start.clone()];
             let stopped = see(&start).is_break();
             let mut bifurcations = Vec::new();
             let mut end = BranchEnd::Stopped;
@@ -60,7 +72,7 @@ pub fn doubled_branch<M: MapFamily + ?Sized>(
                 (bifurcations, end) = (way.located, way.end);
                 points.extend(way.points);
             }
-            let ends = [BranchEnd::Closed, end];
+            let ends = [BranchEnd::Doubling, end];
             return Ok(Branch { period: 2 * period, points, bifurcations, ends });
         }
         length *= 0.5;
@@ -117,15 +129,19 @@ pub fn cascade<M: MapFamily + ?Sized>(
             steps.first = steps.first.min(steps.longest);
         }
         // It is stopped behind its first doubling.
-        let mut critical: Option<f64> = None;
+        let mut critical: Option<bool> = None;
         let see = |point: &BranchPoint| {
             let flips = point.multipliers.iter().filter(|m| m.im == 0.0 && m.re < -1.0).count();
-            match critical.replace(flips as f64) {
-                Some(before) if before != flips as f64 => ControlFlow::Break(()),
+            let is_odd = flips % 2 == 1;
+            match critical.replace(is_odd) {
+                Some(before) if before != is_odd => ControlFlow::Break(()),
                 _ => ControlFlow::Continue(()),
             }
         };
-        let branch = doubled_branch(map, (period, &doubling), window, steps, see)?;
+        // A branch that is not found ends the cascade, whose doublings stay.
+        let Ok(branch) = doubled_branch(map, (period, &doubling), window, steps, see) else {
+            break;
+        };
         period *= 2;
         next = branch.bifurcations.into_iter().find(|found| is_doubling(&found));
     }

@@ -6,6 +6,7 @@ use super::locate::{Located, between};
 use super::orbit::{Kind, Orbit, eigenvalues, split};
 use crate::error::Error;
 use crate::families::MapFamily;
+use crate::periodic_point::LONGEST_PERIOD;
 use nalgebra::DVector;
 use std::ops::ControlFlow;
 
@@ -32,6 +33,10 @@ impl Default for BranchSteps {
 /// The largest angle between tangents at two neighbouring points, as its cosine: 18°. A larger angle would let a step change to
 /// another branch.
 const STRAIGHT: f64 = 0.95;
+
+/// The curve is no further from the end of a step along the tangent than this part of the step: it turns by no more than the largest
+/// angle. Another branch beside it is.
+const ASIDE: f64 = 0.35;
 
 /// Looks ahead of the last point for other pieces of the map, each twice as far as the one before: up to 10⁶ shortest steps.
 const LOOKS_AHEAD: usize = 20;
@@ -70,9 +75,7 @@ pub fn follow_branch<M: MapFamily + ?Sized>(
     steps: BranchSteps,
     see: impl FnMut(&BranchPoint) -> ControlFlow<()>,
 ) -> Result<Branch, Error> {
-    if period == 0 {
-        return Err(Error::BadBranch { what: "the period of a branch", value: 0.0 });
-    }
+    check_period(period)?;
     follow(map, Kind::Periodic(period), start, window, steps, see)
 }
 
@@ -125,6 +128,15 @@ fn follow<M: MapFamily + ?Sized>(
     let first = corrected(&orbit, &at, &along)?.ok_or_else(none)?;
     let mut follower = Follower { orbit, window, steps, see: &mut see };
     follower.both_ways(first)
+}
+
+/// An error for a period that is not positive, or too long to be iterated.
+pub(super) fn check_period(period: usize) -> Result<(), Error> {
+    match period {
+        0 => Err(Error::BadBranch { what: "the period of a branch", value: 0.0 }),
+        period if period > LONGEST_PERIOD => Err(Error::BadPeriod { period, most: LONGEST_PERIOD }),
+        _ => Ok(()),
+    }
 }
 
 pub(super) fn check<M: MapFamily + ?Sized>(
@@ -289,7 +301,10 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
     fn step(&self, last: &OnCurve, length: f64) -> Result<Option<OnCurve>, Error> {
         let predicted = predicted(&self.orbit.scales, last, length);
         let next = corrected(&self.orbit, &predicted, &last.tangent)?;
-        Ok(next.filter(|next| next.tangent.dot(&last.tangent) > STRAIGHT))
+        Ok(next.filter(|next| {
+            let off = (&next.at - &predicted).component_div(&self.orbit.scales).norm();
+            off <= ASIDE * length && next.tangent.dot(&last.tangent) > STRAIGHT
+        }))
     }
 
     /// The point at the end of the window.

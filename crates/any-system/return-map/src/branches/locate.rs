@@ -24,33 +24,64 @@ pub(super) fn between<M: MapFamily + ?Sized>(
     let mut found: Vec<(f64, Located)> = Vec::new();
     for test in TESTS {
         let [before, behind] = [from, to].map(|point| test.value(point, orbit));
-        if before * behind < 0.0
-            && let Some((place, at)) = zero(orbit, (from, length), test)
+        // A zero at the end of a step belongs to it, one at its beginning to the step before.
+        if (before > 0.0) != (behind > 0.0)
+            && before != 0.0
+            && let Some((place, at)) = zero(orbit, ((from, before), (to, behind)), length, test)
             && let Some(bifurcation) = bifurcation(orbit, test, &at, itinerary)
         {
             found.push((place, Located { bifurcation }));
         }
     }
+    // On the branch that bends at a pitchfork it turns there: that is no fold.
+    let crossings: Vec<f64> = found
+        .iter()
+        .filter(|(_, located)| {
+            use BifurcationKind::{Pitchfork, Transcritical};
+            matches!(located.bifurcation.kind, Pitchfork | Transcritical)
+        })
+        .map(|(place, _)| *place)
+        .collect();
+    found.retain(|(place, located)| {
+        let is_near = |crossing: &f64| (crossing - place).abs() <= BESIDE * length;
+        located.bifurcation.kind != BifurcationKind::Fold || !crossings.iter().any(is_near)
+    });
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.into_iter().map(|(_, located)| located).collect()
 }
 
-/// Where a test is zero, up to a length along the tangent.
+/// Where a test is zero between two points with their values, up to a length along the tangent.
 fn zero<M: MapFamily + ?Sized>(
     orbit: &Orbit<'_, M>,
-    (from, length): (&OnCurve, f64),
+    ((from, before), (to, behind)): ((&OnCurve, f64), (&OnCurve, f64)),
+    length: f64,
     test: Test,
 ) -> Option<(f64, OnCurve)> {
     let at = |along: f64| {
         corrected(orbit, &predicted(&orbit.scales, from, along), &from.tangent).ok().flatten()
     };
     // Where another branch crosses, the equations are singular: no point is found there, and it is the zero.
-    let value = |along: f64| at(along).map_or(0.0, |point| test.value(&point, orbit));
-    let place = bracketed_root(value, 0.0, length).ok()?;
+    let nothing = if test == Test::Cross { 0.0 } else { f64::NAN };
+    let value = |along: f64| {
+        if along == 0.0 {
+            before
+        } else if along == length {
+            behind
+        } else {
+            at(along).map_or(nothing, |point| test.value(&point, orbit))
+        }
+    };
+    let Ok(place) = bracketed_root(value, 0.0, length) else {
+        // The nearer end, which is known.
+        return Some(match before.abs() < behind.abs() {
+            true => (0.0, from.clone()),
+            false => (length, to.clone()),
+        });
+    };
     if test == Test::Cross {
         return crossing(orbit, test, &at, (place, length));
     }
-    Some((place, at(place)?))
+    Some((place, at(place).unwrap_or_else(|| to.clone())))
 }
 
 /// How far beside a crossing of branches points are found, as a part of the step.

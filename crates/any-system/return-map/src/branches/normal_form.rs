@@ -8,8 +8,8 @@ use super::orbit::{Kind, Orbit, eigenvalues};
 use crate::families::MapFamily;
 use nalgebra::{Complex, DMatrix, DVector};
 
-/// A second-order coefficient that is so small beside the third-order one belongs to a symmetric map: by differences it has an
-/// error of 10⁻⁸.
+/// A second-order coefficient that is so small beside the root of the third-order one, which has its unit, belongs to a symmetric map: by
+/// differences it has an error of 10⁻⁸.
 const SYMMETRIC: f64 = 1e-5;
 
 pub(super) struct NormalForm {
@@ -32,7 +32,6 @@ type ComplexVector = DVector<Complex<f64>>;
 impl<M: MapFamily + ?Sized> Forms<'_, M> {
     /// B(v, v)/2 and C(v, v, v)/6.
     fn powers(&self, v: &Vector) -> Option<[Vector; 2]> {
-        // On the scale of the point, so that differences reach equally far in all directions.
         let direction = v.clone().push(0.0);
         let image = self.orbit.pushed(self.orbit.line(self.at, &direction)).ok()?;
         let term = |k: usize| Vector::from_iterator(image.len(), image.iter().map(|jet| jet.0[k]));
@@ -114,13 +113,13 @@ fn real_form<M: MapFamily + ?Sized>(
     };
     let third =
         bent.and_then(|bent| forms.second(&q, &bent)).map(|mixed| p.dot(&(&sixth_c + mixed * 0.5)));
-    let is_symmetric = third.is_some_and(|third| second.abs() <= SYMMETRIC * (1.0 + third.abs()));
+    let is_symmetric = third.is_some_and(|third| second.abs() <= SYMMETRIC * third.abs().sqrt());
     let coefficient = match kind {
         BifurcationKind::Fold => Some(second),
         BifurcationKind::Transcritical if !is_symmetric => Some(second),
         _ => third,
     };
-    Some(NormalForm { direction, coefficient, is_symmetric })
+    Some(NormalForm { direction, coefficient: coefficient.filter(|c| c.is_finite()), is_symmetric })
 }
 
 /// The normal form at two multipliers on the unit circle, or at two eigenvalues on the imaginary axis.
@@ -182,6 +181,7 @@ fn circle_form<M: MapFamily + ?Sized>(
         let all = cubic + second(&q, &bent)? * two + second(&q.conjugate(), &turned)?;
         Some(0.5 * (unit * p.dotc(&all)).re)
     })();
+    let coefficient = coefficient.filter(|c: &f64| c.is_finite());
     Some(NormalForm { direction, coefficient, is_symmetric: false })
 }
 

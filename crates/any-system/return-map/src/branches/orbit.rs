@@ -4,7 +4,7 @@ use super::curve::Curve;
 use crate::error::Error;
 use crate::families::MapFamily;
 use equations::Jet;
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::{Complex, DMatrix, DVector, Schur};
 
 /// What the points of a branch are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -131,10 +131,26 @@ impl<M: ?Sized> Orbit<'_, M> {
     }
 }
 
-/// The eigenvalues of a matrix; none if it has an entry that is not finite.
+/// Sweeps of the method for eigenvalues, for each of them. A few are usual.
+const MOST_SWEEPS: usize = 100;
+
+/// The eigenvalues of a matrix; none if it has an entry that is not finite, or if they are not found.
+///
+/// The shifts of the method do not converge for some matrices with much symmetry, such as that of a cyclic shift. In other coordinates
+/// these have none.
 pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
-    match matrix.iter().all(|entry| entry.is_finite()) {
-        true => matrix.complex_eigenvalues().iter().copied().collect(),
-        false => Vec::new(),
+    if !matrix.iter().all(|entry| entry.is_finite()) {
+        return Vec::new();
     }
+    let n = matrix.nrows();
+    let found = |matrix: DMatrix<f64>| Schur::try_new(matrix, f64::EPSILON, MOST_SWEEPS * (n + 1));
+    let schur = found(matrix.clone()).or_else(|| {
+        // A reflection in a direction without symmetry.
+        let mut normal =
+            DVector::from_fn(n, |k, _| (0.618_033_988_75 * (k + 1) as f64).fract() + 0.1);
+        normal /= normal.norm();
+        let reflection = DMatrix::identity(n, n) - &normal * normal.transpose() * 2.0;
+        found(&reflection * matrix * &reflection)
+    });
+    schur.map_or(Vec::new(), |schur| schur.complex_eigenvalues().iter().copied().collect())
 }

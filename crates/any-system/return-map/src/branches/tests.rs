@@ -5,6 +5,10 @@ use super::curve::{OnCurve, bordered};
 use super::orbit::{Kind, Orbit, eigenvalues};
 use nalgebra::{Complex, DMatrix};
 
+/// How far a critical multiplier may be from its value: a double one is known to the root of its rounding, and one of an orbit of a long
+/// period to that of many images.
+const CRITICAL: f64 = 1e-3;
+
 /// A number that changes its sign at a bifurcation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Test {
@@ -51,10 +55,14 @@ impl Test {
 
     /// The bifurcation at which the number is zero; `None` if it is zero without one.
     pub(super) fn kind(self, of: Kind, values: &[Complex<f64>]) -> Option<BifurcationKind> {
+        // A number that jumps, as where two pieces of a curve are taken for one, is zero at no bifurcation.
+        let has = |target: f64| {
+            values.iter().any(|value| (value - Complex::new(target, 0.0)).norm() < CRITICAL)
+        };
         match self {
-            Test::Turn | Test::Meet => Some(BifurcationKind::Fold),
-            Test::Cross => Some(BifurcationKind::Transcritical),
-            Test::Flip => Some(BifurcationKind::Doubling),
+            Test::Turn | Test::Meet => has(of.at_fold()).then_some(BifurcationKind::Fold),
+            Test::Cross => has(of.at_fold()).then_some(BifurcationKind::Transcritical),
+            Test::Flip => has(-1.0).then_some(BifurcationKind::Doubling),
             Test::Circle => {
                 let (off, found): (fn(&Complex<f64>) -> f64, _) = match of {
                     Kind::Periodic(_) => (|m| m.norm() - 1.0, BifurcationKind::NeimarkSacker),
@@ -73,8 +81,11 @@ fn circle(kind: Kind, values: &[Complex<f64>]) -> f64 {
     for (k, first) in values.iter().enumerate() {
         for second in &values[k + 1..] {
             product *= match kind {
-                Kind::Periodic(_) => first * second - 1.0,
-                Kind::Equilibrium => first + second,
+                // Factors of size 1 at most: products of many neither vanish nor overflow.
+                Kind::Periodic(_) => (first * second - 1.0) / (1.0 + (first * second).norm()),
+                Kind::Equilibrium => {
+                    (first + second) / (first.norm() + second.norm()).max(f64::MIN_POSITIVE)
+                }
             };
         }
     }
