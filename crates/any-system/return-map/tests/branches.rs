@@ -334,7 +334,8 @@ fn the_spring_leg_over_its_angle_of_attack() {
         .starting_text(&["0", "h", "sqrt(25 + 2*gravity*(1 - h))", "0"])
         .unwrap()
         .coordinates_text(&["height"])
-        .unwrap();
+        .unwrap()
+        .tolerances(hybrid_system::Tolerances::both(1e-11));
     let steps = BranchSteps { first: 0.05, longest: 0.15, ..BranchSteps::default() };
     let start = (&[example_systems::spring_leg::APEX][..], 68.0);
     let branch = follow_branch(&apex, 1, start, (66.2, 68.95), steps, |_| Continue(())).unwrap();
