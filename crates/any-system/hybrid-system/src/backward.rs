@@ -229,24 +229,32 @@ impl<'a, T: HybridSystem> Backward<'a, T> {
         jumps.chain(own).collect()
     }
 
-    /// An error for what has no motion backward.
-    fn check(&self, mode: T::Mode) -> Result<(), Error> {
-        let refused = |reason: String| Err(Error::Model { reason });
+    /// An error for two inverses that are not told apart.
+    fn check_distinct(&self) -> Result<(), Error> {
         for (k, own) in self.inverses.iter().enumerate() {
             let same =
                 |other: &Inverse<'_, T>| (other.surface, other.after) == (own.surface, own.after);
             if self.inverses[..k].iter().any(same) {
                 let (surface, after) = (own.surface, own.after);
-                return refused(format!(
+                let reason = format!(
                     "surface {surface:?} has two inverses of jumps to mode {after:?}: backward they are not told apart; \
                      give their guards surfaces of their own"
-                ));
+                );
+                return Err(Error::Model { reason });
             }
         }
+        Ok(())
+    }
+
+    /// An error for a clock.
+    fn check_clocks(&self, mode: T::Mode) -> Result<(), Error> {
         match self.guards(mode).iter().find(|guard| guard.role == Role::Clock) {
-            Some(Guard { surface: BackwardSurface::Model(clock), .. }) => refused(format!(
-                "the clock {clock:?} of mode {mode:?} has no last tick, at which a run backward would begin"
-            )),
+            Some(Guard { surface: BackwardSurface::Model(clock), .. }) => {
+                let reason = format!(
+                    "the clock {clock:?} of mode {mode:?} has no last tick, at which a run backward would begin"
+                );
+                Err(Error::Model { reason })
+            }
             _ => Ok(()),
         }
     }
@@ -369,7 +377,7 @@ impl<T: HybridSystem> HybridSystem for Backward<'_, T> {
         if self.system.vector_field(mode, start).is_none() {
             return Err(Error::NoVectorField { mode: format!("{mode:?}") });
         }
-        self.check(mode)
+        self.check_distinct()
     }
 
     fn first_crossing(
@@ -378,7 +386,7 @@ impl<T: HybridSystem> HybridSystem for Backward<'_, T> {
         start: &T::State,
         search: &Search<Self::Surface>,
     ) -> Result<NextEvent<Self::Surface, T::State>, Error> {
-        self.check(mode)?;
+        self.check_clocks(mode)?;
         self.check_inverses(mode, start)?;
         integrated_crossing(self, mode, start, search, self.tolerances)
     }

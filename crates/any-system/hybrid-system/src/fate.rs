@@ -40,16 +40,15 @@ pub type FateOf<T> =
 
 impl<T: HybridSystem> Execution<'_, T> {
     /// Follows the execution to its end: where it ends, and why.
-    pub fn fate(mut self) -> FateOf<T> {
-        let mut end = None;
+    pub fn fate(self) -> FateOf<T> {
+        self.fate_after(None)
+    }
+
+    /// The same of an execution whose last arc has ended the run in this way, or has not.
+    pub(crate) fn fate_after(mut self, mut end: Option<End<T::Surface>>) -> FateOf<T> {
         for arc in self.by_ref() {
             end = end_of_arc::<T>(arc);
         }
-        self.into_fate(end)
-    }
-
-    /// The fate of an execution that has ended, by the end of its last arc.
-    pub(crate) fn into_fate(self, end: Option<End<T::Surface>>) -> FateOf<T> {
         // An execution without arcs had ended before.
         let end = end.unwrap_or(End::Stopped(self.stop.unwrap_or(Stop::EventLimit)));
         let (mode, time, events) = (self.at.mode, self.at.time.value(), self.at.jump);

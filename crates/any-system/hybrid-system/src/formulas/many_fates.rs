@@ -126,11 +126,8 @@ impl<'m, X: StateVector, N: Fn()> Block<'m, X, N> {
     }
 
     /// Follows a run to its end.
-    fn alone(&mut self, mut run: Followed<'m, X>) {
-        for arc in run.execution.by_ref() {
-            run.end = end_of_arc::<EquationsModel<X>>(arc);
-        }
-        self.finish(run.place, Ok(run.execution.into_fate(run.end)));
+    fn alone(&mut self, run: Followed<'m, X>) {
+        self.finish(run.place, Ok(run.execution.fate_after(run.end)));
     }
 
     fn finish(&mut self, place: usize, ended: Ended<X>) {
@@ -151,7 +148,7 @@ impl<'m, X: StateVector, N: Fn()> Block<'m, X, N> {
             }
             match run.execution.next() {
                 Some(arc) => run.end = end_of_arc::<EquationsModel<X>>(arc),
-                None => return self.finish(run.place, Ok(run.execution.into_fate(run.end))),
+                None => return self.alone(run),
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::branch::{Bifurcation, BifurcationKind};
 use super::curve::{Curve, OnCurve, corrected};
-use super::follow::BranchSteps;
+use super::follow::{BranchSteps, LONGER, STRAIGHT, scales};
 use super::orbit::{Kind, Orbit, eigenvalues};
 use super::tests::Test;
 use crate::error::Error;
@@ -145,11 +145,8 @@ pub fn bifurcation_curve<M: MapFamily, F: Fn(f64) -> M>(
     let map = family(second);
     super::follow::check(&map, (&start.at.point, start.at.parameter), windows.0, steps)?;
     super::follow::check(&map, (&start.at.point, second), windows.1, steps)?;
-    let size = start.at.point.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
-    let size = if size > 0.0 { size } else { 1.0 };
-    let widths = [windows.0, windows.1].map(|(left, right)| right - left);
     let dimension = start.at.point.len();
-    let scales = DVector::from_element(dimension, size).push(widths[0]).push(widths[1]);
+    let scales = scales(&start.at.point, &[windows.0, windows.1]);
     let itinerary = start.at.itinerary.clone();
     let curve = BifurcationCurve { family, period, test, scales, itinerary };
     let at = DVector::from_column_slice(&start.at.point).push(start.at.parameter).push(second);
@@ -176,9 +173,6 @@ fn point_of(found: &OnCurve) -> BifurcationCurvePoint {
     let point = found.at.iter().take(n).copied().collect();
     BifurcationCurvePoint { point, parameters: [found.at[n], found.at[n + 1]], error: found.error }
 }
-
-/// The largest angle between tangents at two neighbouring points, as its cosine.
-const STRAIGHT: f64 = 0.95;
 
 /// Follows the curve in the direction of the tangent. An error of the map ends it.
 fn one_way<M: MapFamily>(
@@ -210,7 +204,7 @@ fn one_way<M: MapFamily>(
         if stopped {
             break;
         }
-        length = (1.5 * length).min(steps.longest);
+        length = (LONGER * length).min(steps.longest);
         last = next;
     }
     points

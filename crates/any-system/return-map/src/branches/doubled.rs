@@ -2,7 +2,9 @@
 
 use super::branch::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint};
 use super::curve::{Curve, OnCurve, corrected};
-use super::follow::{BranchSteps, Follower, check_period, follow_branch, point_of, predicted};
+use super::follow::{
+    BranchSteps, Follower, check_period, follow_branch, point_of, predicted, scales,
+};
 use super::orbit::{Kind, Orbit};
 use crate::error::Error;
 use crate::families::MapFamily;
@@ -36,10 +38,8 @@ pub fn doubled_branch<M: MapFamily + ?Sized>(
         return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
     }
     super::follow::check(map, (&at.point, at.parameter), window, steps)?;
-    let size = at.point.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
-    let scales = DVector::from_element(at.point.len(), if size > 0.0 { size } else { 1.0 });
-    let orbit =
-        Orbit { map, kind: Kind::Periodic(2 * period), scales: scales.push(window.1 - window.0) };
+    let scales = scales(&at.point, &[window]);
+    let orbit = Orbit { map, kind: Kind::Periodic(2 * period), scales };
     // The eigenvector, without a change of the parameter.
     let mut tangent = DVector::from_column_slice(&doubling.direction).push(0.0);
     tangent.component_div_assign(&orbit.scales);

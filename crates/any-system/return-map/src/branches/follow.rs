@@ -2,7 +2,7 @@
 
 use super::branch::{Branch, BranchEnd, BranchPoint};
 use super::curve::{OnCurve, corrected, tangent};
-use super::locate::{Located, between};
+use super::locate::between;
 use super::orbit::{Kind, Orbit, eigenvalues, split};
 use crate::error::Error;
 use crate::families::MapFamily;
@@ -32,7 +32,7 @@ impl Default for BranchSteps {
 
 /// The largest angle between tangents at two neighbouring points, as its cosine: 18°. A larger angle would let a step change to
 /// another branch.
-const STRAIGHT: f64 = 0.95;
+pub(super) const STRAIGHT: f64 = 0.95;
 
 /// The curve is no further from the end of a step along the tangent than this part of the step: it turns by no more than the largest
 /// angle. Another branch beside it is.
@@ -43,7 +43,7 @@ const LOOKS_AHEAD: usize = 20;
 
 /// After a step with at most so many Newton steps the next one is longer by this factor.
 const QUICK: usize = 4;
-const LONGER: f64 = 1.5;
+pub(super) const LONGER: f64 = 1.5;
 
 /// The branch of points of period `period` through a point near `start` at the parameter `parameter`, in the window of parameters, in
 /// both directions.
@@ -117,10 +117,8 @@ fn follow<M: MapFamily + ?Sized>(
 ) -> Result<Branch, Error> {
     check(map, (start, parameter), window, steps)?;
     let mut at = DVector::from_column_slice(start);
-    let size = at.amax();
     at = at.push(parameter);
-    let mut scales = DVector::from_element(start.len(), if size > 0.0 { size } else { 1.0 });
-    scales = scales.push(window.1 - window.0);
+    let scales = scales(start, &[window]);
     let orbit = Orbit { map, kind, scales };
     let mut along = DVector::zeros(start.len() + 1);
     along[start.len()] = 1.0;
@@ -128,6 +126,15 @@ fn follow<M: MapFamily + ?Sized>(
     let first = corrected(&orbit, &at, &along)?.ok_or_else(none)?;
     let mut follower = Follower { orbit, window, steps, see: &mut see };
     follower.both_ways(first)
+}
+
+/// The sizes of the unknowns: that of the first point, or 1, for each component, and the widths of the windows.
+pub(super) fn scales(point: &[f64], windows: &[(f64, f64)]) -> DVector<f64> {
+    let size = point.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+    let size = if size > 0.0 { size } else { 1.0 };
+    let widths = windows.iter().map(|(left, right)| right - left);
+    let all: Vec<f64> = point.iter().map(|_| size).chain(widths).collect();
+    DVector::from(all)
 }
 
 /// An error for a period that is not positive, or too long to be iterated.
@@ -275,9 +282,7 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
                     }
                 },
             };
-            for Located { bifurcation } in between(&self.orbit, (&last, &next), itinerary) {
-                way.located.push(bifurcation);
-            }
+            way.located.extend(between(&self.orbit, (&last, &next), itinerary));
             let point = point_of(&self.orbit, &next, itinerary.to_vec());
             let stopped = (self.see)(&point).is_break();
             way.points.push(point);

@@ -9,19 +9,14 @@ use super::tests::{TESTS, Test};
 use crate::families::MapFamily;
 use interval_arithmetic::bracketed_root;
 
-/// A bifurcation.
-pub(super) struct Located {
-    pub(super) bifurcation: Bifurcation,
-}
-
 /// The bifurcations between two neighbouring points of a branch, in order.
 pub(super) fn between<M: MapFamily + ?Sized>(
     orbit: &Orbit<'_, M>,
     (from, to): (&OnCurve, &OnCurve),
     itinerary: &[String],
-) -> Vec<Located> {
+) -> Vec<Bifurcation> {
     let length = (&to.at - &from.at).component_div(&orbit.scales).dot(&from.tangent);
-    let mut found: Vec<(f64, Located)> = Vec::new();
+    let mut found: Vec<(f64, Bifurcation)> = Vec::new();
     for test in TESTS {
         let [before, behind] = [from, to].map(|point| test.value(point, orbit));
         // A zero at the end of a step belongs to it, one at its beginning to the step before.
@@ -30,7 +25,7 @@ pub(super) fn between<M: MapFamily + ?Sized>(
             && let Some((place, at)) = zero(orbit, ((from, before), (to, behind)), length, test)
             && let Some(bifurcation) = bifurcation(orbit, test, &at, itinerary)
         {
-            found.push((place, Located { bifurcation }));
+            found.push((place, bifurcation));
         }
     }
     // On the branch that bends at a pitchfork it turns there: that is no fold.
@@ -38,13 +33,13 @@ pub(super) fn between<M: MapFamily + ?Sized>(
         .iter()
         .filter(|(_, located)| {
             use BifurcationKind::{Pitchfork, Transcritical};
-            matches!(located.bifurcation.kind, Pitchfork | Transcritical)
+            matches!(located.kind, Pitchfork | Transcritical)
         })
         .map(|(place, _)| *place)
         .collect();
     found.retain(|(place, located)| {
         let is_near = |crossing: &f64| (crossing - place).abs() <= BESIDE * length;
-        located.bifurcation.kind != BifurcationKind::Fold || !crossings.iter().any(is_near)
+        located.kind != BifurcationKind::Fold || !crossings.iter().any(is_near)
     });
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.into_iter().map(|(_, located)| located).collect()
