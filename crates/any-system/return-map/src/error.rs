@@ -71,6 +71,19 @@ pub enum Error {
         /// Newton steps taken.
         steps: usize,
     },
+    /// A periodic point has no neighbourhood that leads to it.
+    #[error(
+        "no trap about the periodic point {point:?} at the parameter {parameter}: its largest multiplier is {multiplier}. It must be \
+         below 1, and the map smooth at the orbit"
+    )]
+    NoTrap {
+        /// The point.
+        point: Vec<f64>,
+        /// The parameter.
+        parameter: f64,
+        /// The largest size of a multiplier.
+        multiplier: f64,
+    },
     /// A window, a step or a start from which no branch can be followed.
     #[error("no branch can be followed: {what} cannot be {value}")]
     BadBranch {

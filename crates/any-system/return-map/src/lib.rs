@@ -98,11 +98,10 @@
 //!   return map.
 
 mod branches;
-mod diagram;
 mod error;
 mod families;
 mod fixed_point;
-mod lyapunov;
+mod orbits;
 mod periodic_point;
 mod return_map;
 mod section;
@@ -112,13 +111,16 @@ pub use branches::{
     Bifurcation, BifurcationCurvePoint, BifurcationKind, Branch, BranchEnd, BranchPoint,
     BranchSteps, bifurcation_curve, cascade, doubled_branch, follow_branch, follow_equilibria,
 };
-pub use diagram::{DiagramColumn, OrbitLength, Seeds, bifurcation_diagram};
 pub use error::Error;
 pub use families::{
     Closure, EquationReturns, FormulaMap, Image, MapFamily, family, pieces, scalar_family,
 };
 pub use fixed_point::{FixedPoint, Intersection, fixed_points};
-pub use lyapunov::{OrbitMean, lyapunov_exponents};
+pub use orbits::{
+    DiagramColumn, LyapunovExponents, OrbitEnd, OrbitFate, OrbitLength, OrbitMean,
+    PeriodicAttractor, RotationNumber, Seeds, bifurcation_diagram, lyapunov_exponents, orbit_fate,
+    orbit_fates, periodic_attractors, rotation_number,
+};
 pub use periodic_point::{PeriodicPoint, periodic_point, periodic_point_with_derivative};
 pub use return_map::{Return, ReturnMap, SmoothReturn};
 pub use section::{Section, SmoothSection};

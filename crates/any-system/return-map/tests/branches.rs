@@ -4,9 +4,8 @@
 
 use equations::{Formulas, Names};
 use return_map::{
-    BifurcationKind, Branch, BranchEnd, BranchSteps, DiagramColumn, EquationReturns, Error,
-    FormulaMap, MapFamily, OrbitLength, Seeds, bifurcation_diagram, cascade, doubled_branch,
-    family, follow_branch, follow_equilibria, lyapunov_exponents, pieces, scalar_family,
+    BifurcationKind, Branch, BranchEnd, BranchSteps, EquationReturns, Error, FormulaMap, MapFamily,
+    cascade, doubled_branch, family, follow_branch, follow_equilibria, pieces, scalar_family,
 };
 use std::ops::ControlFlow::{Break, Continue};
 
@@ -269,60 +268,6 @@ fn a_cycle_begins_at_an_equilibrium() {
         assert_eq!(hopf.coefficient.unwrap() < 0.0, stable);
         assert!((hopf.coefficient.unwrap().abs() - 2.0).abs() < 1e-6, "{hopf:?}");
     }
-}
-
-/// ln 2 of the logistic map at r = 4; of Hénon's map the sum is ln b, and the largest 0.4192.
-#[test]
-fn lyapunov_exponents_are_the_known_ones() {
-    let logistic = scalar_family(|x, r| r * x * (1.0 - x));
-    let found = lyapunov_exponents(&logistic, (&[0.3], 4.0), 100, 32_000).unwrap();
-    assert!((found[0].value - 2f64.ln()).abs() < 5e-3, "{found:?}");
-    // A cycle: the multiplier −0.5 of r = 2.5.
-    let cycle = lyapunov_exponents(&logistic, (&[0.3], 2.5), 1000, 160).unwrap();
-    assert!(
-        (cycle[0].value - 0.5f64.ln()).abs() < 1e-10 && cycle[0].upper - cycle[0].lower < 1e-10
-    );
-    let names = Names::new(&["x", "y"], &[("a", "1.4"), ("b", "0.3")]).unwrap();
-    let henon =
-        FormulaMap::new(&Formulas::from_text(names, &["1 - a*x^2 + y", "b*x"]).unwrap(), "a")
-            .unwrap();
-    let found = lyapunov_exponents(&henon, (&[0.1, 0.1], 1.4), 100, 32_000).unwrap();
-    assert!((found[0].value + found[1].value - 0.3f64.ln()).abs() < 1e-10, "{found:?}");
-    assert!(found[0].lower < 0.4192 && 0.4192 < found[0].upper, "{found:?}");
-    assert!(found[0].upper - found[0].lower < 0.04);
-}
-
-/// Carried seeds stay on their attractor: ẋ-like cubic map with two attractors, in both directions.
-#[test]
-fn diagrams_carry_their_seeds() {
-    // x ↦ x + (p + x − x³)/5 has three fixed points for |p| < 2/√27.
-    let map = scalar_family(|x, p| x + 0.2 * (p + x - x * x * x));
-    let up: Vec<f64> = (0..=80).map(|k| -0.8 + 0.02 * f64::from(k)).collect();
-    let length = OrbitLength { transient: 400, keep: 1 };
-    let seeds = [vec![-1.0]];
-    let last = |columns: &[DiagramColumn], k: usize| columns[k].orbits[0].as_ref().unwrap()[0][0];
-    let carried =
-        bifurcation_diagram(&map, &up, (&seeds, Seeds::Carried), length, |_| Continue(()));
-    let down: Vec<f64> = up.iter().rev().copied().collect();
-    let back =
-        bifurcation_diagram(&map, &down, (&[vec![1.0]], Seeds::Carried), length, |_| Continue(()));
-    // At p = 0 the branch below and the one above.
-    assert!((last(&carried, 40) + 1.0).abs() < 1e-9 && (last(&back, 40) - 1.0).abs() < 1e-9);
-    let both = [vec![-1.0], vec![1.0]];
-    let fresh = bifurcation_diagram(&map, &[0.0], (&both, Seeds::Fresh), length, |_| Continue(()));
-    let found: Vec<f64> =
-        fresh[0].orbits.iter().map(|orbit| orbit.as_ref().unwrap()[0][0]).collect();
-    assert!((found[0] + 1.0).abs() < 1e-9 && (found[1] - 1.0).abs() < 1e-9);
-    // An orbit without an image is its own error, and the columns can be stopped.
-    let gap = family(1, |x, p| match p < 0.5 {
-        true => Ok(vec![0.5 * x[0]]),
-        false => Err(Error::NoImage { point: x.to_vec(), parameter: p }),
-    });
-    let columns =
-        bifurcation_diagram(&gap, &[0.0, 1.0], (&seeds, Seeds::Fresh), length, |_| Continue(()));
-    assert!(columns[0].orbits[0].is_ok() && columns[1].orbits[0].is_err());
-    let stopped = bifurcation_diagram(&map, &up, (&seeds, Seeds::Fresh), length, |_| Break(()));
-    assert!(stopped.len() < up.len());
 }
 
 /// The spring leg at 5 m/s over its angle of attack: stable between a fold and a doubling, or the end of its flights.

@@ -2,8 +2,9 @@
 
 use super::branch::{Bifurcation, BifurcationKind};
 use super::curve::{Curve, OnCurve, corrected};
-use super::follow::{BranchSteps, LONGER, STRAIGHT, scales};
+use super::follow::{BranchSteps, LONGER, STRAIGHT};
 use super::orbit::{Kind, Orbit, eigenvalues};
+use super::start::scales;
 use super::tests::Test;
 use crate::error::Error;
 use crate::families::MapFamily;
@@ -132,7 +133,7 @@ pub fn bifurcation_curve<M: MapFamily, F: Fn(f64) -> M>(
     steps: BranchSteps,
     mut see: impl FnMut(&BifurcationCurvePoint) -> ControlFlow<()>,
 ) -> Result<Vec<BifurcationCurvePoint>, Error> {
-    super::follow::check_period(period)?;
+    super::start::check_period(period)?;
     let test = match start.kind {
         BifurcationKind::Fold => Test::Meet,
         BifurcationKind::Doubling => Test::Flip,
@@ -143,8 +144,8 @@ pub fn bifurcation_curve<M: MapFamily, F: Fn(f64) -> M>(
         }
     };
     let map = family(second);
-    super::follow::check(&map, (&start.at.point, start.at.parameter), windows.0, steps)?;
-    super::follow::check(&map, (&start.at.point, second), windows.1, steps)?;
+    super::start::check(&map, (&start.at.point, start.at.parameter), windows.0, steps)?;
+    super::start::check(&map, (&start.at.point, second), windows.1, steps)?;
     let dimension = start.at.point.len();
     let scales = scales(&start.at.point, &[windows.0, windows.1]);
     let itinerary = start.at.itinerary.clone();

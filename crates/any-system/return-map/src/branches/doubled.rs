@@ -2,10 +2,9 @@
 
 use super::branch::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint};
 use super::curve::{Curve, OnCurve, corrected};
-use super::follow::{
-    BranchSteps, Follower, check_period, follow_branch, point_of, predicted, scales,
-};
+use super::follow::{BranchSteps, Follower, follow_branch, point_of, predicted};
 use super::orbit::{Kind, Orbit};
+use super::start::{check_period, scales};
 use crate::error::Error;
 use crate::families::MapFamily;
 use nalgebra::{DMatrix, DVector};
@@ -37,7 +36,7 @@ pub fn doubled_branch<M: MapFamily + ?Sized>(
         let what = "the direction of a doubling";
         return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
     }
-    super::follow::check(map, (&at.point, at.parameter), window, steps)?;
+    super::start::check(map, (&at.point, at.parameter), window, steps)?;
     let scales = scales(&at.point, &[window]);
     let orbit = Orbit { map, kind: Kind::Periodic(2 * period), scales };
     // The eigenvector, without a change of the parameter.

@@ -4,9 +4,9 @@ use super::branch::{Branch, BranchEnd, BranchPoint};
 use super::curve::{OnCurve, corrected, tangent};
 use super::locate::between;
 use super::orbit::{Kind, Orbit, eigenvalues, split};
+use super::start::{check, check_period, scales, solved};
 use crate::error::Error;
 use crate::families::MapFamily;
-use crate::periodic_point::LONGEST_PERIOD;
 use nalgebra::DVector;
 use std::ops::ControlFlow;
 
@@ -116,65 +116,10 @@ fn follow<M: MapFamily + ?Sized>(
     mut see: impl FnMut(&BranchPoint) -> ControlFlow<()>,
 ) -> Result<Branch, Error> {
     check(map, (start, parameter), window, steps)?;
-    let mut at = DVector::from_column_slice(start);
-    at = at.push(parameter);
-    let scales = scales(start, &[window]);
-    let orbit = Orbit { map, kind, scales };
-    let mut along = DVector::zeros(start.len() + 1);
-    along[start.len()] = 1.0;
-    let none = || Error::NoPeriodicPoint { residual: f64::NAN, steps: 0 };
-    let first = corrected(&orbit, &at, &along)?.ok_or_else(none)?;
+    let orbit = Orbit { map, kind, scales: scales(start, &[window]) };
+    let first = solved(&orbit, (start, parameter))?;
     let mut follower = Follower { orbit, window, steps, see: &mut see };
     follower.both_ways(first)
-}
-
-/// The sizes of the unknowns: that of the first point, or 1, for each component, and the widths of the windows.
-pub(super) fn scales(point: &[f64], windows: &[(f64, f64)]) -> DVector<f64> {
-    let size = point.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
-    let size = if size > 0.0 { size } else { 1.0 };
-    let widths = windows.iter().map(|(left, right)| right - left);
-    let all: Vec<f64> = point.iter().map(|_| size).chain(widths).collect();
-    DVector::from(all)
-}
-
-/// An error for a period that is not positive, or too long to be iterated.
-pub(super) fn check_period(period: usize) -> Result<(), Error> {
-    match period {
-        0 => Err(Error::BadBranch { what: "the period of a branch", value: 0.0 }),
-        period if period > LONGEST_PERIOD => Err(Error::BadPeriod { period, most: LONGEST_PERIOD }),
-        _ => Ok(()),
-    }
-}
-
-pub(super) fn check<M: MapFamily + ?Sized>(
-    map: &M,
-    (start, parameter): (&[f64], f64),
-    (left, right): (f64, f64),
-    steps: BranchSteps,
-) -> Result<(), Error> {
-    let bad = |what: &'static str, value: f64| Err(Error::BadBranch { what, value });
-    let (expected, found) = (map.dimension(), start.len());
-    if expected != found || found == 0 {
-        let what = "the start of a branch";
-        return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
-    }
-    if !(left < right && (right - left).is_finite()) {
-        return bad("the width of the window of a branch", right - left);
-    }
-    if !(left <= parameter && parameter <= right) {
-        return bad("a parameter outside of the window", parameter);
-    }
-    let BranchSteps { first, longest, shortest, .. } = steps;
-    for (what, value) in [
-        ("the first step of a branch", first),
-        ("the longest step of a branch", longest),
-        ("the shortest step of a branch", shortest),
-    ] {
-        if !(value > 0.0 && value.is_finite()) {
-            return bad(what, value);
-        }
-    }
-    Ok(())
 }
 
 /// Follows a branch.

@@ -1,6 +1,6 @@
 //! How do fixed and periodic points change with a parameter?
 //!
-//! A [`Branch`] is followed by pseudo-arclength (`curve`, `follow`): H. B. Keller, *Numerical solution of bifurcation and nonlinear
+//! A [`Branch`] is followed by pseudo-arclength (`curve`, `follow`, from `start`): H. B. Keller, *Numerical solution of bifurcation and nonlinear
 //! eigenvalue problems* (1977). `orbit` has the equations of a periodic
 //! point, `tests` the numbers that change their signs at bifurcations, `locate` finds these, `normal_form` has their coefficients,
 //! `doubled` the branch behind a doubling and cascades of them, `bifurcation_curve` curves in two parameters. Y. A. Kuznetsov, *Elements of Applied Bifurcation Theory*, Springer
@@ -14,9 +14,11 @@ mod follow;
 mod locate;
 mod normal_form;
 mod orbit;
+mod start;
 mod tests;
 
 pub use bifurcation_curve::{BifurcationCurvePoint, bifurcation_curve};
 pub use branch::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint};
 pub use doubled::{cascade, doubled_branch};
 pub use follow::{BranchSteps, follow_branch, follow_equilibria};
+pub(crate) use start::solve_periodic;

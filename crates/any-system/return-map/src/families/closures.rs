@@ -40,7 +40,7 @@ impl<F: Fn(&[f64], f64) -> Result<Image, Error> + Sync> MapFamily for Closure<F>
 pub fn scalar_family(map: impl Fn(f64, f64) -> f64 + Sync) -> impl MapFamily {
     let map = move |x: &[f64], p: f64| {
         let x = x.first().copied().unwrap_or(f64::NAN);
-        Ok(Image { point: vec![map(x, p)], itinerary: Vec::new() })
+        Ok(Image::of_number(vec![map(x, p)], None))
     };
     Closure { dimension: 1, map }
 }
@@ -50,7 +50,7 @@ pub fn family(
     dimension: usize,
     map: impl Fn(&[f64], f64) -> Result<Vec<f64>, Error> + Sync,
 ) -> impl MapFamily {
-    let map = move |x: &[f64], p: f64| Ok(Image { point: map(x, p)?, itinerary: Vec::new() });
+    let map = move |x: &[f64], p: f64| Ok(Image::of_number(map(x, p)?, None));
     Closure { dimension, map }
 }
 
@@ -61,7 +61,7 @@ pub fn pieces<N: ToString>(
 ) -> impl MapFamily {
     let map = move |x: &[f64], p: f64| {
         let (point, piece) = map(x, p)?;
-        Ok(Image { point, itinerary: vec![piece.to_string()] })
+        Ok(Image::of_number(point, Some(piece.to_string())))
     };
     Closure { dimension, map }
 }

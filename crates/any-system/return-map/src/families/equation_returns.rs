@@ -2,9 +2,9 @@
 
 use super::family::{Image, MapFamily};
 use crate::error::Error;
-use equations::{Formulas, Jet, JetSeries, Names};
+use equations::{Expression, Formulas, Jet, JetSeries, Names, Parameters, States};
 use hybrid_system::{
-    Along, Arc, Equations, EquationsModel, Execution, Label, Limits, Stop, Tolerances,
+    Along, Arc, Certainty, Equations, EquationsModel, Execution, Label, Limits, Stop, Tolerances,
 };
 use nalgebra::DVector;
 
@@ -13,7 +13,8 @@ use nalgebra::DVector;
 ///
 /// The coordinates of the section have names. The start of a return is given by formulas of the coordinates, one for each component of
 /// the state; the image by formulas of the state after the event, one for each coordinate. An event at the start itself, after no
-/// time, is no return. Each return begins at the time 0: a forcing has the same phase at each start.
+/// time, is no return. Each return begins at the time 0, with the same phase of a forcing, unless the start
+/// says another time.
 ///
 /// The itinerary of an image has the mode and the surface of each event on the way, those of observers too. Derivatives are exact: by
 /// the Taylor series of the motion, through all events.
@@ -50,17 +51,25 @@ pub struct EquationReturns {
     limits: Limits,
 }
 
-/// Some formulas, with derivatives.
+/// Some formulas of states, the time and parameters, with derivatives.
 #[derive(Debug)]
 struct Map(JetSeries);
 
 impl Map {
-    fn new(formulas: &Formulas) -> Result<Map, Error> {
-        Ok(Map(JetSeries::of_values(formulas)?))
+    fn new(
+        formulas: &Formulas,
+        what: &'static str,
+        (needed, most): (usize, usize),
+    ) -> Result<Map, Error> {
+        let given = formulas.count();
+        if given < needed || given > most {
+            return Err(equations::Error::Length { what, needed, given }.into());
+        }
+        Ok(Map(JetSeries::of_values(&formulas.with_time_as_state(None))?))
     }
 }
 
-/// The time at which each return begins.
+/// The time at which a return begins, unless the start says another one.
 const START: f64 = 0.0;
 
 /// The longest return of a map that states no limits: a thousand time units and ten thousand events.
@@ -110,33 +119,64 @@ impl EquationReturns {
         Ok(returns)
     }
 
-    /// The start of a return by formulas of the coordinates, one for each component of the state.
+    /// The start of a return by formulas of the coordinates, one for each component of the state. A further one is the time at which the
+    /// return begins, else 0: for a section on which the phase of a forcing is a coordinate.
     ///
     /// # Errors
     /// Those of the formulas.
-    pub fn starting_text(mut self, state: &[&str]) -> Result<Self, Error> {
+    pub fn starting_text(self, state: &[&str]) -> Result<Self, Error> {
         let formulas = Formulas::from_text(self.section.clone(), state)?;
-        let (needed, given) = (self.equations.names().states.len(), formulas.count());
-        if needed != given {
-            let what = "formulas of the start";
-            return Err(equations::Error::Length { what, needed, given }.into());
-        }
-        self.start = Some(Map::new(&formulas)?);
+        self.starting_by(&formulas)
+    }
+
+    /// The same, by a closure of the time, which is 0 here, the coordinates and the parameters. It is called once, with symbols.
+    ///
+    /// # Errors
+    /// Those of the formulas.
+    pub fn starting(
+        self,
+        state: impl for<'g> Fn(Expression<'g>, &States<'g>, &Parameters<'g>) -> Vec<Expression<'g>>,
+    ) -> Result<Self, Error> {
+        let formulas = Formulas::of_vector(self.section.clone(), state)?;
+        self.starting_by(&formulas)
+    }
+
+    fn starting_by(mut self, formulas: &Formulas) -> Result<Self, Error> {
+        let needed = self.equations.names().states.len();
+        let count = (needed, needed + 1);
+        self.start = Some(Map::new(formulas, "formulas of the start", count)?);
         Ok(self)
     }
 
-    /// The coordinates by formulas of the state after the event.
+    /// The coordinates by formulas of the state after the event, and of its time t since the start.
     ///
     /// # Errors
     /// Those of the formulas.
-    pub fn coordinates_text(mut self, coordinates: &[&str]) -> Result<Self, Error> {
+    pub fn coordinates_text(self, coordinates: &[&str]) -> Result<Self, Error> {
         let formulas = Formulas::from_text(self.equations.names().clone(), coordinates)?;
-        let (needed, given) = (self.section.states.len(), formulas.count());
-        if needed != given {
-            let what = "formulas of the coordinates";
-            return Err(equations::Error::Length { what, needed, given }.into());
-        }
-        self.coordinates = Some(Map::new(&formulas)?);
+        self.coordinates_by(&formulas)
+    }
+
+    /// The same, by a closure of the time, the state and the parameters. It is called once, with symbols.
+    ///
+    /// # Errors
+    /// Those of the formulas.
+    pub fn coordinates(
+        self,
+        coordinates: impl for<'g> Fn(
+            Expression<'g>,
+            &States<'g>,
+            &Parameters<'g>,
+        ) -> Vec<Expression<'g>>,
+    ) -> Result<Self, Error> {
+        let formulas = Formulas::of_vector(self.equations.names().clone(), coordinates)?;
+        self.coordinates_by(&formulas)
+    }
+
+    fn coordinates_by(mut self, formulas: &Formulas) -> Result<Self, Error> {
+        let needed = self.section.states.len();
+        let count = (needed, needed);
+        self.coordinates = Some(Map::new(formulas, "formulas of the coordinates", count)?);
         Ok(self)
     }
 
@@ -173,12 +213,12 @@ impl EquationReturns {
         })
     }
 
-    /// The start of a return.
+    /// The state and the time at which a return starts.
     fn start<const T: usize>(
         &self,
         coordinates: &[Jet<T>],
         parameter: Jet<T>,
-    ) -> Result<Vec<Jet<T>>, Error> {
+    ) -> Result<(Vec<Jet<T>>, Jet<T>), Error> {
         let (expected, found) = (self.section.states.len(), coordinates.len());
         if expected != found {
             let what = "the coordinates of a section";
@@ -186,15 +226,22 @@ impl EquationReturns {
         }
         match &self.start {
             Some(Map(start)) => {
-                let all: Vec<_> =
-                    coordinates.iter().copied().chain(self.parameters(parameter)).collect();
-                Ok(start.values(&all)?)
+                let all: Vec<_> = coordinates
+                    .iter()
+                    .copied()
+                    .chain([Jet::number(START)])
+                    .chain(self.parameters(parameter))
+                    .collect();
+                let mut state = start.values(&all)?;
+                let has_time = state.len() > self.equations.names().states.len();
+                let time = if has_time { state.pop() } else { None };
+                Ok((state, time.unwrap_or(Jet::number(START))))
             }
             None => {
                 let place = |name| self.section.states.iter().position(|own| own == name);
                 let names = self.equations.names().states.iter();
                 let of = |name| place(name).map_or(Jet::number(0.0), |place| coordinates[place]);
-                Ok(names.map(of).collect())
+                Ok((names.map(of).collect(), Jet::number(START)))
             }
         }
     }
@@ -202,7 +249,7 @@ impl EquationReturns {
     /// The coordinates of a state.
     fn image_of<const T: usize>(
         &self,
-        state: &[Jet<T>],
+        (state, time): (&[Jet<T>], Jet<T>),
         parameter: Jet<T>,
     ) -> Result<Vec<Jet<T>>, Error> {
         // The time is no component of the formulas.
@@ -210,7 +257,8 @@ impl EquationReturns {
         let state = &state[..names.len().min(state.len())];
         match &self.coordinates {
             Some(Map(coordinates)) => {
-                let all: Vec<_> = state.iter().copied().chain(self.parameters(parameter)).collect();
+                let all: Vec<_> =
+                    state.iter().copied().chain([time]).chain(self.parameters(parameter)).collect();
                 Ok(coordinates.values(&all)?)
             }
             None => {
@@ -229,12 +277,12 @@ impl EquationReturns {
     fn arcs(
         &self,
         model: &EquationsModel<DVector<f64>>,
-        start: &[f64],
+        (start, time): (&[f64], f64),
     ) -> Result<Vec<Arc<Label, Label, DVector<f64>>>, Error> {
         let mut state = start.to_vec();
         let dimension = model.series(self.mode.as_str()).map_or(0, equations::Series::dimension);
         if state.len() + 1 == dimension {
-            state.push(START);
+            state.push(time);
         }
         let mut run = Execution::new(model, self.mode, DVector::from(state), self.limits);
         let (mut arcs, mut last) = (Vec::new(), None);
@@ -263,33 +311,58 @@ impl MapFamily for EquationReturns {
     }
 
     fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error> {
-        let still = |value: &f64| Jet::<1>([*value]);
-        let coordinates: Vec<Jet<1>> = point.iter().map(still).collect();
-        let start = self.start(&coordinates, still(&parameter))?;
+        let still = |value: f64| Jet::<1>([value]);
+        let coordinates: Vec<Jet<1>> = point.iter().copied().map(still).collect();
+        let (start, begin) = self.start(&coordinates, still(parameter))?;
         let start: Vec<f64> = start.iter().map(Jet::value).collect();
-        let arcs = self.arcs(&self.model(Some(parameter))?, &start)?;
-        let itinerary = itinerary(&arcs);
+        let arcs = self.arcs(&self.model(Some(parameter))?, (&start, begin.value()))?;
+        let time = elapsed(&arcs);
         let after = arcs.last().and_then(|arc| arc.event()?.after.as_ref());
         let state = after.map_or(&[][..], |(_, state)| state.as_slice());
-        let state: Vec<Jet<1>> = state.iter().map(still).collect();
-        let image = self.image_of(&state, still(&parameter))?;
-        Ok(Image { point: image.iter().map(Jet::value).collect(), itinerary })
+        let state: Vec<Jet<1>> = state.iter().copied().map(still).collect();
+        let at = (&state[..], still(begin.value() + time));
+        let image = self.image_of(at, still(parameter))?;
+        let (point, certainty) = (image.iter().map(Jet::value).collect(), least_certain(&arcs));
+        Ok(Image { point, itinerary: itinerary(&arcs), time, certainty })
     }
 
     fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
-        let start = self.start(curve, parameter)?;
+        let (start, begin) = self.start(curve, parameter)?;
         let values: Vec<f64> = start.iter().map(Jet::value).collect();
         let model = self.model(Some(parameter.value()))?;
-        let arcs = self.arcs(&model, &values)?;
+        let arcs = self.arcs(&model, (&values, begin.value()))?;
         let mut whole = start;
         if arcs.first().is_some_and(|arc| arc.start.len() > whole.len()) {
-            // The time, at which each return begins.
-            whole.push(Jet::number(START));
+            whole.push(begin);
         }
         let along = Along::curve(&whole).and_parameter_curve(&self.parameter, parameter);
         let back = model.jet::<4>(&arcs, &along)?;
-        self.image_of(&back.state, parameter)
+        // The time of the arcs is that since their start.
+        let mut time = begin;
+        time.0.iter_mut().zip(back.time.0).skip(1).for_each(|(own, more)| *own += more);
+        time.0[0] += elapsed(&arcs);
+        self.image_of((&back.state, time), parameter)
     }
+}
+
+/// The time of some arcs.
+fn elapsed(arcs: &[Arc<Label, Label, DVector<f64>>]) -> f64 {
+    match (arcs.first(), arcs.last()) {
+        (Some(first), Some(last)) => last.time + last.duration - first.time,
+        _ => 0.0,
+    }
+}
+
+/// The certainty of the least certain event.
+fn least_certain(arcs: &[Arc<Label, Label, DVector<f64>>]) -> Certainty {
+    let rank = |certainty: &Certainty| match certainty {
+        Certainty::Exact => 0,
+        Certainty::Certain => 1,
+        Certainty::Interpolated => 2,
+        Certainty::Sampled { .. } => 3,
+    };
+    let events = arcs.iter().filter_map(|arc| Some(arc.event()?.certainty));
+    events.max_by_key(rank).unwrap_or(Certainty::Exact)
 }
 
 /// The mode and the surface of each event.

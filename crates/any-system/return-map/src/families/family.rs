@@ -3,15 +3,32 @@
 use super::differences::pushed;
 use crate::error::Error;
 use equations::Jet;
+use hybrid_system::Certainty;
 
 /// The image of a point.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Image {
     /// The point.
     pub point: Vec<f64>,
-    /// On which piece of the map the point is that was mapped: for a return map the modes and surfaces on the way. On one piece the
-    /// map is smooth. A smooth map has one piece, without a name.
+    /// On which piece of the map the point is that was mapped: for a return map the mode and surface of each event on the way. On one
+    /// piece the map is smooth. A smooth map has one piece, without a name.
     pub itinerary: Vec<String>,
+    /// How long the way took: the return time. 1 for a map of numbers.
+    pub time: f64,
+    /// How certain it is that no event on the way was missed: the least certain one counts. [`Certainty::Exact`] for a map of numbers.
+    pub certainty: Certainty,
+}
+
+impl Image {
+    /// The image under a map of numbers, on the piece with this name; without a name if the map has one piece.
+    pub fn of_number(point: Vec<f64>, piece: Option<String>) -> Image {
+        Image {
+            point,
+            itinerary: piece.into_iter().collect(),
+            time: 1.0,
+            certainty: Certainty::Exact,
+        }
+    }
 }
 
 /// A map x ↦ f(x; p) of points with some components, which depends on a parameter p.

@@ -38,6 +38,10 @@ impl FormulaMap {
                 equations::Error::Length { what: "formulas of a map", needed, given }.into()
             );
         }
+        if formulas.uses_time() {
+            let (name, reason) = ("t".to_owned(), "a map has no time");
+            return Err(equations::Error::Name { name, reason }.into());
+        }
         let place = names.parameters.iter().position(|name| name == parameter);
         let reason = "no parameter of these formulas";
         let name = parameter.to_owned();
@@ -73,7 +77,7 @@ impl MapFamily for FormulaMap {
         let still = |value: &f64| Jet::<1>([*value]);
         let curve: Vec<Jet<1>> = point.iter().map(still).collect();
         let image = self.values(&curve, still(&parameter))?;
-        Ok(Image { point: image.into_iter().map(|jet| jet.0[0]).collect(), itinerary: Vec::new() })
+        Ok(Image::of_number(image.into_iter().map(|jet| jet.0[0]).collect(), None))
     }
 
     fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {

@@ -23,18 +23,30 @@ const BATCHES: usize = 16;
 /// The 97.5 % quantile of Student's distribution with 15 degrees of freedom.
 const STUDENT: f64 = 2.131_449_546;
 
-/// The Lyapunov exponents of the orbit of a point, from the largest to the smallest, for one image of the map.
+/// The Lyapunov exponents of an orbit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LyapunovExponents {
+    /// For one image of the map, from the largest to the smallest.
+    pub per_image: Vec<OrbitMean>,
+    /// For one unit of time, in the same order: those of the flow, of a return map. The direction of the flow, which is not on the
+    /// section, adds the exponent 0.
+    pub per_time: Vec<OrbitMean>,
+    /// The mean time of an image.
+    pub mean_time: f64,
+}
+
+/// The Lyapunov exponents of the orbit of a point.
 ///
 /// The derivative of the map moves a frame of vectors, which is made orthogonal after each image (Benettin's method). The `transient` images
 /// are not counted; the `steps` after them are, rounded up to a multiple of 16. The interval is that of the means over 16 parts of
-/// the orbit. For the exponents of a flow divide by the return time. An
+/// the orbit. An
 /// orbit with a singular derivative, as a superstable cycle, has the exponent −∞, whose interval has no ends (NaN).
 ///
 /// ```
 /// use return_map::{lyapunov_exponents, scalar_family};
 /// let logistic = scalar_family(|x, r| r * x * (1.0 - x));
-/// let found = lyapunov_exponents(&logistic, (&[0.3], 4.0), 100, 100_000)?;
-/// assert!(found[0].lower < 2f64.ln() && 2f64.ln() < found[0].upper);
+/// let found = lyapunov_exponents(&logistic, (&[0.3], 4.0), 100, 100_000)?.per_image[0];
+/// assert!(found.lower < 2f64.ln() && 2f64.ln() < found.upper);
 /// # Ok::<(), return_map::Error>(())
 /// ```
 ///
@@ -45,7 +57,7 @@ pub fn lyapunov_exponents<M: MapFamily + ?Sized>(
     (start, parameter): (&[f64], f64),
     transient: usize,
     steps: usize,
-) -> Result<Vec<OrbitMean>, Error> {
+) -> Result<LyapunovExponents, Error> {
     let dimension = map.dimension();
     let (expected, found) = (dimension, start.len());
     if expected != found {
@@ -58,11 +70,11 @@ pub fn lyapunov_exponents<M: MapFamily + ?Sized>(
     }
     let per_batch = steps.div_ceil(BATCHES).max(1);
     let mut frame = DMatrix::<f64>::identity(dimension, dimension);
-    let mut batches = vec![vec![0.0; dimension]; BATCHES];
-    for sums in &mut batches {
+    let (mut batches, mut times) = (vec![vec![0.0; dimension]; BATCHES], vec![0.0; BATCHES]);
+    for (sums, time) in batches.iter_mut().zip(&mut times) {
         for _ in 0..per_batch {
-            let moved = derivative(map, &point, parameter)?;
-            let (image, slopes) = moved;
+            *time += map.image(&point, parameter)?.time;
+            let (image, slopes) = derivative(map, &point, parameter)?;
             let qr = (slopes * &frame).qr();
             let r = qr.r();
             for (axis, sum) in sums.iter_mut().enumerate() {
@@ -71,16 +83,29 @@ pub fn lyapunov_exponents<M: MapFamily + ?Sized>(
             (frame, point) = (qr.q(), image);
         }
     }
-    let mean = |axis: usize| {
-        let means: Vec<f64> = batches.iter().map(|sums| sums[axis] / per_batch as f64).collect();
-        let value = means.iter().sum::<f64>() / BATCHES as f64;
-        let squares = means.iter().map(|mean| (mean - value) * (mean - value)).sum::<f64>();
-        let error = STUDENT * (squares / (BATCHES * (BATCHES - 1)) as f64).sqrt();
-        OrbitMean { value, lower: value - error, upper: value + error }
-    };
-    let mut exponents: Vec<OrbitMean> = (0..dimension).map(mean).collect();
-    exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
-    Ok(exponents)
+    let count = per_batch as f64;
+    let mut axes: Vec<[OrbitMean; 2]> = (0..dimension)
+        .map(|axis| {
+            let of = |unit: &dyn Fn(usize) -> f64| {
+                mean(batches.iter().enumerate().map(|(k, sums)| sums[axis] / unit(k)))
+            };
+            [of(&|_| count), of(&|k| times[k])]
+        })
+        .collect();
+    axes.sort_by(|a, b| b[0].value.total_cmp(&a[0].value));
+    let (per_image, per_time) = axes.into_iter().map(|[image, time]| (image, time)).unzip();
+    let mean_time = times.iter().sum::<f64>() / (count * BATCHES as f64);
+    Ok(LyapunovExponents { per_image, per_time, mean_time })
+}
+
+/// The mean over the parts of an orbit.
+fn mean(parts: impl Iterator<Item = f64>) -> OrbitMean {
+    let parts: Vec<f64> = parts.collect();
+    let count = parts.len() as f64;
+    let value = parts.iter().sum::<f64>() / count;
+    let squares = parts.iter().map(|part| (part - value) * (part - value)).sum::<f64>();
+    let error = STUDENT * (squares / (count * (count - 1.0))).sqrt();
+    OrbitMean { value, lower: value - error, upper: value + error }
 }
 
 /// The image and the derivative of a map at a point.
