@@ -71,6 +71,28 @@ pub enum Error {
         /// Newton steps taken.
         steps: usize,
     },
+    /// A branch goes on with another map than its own.
+    #[error(
+        "the end of the branch, {point:?} at the parameter {parameter}, is no periodic point of this map: take the map of the branch"
+    )]
+    OtherBranch {
+        /// The end.
+        point: Vec<f64>,
+        /// The parameter.
+        parameter: f64,
+    },
+    /// A map of one variable has more pieces than can be kept.
+    #[error(
+        "more than {most} pieces between {left} and {at}: take a smaller window, or a tolerance above the noise of the map"
+    )]
+    ManyPieces {
+        /// The left end of what was looked at.
+        left: f64,
+        /// Where the search was.
+        at: f64,
+        /// The most pieces.
+        most: usize,
+    },
     /// A periodic point has no neighbourhood that leads to it.
     #[error(
         "no trap about the periodic point {point:?} at the parameter {parameter}: its largest multiplier is {multiplier}. It must be \

@@ -100,22 +100,21 @@
 mod branches;
 mod error;
 mod families;
-mod fixed_point;
 mod orbits;
 mod periodic_point;
 mod return_map;
+mod scalar;
 mod section;
-mod stability;
 
 pub use branches::{
     Bifurcation, BifurcationCurvePoint, BifurcationKind, Branch, BranchEnd, BranchPoint,
-    BranchSteps, bifurcation_curve, cascade, doubled_branch, follow_branch, follow_equilibria,
+    BranchSteps, bifurcation_curve, cascade, continue_branch, doubled_branch, follow_branch,
+    follow_equilibria,
 };
 pub use error::Error;
 pub use families::{
     Closure, EquationReturns, FormulaMap, Image, MapFamily, family, pieces, scalar_family,
 };
-pub use fixed_point::{FixedPoint, Intersection, fixed_points};
 pub use orbits::{
     DiagramColumn, LyapunovExponents, OrbitEnd, OrbitFate, OrbitLength, OrbitMean,
     PeriodicAttractor, RotationNumber, Seeds, bifurcation_diagram, lyapunov_exponents, orbit_fate,
@@ -123,5 +122,9 @@ pub use orbits::{
 };
 pub use periodic_point::{PeriodicPoint, periodic_point, periodic_point_with_derivative};
 pub use return_map::{Return, ReturnMap, SmoothReturn};
+pub use scalar::{
+    AllPeriodicPoints, ApproximateMap, Extremum, FixedPoint, Intersection, MapGap, MapPiece,
+    MapPieces, OneSidedStability, ProvedPoint, Side, Stability, all_equilibria,
+    all_periodic_points, fixed_points, map_pieces, one_sided_stability,
+};
 pub use section::{Section, SmoothSection};
-pub use stability::{OneSidedStability, Side, Stability, one_sided_stability};

@@ -4,6 +4,7 @@ use nalgebra::Complex;
 
 /// A branch of fixed points, periodic points or equilibria, from one end to the other.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Branch {
     /// The period n of its points: fⁿ(x; p) = x. 0 for equilibria.
     pub period: usize,
@@ -17,6 +18,7 @@ pub struct Branch {
 
 /// A point of a branch.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BranchPoint {
     /// The point x.
     pub point: Vec<f64>,
@@ -46,6 +48,7 @@ impl BranchPoint {
 
 /// A bifurcation of a branch, located on it.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bifurcation {
     /// What happens.
     pub kind: BifurcationKind,
@@ -68,6 +71,7 @@ pub struct Bifurcation {
 
 /// What happens at a bifurcation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum BifurcationKind {
     /// A multiplier is 1, and the branch turns back: two points are born or vanish.
     Fold,
@@ -85,6 +89,7 @@ pub enum BifurcationKind {
 
 /// Why a branch ends.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum BranchEnd {
     /// At the border of the window, on it.
     Window,

@@ -3,11 +3,12 @@
 //! A [`Branch`] is followed by pseudo-arclength (`curve`, `follow`, from `start`): H. B. Keller, *Numerical solution of bifurcation and nonlinear
 //! eigenvalue problems* (1977). `orbit` has the equations of a periodic
 //! point, `tests` the numbers that change their signs at bifurcations, `locate` finds these, `normal_form` has their coefficients,
-//! `doubled` the branch behind a doubling and cascades of them, `bifurcation_curve` curves in two parameters. Y. A. Kuznetsov, *Elements of Applied Bifurcation Theory*, Springer
+//! `doubled` the branch behind a doubling and cascades of them, `continued` goes on with a branch that was stopped, `bifurcation_curve` curves in two parameters. Y. A. Kuznetsov, *Elements of Applied Bifurcation Theory*, Springer
 //! (2004).
 
 mod bifurcation_curve;
 mod branch;
+mod continued;
 mod curve;
 mod doubled;
 mod follow;
@@ -19,6 +20,7 @@ mod tests;
 
 pub use bifurcation_curve::{BifurcationCurvePoint, bifurcation_curve};
 pub use branch::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint};
+pub use continued::continue_branch;
 pub use doubled::{cascade, doubled_branch};
 pub use follow::{BranchSteps, follow_branch, follow_equilibria};
-pub(crate) use start::solve_periodic;
+pub(crate) use start::{check_period, solve_periodic};

@@ -48,7 +48,7 @@ pub(super) fn scales(point: &[f64], windows: &[(f64, f64)]) -> DVector<f64> {
 }
 
 /// An error for a period that is not positive, or too long to be iterated.
-pub(super) fn check_period(period: usize) -> Result<(), Error> {
+pub(crate) fn check_period(period: usize) -> Result<(), Error> {
     match period {
         0 => Err(Error::BadBranch { what: "the period of a branch", value: 0.0 }),
         period if period > LONGEST_PERIOD => Err(Error::BadPeriod { period, most: LONGEST_PERIOD }),

@@ -97,7 +97,8 @@ pub fn orbit_fate<M: MapFamily + ?Sized>(
 /// So many images in a row that do not move the time are the last ones of infinitely many: one or two may be those of a corner.
 const STILL: usize = 10;
 
-fn end_of(error: Error) -> OrbitEnd {
+/// What a missing image means for an orbit.
+pub(crate) fn end_of(error: Error) -> OrbitEnd {
     match error {
         Error::NoReturn { stop: Stop::Terminal, surface: Some(surface), .. } => {
             OrbitEnd::Terminal(surface)

@@ -11,6 +11,7 @@ mod rotation;
 
 pub use attractor::{PeriodicAttractor, periodic_attractors};
 pub use diagram::{DiagramColumn, OrbitLength, Seeds, bifurcation_diagram};
+pub(crate) use fate::end_of;
 pub use fate::{OrbitEnd, OrbitFate, orbit_fate, orbit_fates};
 pub use lyapunov::{LyapunovExponents, OrbitMean, lyapunov_exponents};
 pub use rotation::{RotationNumber, rotation_number};

@@ -1,0 +1,269 @@
+//! A map of one variable by polynomials: fast to iterate, to invert, to compose and to store.
+
+use super::cells::{Cell, cells};
+use super::pieces::{MapPiece, MapPieces, pieces_between};
+use crate::error::Error;
+use crate::families::{Image, MapFamily};
+use equations::Jet;
+use interval_arithmetic::bracketed_root;
+
+/// A map of one variable at one value of its parameter, by Chebyshev polynomials on cells: an iteration takes some tens of nanoseconds,
+/// whatever the flow behind it takes.
+///
+/// ```
+/// use return_map::{ApproximateMap, map_pieces, scalar_family};
+/// let logistic = scalar_family(|x, r| r * x * (1.0 - x));
+/// let found = map_pieces(&logistic, 3.7, (0.0, 1.0), 11)?;
+/// let fast = ApproximateMap::new(&logistic, &found, 1e-12)?;
+/// assert!((fast.value(0.3).expect("an image") - 3.7 * 0.3 * 0.7).abs() < 1e-12);
+/// // Both preimages of 0.5:
+/// assert_eq!(fast.preimages(0.5).len(), 2);
+/// # Ok::<(), return_map::Error>(())
+/// ```
+///
+/// # Accuracy
+/// [`error`](Self::error) is the largest difference at the tests, of which each cell has sixteen; cells are halved until it is below
+/// a quarter of the tolerance. At a jump or a kink that the pieces do not show it may be larger than the tolerance. At the borders of a
+/// piece, where roots begin, cells get narrow.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Stored"))]
+pub struct ApproximateMap {
+    parameter: f64,
+    tolerance: f64,
+    error: f64,
+    pieces: Vec<MapPiece>,
+    /// The cells of all pieces, from left to right, and for each one the number of its piece.
+    cells: Vec<Cell>,
+    owners: Vec<usize>,
+}
+
+impl ApproximateMap {
+    /// The map on these pieces, as near as `tolerance`.
+    ///
+    /// # Errors
+    /// [`Error::BadBranch`] for a tolerance that is not positive; [`Error::ManyPieces`] for a map with more noise than the tolerance; those of
+    /// the map.
+    pub fn new<M: MapFamily + ?Sized>(
+        map: &M,
+        on: &MapPieces,
+        tolerance: f64,
+    ) -> Result<ApproximateMap, Error> {
+        if !(tolerance > 0.0 && tolerance.is_finite()) {
+            let what = "the tolerance of an approximate map";
+            return Err(Error::BadBranch { what, value: tolerance });
+        }
+        let mut made = ApproximateMap {
+            parameter: on.parameter,
+            tolerance,
+            error: 0.0,
+            pieces: on.pieces.clone(),
+            cells: Vec::new(),
+            owners: Vec::new(),
+        };
+        let value = |x: f64| {
+            let image = map.image(&[x], on.parameter)?;
+            image.point.first().copied().ok_or_else(|| missing(x, on.parameter))
+        };
+        for (number, piece) in on.pieces.iter().enumerate() {
+            // A piece of one point has no polynomial.
+            if piece.ends.0 < piece.ends.1 {
+                let (cells, error) = cells(&value, piece.ends, tolerance)?;
+                made.owners.extend(cells.iter().map(|_| number));
+                made.cells.extend(cells);
+                made.error = made.error.max(error);
+            }
+        }
+        Ok(made)
+    }
+
+    /// The largest difference from the map at the tests.
+    pub fn error(&self) -> f64 {
+        self.error
+    }
+
+    /// The tolerance that was asked for.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// The parameter of the map.
+    pub fn parameter(&self) -> f64 {
+        self.parameter
+    }
+
+    /// The pieces, with their borders and critical points.
+    pub fn pieces(&self) -> &[MapPiece] {
+        &self.pieces
+    }
+
+    /// The number of polynomials.
+    pub fn polynomials(&self) -> usize {
+        self.cells.len()
+    }
+
+    fn cell(&self, x: f64) -> Option<(&Cell, &MapPiece)> {
+        let place = self.cells.partition_point(|cell| cell.right < x);
+        let cell = self.cells.get(place).filter(|cell| cell.left <= x)?;
+        Some((cell, self.pieces.get(*self.owners.get(place)?)?))
+    }
+
+    /// The image; `None` outside of all pieces.
+    pub fn value(&self, x: f64) -> Option<f64> {
+        let place = self.cells.partition_point(|cell| cell.right < x);
+        let cell = self.cells.get(place).filter(|cell| cell.left <= x)?;
+        Some(cell.value(x))
+    }
+
+    /// The laps: the intervals on which the map is monotone, each as both ends with their images.
+    pub fn laps(&self) -> Vec<[(f64, f64); 2]> {
+        self.pieces.iter().flat_map(MapPiece::laps).collect()
+    }
+
+    /// The inverse of a lap, by its number among the [laps](Self::laps): the point of it with this image; `None` if it has none.
+    pub fn inverse(&self, lap: usize, image: f64) -> Option<f64> {
+        let [(left, at_left), (right, at_right)] = *self.laps().get(lap)?;
+        if image < at_left.min(at_right) || image > at_left.max(at_right) {
+            return None;
+        }
+        let off = |x: f64| match x {
+            x if x == left => at_left - image,
+            x if x == right => at_right - image,
+            x => self.value(x).map_or(f64::NAN, |value| value - image),
+        };
+        bracketed_root(off, left, right).ok()
+    }
+
+    /// All points with this image, from left to right.
+    pub fn preimages(&self, image: f64) -> Vec<f64> {
+        let mut found: Vec<f64> =
+            (0..self.laps().len()).filter_map(|lap| self.inverse(lap, image)).collect();
+        found.dedup();
+        found
+    }
+
+    /// This map, and another one behind it. The pieces are cut where the image is on a border of the other map. The error adds that of both
+    /// maps, the first times the largest slope of the second.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new) and [`map_pieces`](super::map_pieces); [`Error::BadWindow`] without a piece.
+    pub fn then(&self, next: &ApproximateMap) -> Result<ApproximateMap, Error> {
+        let ends = |piece: &MapPiece| [piece.ends.0, piece.ends.1];
+        let mut cuts: Vec<f64> = self.pieces.iter().flat_map(ends).collect();
+        for border in next.pieces.iter().flat_map(ends) {
+            cuts.extend(self.preimages(border));
+        }
+        cuts.sort_by(f64::total_cmp);
+        cuts.dedup();
+        // Some points in each interval between two cuts: a thin one is not missed.
+        const INSIDE: usize = 8;
+        let mut samples = Vec::with_capacity(cuts.len() * INSIDE);
+        for pair in cuts.windows(2) {
+            let part = |k: usize| pair[0] + (pair[1] - pair[0]) * (k as f64 / INSIDE as f64);
+            samples.extend((0..INSIDE).map(part));
+        }
+        samples.extend(cuts.last());
+        samples.dedup();
+        let (&[left, ..], &[.., right]) = (&samples[..], &samples[..]) else {
+            return Err(Error::BadWindow { left: f64::NAN, right: f64::NAN, samples: 0 });
+        };
+        if left == right {
+            return Err(Error::BadWindow { left, right, samples: samples.len() });
+        }
+        let both = Both(self, next);
+        let found = pieces_between(&both, self.parameter, &samples)?;
+        let tolerance = self.tolerance.max(next.tolerance);
+        let mut made = ApproximateMap::new(&both, &found, tolerance)?;
+        made.error += next.error + self.error * next.steepest();
+        Ok(made)
+    }
+
+    /// The largest size of a slope at the ends and the middle of a cell.
+    fn steepest(&self) -> f64 {
+        let of = |cell: &Cell| {
+            let at = [cell.left, 0.5 * (cell.left + cell.right), cell.right];
+            at.map(|x| cell.pushed(&Jet::<2>::moving(x, 1.0)).0[1].abs())
+                .into_iter()
+                .fold(0.0, f64::max)
+        };
+        self.cells.iter().map(of).fold(0.0, f64::max)
+    }
+}
+
+fn missing(x: f64, parameter: f64) -> Error {
+    Error::NoImage { point: vec![x], parameter }
+}
+
+/// The map at its own parameter.
+impl MapFamily for ApproximateMap {
+    fn dimension(&self) -> usize {
+        1
+    }
+
+    fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error> {
+        let x = point.first().copied().unwrap_or(f64::NAN);
+        let found = self.cell(x).filter(|_| parameter == self.parameter);
+        let (cell, piece) = found.ok_or_else(|| missing(x, parameter))?;
+        let mut image = Image::of_number(vec![cell.value(x)], None);
+        image.itinerary.clone_from(&piece.itinerary);
+        Ok(image)
+    }
+
+    fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
+        let x = curve.first().copied().unwrap_or(Jet::number(f64::NAN));
+        let found = self.cell(x.value()).filter(|_| parameter == Jet::number(self.parameter));
+        let (cell, _) = found.ok_or_else(|| missing(x.value(), parameter.value()))?;
+        Ok(vec![cell.pushed(&x)])
+    }
+}
+
+/// One map behind another.
+struct Both<'m>(&'m ApproximateMap, &'m ApproximateMap);
+
+impl MapFamily for Both<'_> {
+    fn dimension(&self) -> usize {
+        1
+    }
+
+    fn image(&self, point: &[f64], _: f64) -> Result<Image, Error> {
+        let Both(first, second) = self;
+        let mut between = first.image(point, first.parameter)?;
+        let after = second.image(&between.point, second.parameter)?;
+        between.itinerary.extend(after.itinerary);
+        Ok(Image { point: after.point, time: between.time + after.time, ..between })
+    }
+
+    fn pushed(&self, curve: &[Jet<4>], _: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
+        let Both(first, second) = self;
+        let between = first.pushed(curve, Jet::number(first.parameter))?;
+        second.pushed(&between, Jet::number(second.parameter))
+    }
+}
+
+/// What a file has: it is checked before it is used.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Stored {
+    parameter: f64,
+    tolerance: f64,
+    error: f64,
+    pieces: Vec<MapPiece>,
+    cells: Vec<Cell>,
+    owners: Vec<usize>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Stored> for ApproximateMap {
+    type Error = String;
+
+    fn try_from(stored: Stored) -> Result<ApproximateMap, String> {
+        let Stored { parameter, tolerance, error, pieces, cells, owners } = stored;
+        let in_order = cells.windows(2).all(|pair| pair[0].right <= pair[1].left);
+        let have_owners =
+            owners.len() == cells.len() && owners.iter().all(|&owner| owner < pieces.len());
+        if !cells.iter().all(Cell::is_sound) || !in_order || !have_owners {
+            return Err("no approximate map: its polynomials must be finite, on cells from left to right, each of one piece".to_owned());
+        }
+        Ok(ApproximateMap { parameter, tolerance, error, pieces, cells, owners })
+    }
+}
