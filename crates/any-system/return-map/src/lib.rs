@@ -17,7 +17,13 @@
 //! | [`follow_branch`], [`follow_equilibria`], [`Branch`] | how fixed points, periodic points and equilibria change with the parameter |
 //! | [`Bifurcation`], [`BifurcationKind`] | where they are born, change and end, located on the branch, with normal forms |
 //! | [`doubled_branch`], [`cascade`], [`bifurcation_curve`] | the branch behind a doubling, cascades, curves in two parameters |
-//! | [`bifurcation_diagram`], [`lyapunov_exponents`] | where orbits end over a parameter; how fast neighbours part |
+//! | [`continue_branch`] | goes on with a branch that was stopped, or read from a file (feature `serde`) |
+//! | [`bifurcation_diagram`], [`lyapunov_exponents`], [`rotation_number`] | where orbits end over a parameter; how fast neighbours part; how fast orbits turn |
+//! | [`orbit_fate`], [`orbit_fates`], [`OrbitEnd`] | how orbits end: on an attractor, at a surface, at a Zeno limit |
+//! | [`PeriodicAttractor`], [`periodic_attractors`] | attracting orbits, each with a neighbourhood that leads to it |
+//! | [`map_pieces`], [`MapPiece`], [`Extremum`] | a map of one variable: its domain, smooth pieces, borders, laps |
+//! | [`ApproximateMap`] | the same map by polynomials: fast, with inverse branches and compositions |
+//! | [`all_periodic_points`], [`all_equilibria`] | all points of a period, or equilibria, in one variable, with proofs |
 //!
 //! A ball keeps half of its speed at each bounce. The return map maps the speed after a bounce to the speed after the
 //! next bounce:
@@ -94,8 +100,7 @@
 //! # Not here
 //! - Touches that come and go within one step of a branch; curves of grazings.
 //! - Invariant manifolds, circles and tori; cycles of flows without a section.
-//! - Monotone branches and jumps of scalar maps: `basin_of_attraction::monotone_branches` takes any closure, and so a
-//!   return map.
+//! - Proofs in more than one variable.
 
 mod branches;
 mod error;

@@ -26,9 +26,9 @@ pub struct RotationNumber {
 /// use return_map::{rotation_number, scalar_family};
 /// // The circle map in turns, without taking off whole turns.
 /// let circle = scalar_family(|x, w| x + w - 0.1 * (std::f64::consts::TAU * x).sin() / 6.0);
-/// let found = rotation_number(&circle, (&[0.2], 0.5), 0, 1000, |x, image| image[0] - x[0])?;
+/// let found = rotation_number(&circle, (&[0.2], 0.5), 5000, 1000, |x, image| image[0] - x[0])?;
 /// // By symmetry there is a cycle of period two.
-/// assert!((found.value - 0.5).abs() < 1e-12);
+/// assert!((found.value - 0.5).abs() < 1e-9);
 /// # Ok::<(), return_map::Error>(())
 /// ```
 ///

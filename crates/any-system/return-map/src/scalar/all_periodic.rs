@@ -52,7 +52,7 @@ const WIDER: f64 = 0.125;
 /// All points x of a window with fⁿ(x) = x, for the formula of a map of one variable with its parameters: each is proved to exist and to be
 /// alone in an interval, and there are no others outside of the intervals that are named as undecided.
 ///
-/// Interval Newton method with the chain rule: R. E. Moore, R. B. Kearfott, M. J. Cloud, *Introduction to Interval Analysis*, SIAM
+/// Interval Newton method with the chain rule: R. E. Moore, R. B. Kearfott, M. J. Cloud, *Introduction to Interval Analysis*
 /// (2009).
 ///
 /// ```
