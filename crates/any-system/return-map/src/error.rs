@@ -71,6 +71,19 @@ pub enum Error {
         /// Newton steps taken.
         steps: usize,
     },
+    /// A periodic point has no one-dimensional unstable manifold.
+    #[error(
+        "no unstable manifold of one dimension at {point:?}, for the parameter {parameter}: {unstable} multipliers are outside of the \
+         unit circle. One must be, and the map smooth at the point"
+    )]
+    NoSaddle {
+        /// The point.
+        point: Vec<f64>,
+        /// The parameter.
+        parameter: f64,
+        /// How many multipliers are outside of the unit circle.
+        unstable: usize,
+    },
     /// A branch goes on with another map than its own.
     #[error(
         "the end of the branch, {point:?} at the parameter {parameter}, is no periodic point of this map: take the map of the branch"

@@ -21,6 +21,7 @@
 //! | [`bifurcation_diagram`], [`lyapunov_exponents`], [`rotation_number`] | where orbits end over a parameter; how fast neighbours part; how fast orbits turn |
 //! | [`orbit_fate`], [`orbit_fates`], [`OrbitEnd`] | how orbits end: on an attractor, at a surface, at a Zeno limit |
 //! | [`PeriodicAttractor`], [`periodic_attractors`] | attracting orbits, each with a neighbourhood that leads to it |
+//! | [`UnstableManifold`], [`ManifoldCurve`], [`manifold_crossings`] | one-dimensional manifolds of saddles; homoclinic and heteroclinic points |
 //! | [`map_pieces`], [`MapPiece`], [`Extremum`] | a map of one variable: its domain, smooth pieces, borders, laps |
 //! | [`ApproximateMap`] | the same map by polynomials: fast, with inverse branches and compositions |
 //! | [`all_periodic_points`], [`all_equilibria`] | all points of a period, or equilibria, in one variable, with proofs |
@@ -99,12 +100,13 @@
 //!
 //! # Not here
 //! - Touches that come and go within one step of a branch; curves of grazings.
-//! - Invariant manifolds, circles and tori; cycles of flows without a section.
+//! - Manifolds of more than one dimension, invariant circles and tori; cycles of flows without a section.
 //! - Proofs in more than one variable.
 
 mod branches;
 mod error;
 mod families;
+mod manifolds;
 mod orbits;
 mod periodic_point;
 mod return_map;
@@ -119,6 +121,10 @@ pub use branches::{
 pub use error::Error;
 pub use families::{
     Closure, EquationReturns, FormulaMap, Image, MapFamily, family, pieces, scalar_family,
+};
+pub use manifolds::{
+    ManifoldCrossing, ManifoldCurve, ManifoldCut, ManifoldEnd, ManifoldSteps, UnstableManifold,
+    manifold_crossings,
 };
 pub use orbits::{
     DiagramColumn, LyapunovExponents, OrbitEnd, OrbitFate, OrbitLength, OrbitMean,

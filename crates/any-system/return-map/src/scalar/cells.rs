@@ -84,6 +84,7 @@ impl Cell {
     }
 
     /// True for a cell that may be evaluated: of a file.
+    #[cfg(feature = "serde")]
     pub(super) fn is_sound(&self) -> bool {
         self.left < self.right
             && (self.right - self.left).is_finite()

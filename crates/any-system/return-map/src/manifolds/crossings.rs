@@ -1,0 +1,119 @@
+//! Where two manifolds meet: homoclinic and heteroclinic points.
+
+use super::curve::{ManifoldCurve, distance};
+use super::manifold::UnstableManifold;
+use crate::families::MapFamily;
+use nalgebra::{Matrix2, Vector2};
+
+/// A point on both of two manifolds in the plane: of a stable and an unstable one, a homoclinic or heteroclinic point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ManifoldCrossing {
+    /// The point.
+    pub point: [f64; 2],
+    /// Its numbers t on both manifolds.
+    pub numbers: [f64; 2],
+    /// The angle between them, in radians, from 0 to π/2. Near a tangency it is small.
+    pub angle: f64,
+    /// How far the points of both manifolds with these numbers are apart.
+    pub error: f64,
+}
+
+/// Newton steps from the crossing of two chords.
+const MOST_STEPS: usize = 30;
+
+/// A crossing is exact if both points are as close as this, on their scale.
+const EXACT: f64 = 1e-11;
+
+/// The points at which two manifolds in the plane cross, between points of their curves, in the order of the first. Each is solved
+/// for on both manifolds. Two crossings between neighbouring points of a curve may be missed.
+///
+/// The saddles themselves are no crossings: they are at the ends.
+pub fn manifold_crossings<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
+    (first, curve): (&UnstableManifold<'_, A>, &ManifoldCurve),
+    (second, other): (&UnstableManifold<'_, B>, &ManifoldCurve),
+) -> Vec<ManifoldCrossing> {
+    let mut found: Vec<ManifoldCrossing> = Vec::new();
+    let is_cut = |curve: &ManifoldCurve, k: usize| curve.cuts.iter().any(|cut| cut.after == k);
+    let plane = |point: &[f64]| Some(Vector2::new(*point.first()?, *point.get(1)?));
+    for k in 1..curve.points.len().saturating_sub(1) {
+        let (Some(a), Some(b)) = (plane(&curve.points[k]), plane(&curve.points[k + 1])) else {
+            return found;
+        };
+        if is_cut(curve, k) {
+            continue;
+        }
+        for j in 1..other.points.len().saturating_sub(1) {
+            let (Some(c), Some(d)) = (plane(&other.points[j]), plane(&other.points[j + 1])) else {
+                return found;
+            };
+            let Some((s, r)) = chords((a, b), (c, d)).filter(|_| !is_cut(other, j)) else {
+                continue;
+            };
+            let between = |numbers: &[f64], k: usize, part: f64| {
+                numbers[k] + part * (numbers[k + 1] - numbers[k])
+            };
+            let start = [between(&curve.numbers, k, s), between(&other.numbers, j, r)];
+            let widths =
+                [curve.numbers[k + 1] - curve.numbers[k], other.numbers[j + 1] - other.numbers[j]];
+            let crossing = solved((first, second), start, widths);
+            let is_known = |new: &ManifoldCrossing| {
+                found
+                    .iter()
+                    .any(|old| distance(&old.point, &new.point) <= 10.0 * (old.error + new.error))
+            };
+            found.extend(crossing.filter(|new| !is_known(new)));
+        }
+    }
+    found
+}
+
+/// Where two chords cross, as parts of them.
+fn chords(
+    (a, b): (Vector2<f64>, Vector2<f64>),
+    (c, d): (Vector2<f64>, Vector2<f64>),
+) -> Option<(f64, f64)> {
+    let (u, v, w) = (b - a, d - c, c - a);
+    let area = u.perp(&v);
+    let (s, r) = (w.perp(&v) / area, w.perp(&u) / area);
+    let inside = |part: &f64| (0.0..=1.0).contains(part);
+    (inside(&s) && inside(&r)).then_some((s, r))
+}
+
+/// The crossing near two numbers, by Newton's method with slopes from points beside.
+fn solved<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
+    (first, second): (&UnstableManifold<'_, A>, &UnstableManifold<'_, B>),
+    start: [f64; 2],
+    widths: [f64; 2],
+) -> Option<ManifoldCrossing> {
+    /// Slopes are taken so far beside, as a part of the distance of points: their error only slows the steps.
+    const BESIDE: f64 = 1e-4;
+    let plane = |point: Vec<f64>| Some(Vector2::new(*point.first()?, *point.get(1)?));
+    let one = |t: f64| plane(first.at(t).ok()?);
+    let two = |t: f64| plane(second.at(t).ok()?);
+    let [mut t, mut r] = start;
+    let mut best: Option<ManifoldCrossing> = None;
+    for _ in 0..MOST_STEPS {
+        let (x, y) = (one(t)?, two(r)?);
+        let h = [BESIDE * widths[0], BESIDE * widths[1]];
+        let u = (one(t + h[0])? - one(t - h[0])?) / (2.0 * h[0]);
+        let v = (two(r + h[1])? - two(r - h[1])?) / (2.0 * h[1]);
+        let error = (x - y).norm();
+        let sine = (u.perp(&v) / (u.norm() * v.norm())).abs().min(1.0);
+        if best.as_ref().is_none_or(|best| error < best.error) {
+            let (point, angle) = ([x[0], x[1]], pxfm::f_asin(sine));
+            best = Some(ManifoldCrossing { point, numbers: [t, r], angle, error });
+        } else if best.as_ref().is_some_and(|best| error >= 0.5 * best.error) {
+            break;
+        }
+        let step = Matrix2::from_columns(&[u, -v]).lu().solve(&(y - x))?;
+        // A step beyond the two chords belongs to another crossing.
+        if (t + step[0] - start[0]).abs() > widths[0] || (r + step[1] - start[1]).abs() > widths[1]
+        {
+            return None;
+        }
+        (t, r) = (t + step[0], r + step[1]);
+    }
+    best.filter(|best| {
+        best.error <= EXACT * best.point.iter().fold(1.0, |size: f64, x| size.max(x.abs()))
+    })
+}

@@ -1,0 +1,91 @@
+//! The unstable manifold of a saddle, as a function of one number.
+
+use super::local::LocalCurve;
+use crate::branches::BranchPoint;
+use crate::error::Error;
+use crate::families::MapFamily;
+
+/// One side of the one-dimensional unstable manifold of a saddle of a map: a fixed or periodic point with one multiplier outside of the
+/// unit circle.
+///
+/// A point of it is Γ(t) = gᵏ(x(s μ^(t−k))) with the cubic x beside the saddle, g = fⁿ and its multiplier μ: g leads from Γ(t) to Γ(t + 1),
+/// and Γ(−∞) is the saddle. Errors across the manifold shrink on the way. The stable manifold is the unstable one of the inverse map,
+/// which the caller gives: by a formula, or as returns of `Equations::reversed`.
+///
+/// ```
+/// use return_map::{ManifoldSteps, UnstableManifold, family};
+/// // Hénon's map: its attractor is the closure of this manifold.
+/// let henon = family(2, |x: &[f64], a| Ok(vec![1.0 - a * x[0] * x[0] + x[1], 0.3 * x[0]]));
+/// let manifold = UnstableManifold::new(&henon, 1, (&[0.63, 0.19], 1.4), 1.0)?;
+/// let steps = ManifoldSteps { length: 20.0, ..ManifoldSteps::default() };
+/// let curve = manifold.curve(&steps, |_| std::ops::ControlFlow::Continue(()));
+/// assert!(curve.points.iter().all(|point| point[0].abs() < 1.3));
+/// # Ok::<(), return_map::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct UnstableManifold<'m, M: ?Sized> {
+    map: &'m M,
+    local: LocalCurve,
+    /// The s of Γ(0): the reach of the cubic, with the sign of the side.
+    start: f64,
+}
+
+impl<'m, M: MapFamily + ?Sized> UnstableManifold<'m, M> {
+    /// One side of the manifold of the saddle near `start`: `side` is positive for the direction in which the largest component of the
+    /// eigenvector grows, negative for the other one.
+    ///
+    /// # Errors
+    /// [`Error::NoSaddle`] unless one multiplier is outside of the unit circle, and if the map has a border at the saddle;
+    /// [`Error::NoPeriodicPoint`]; those of the map.
+    pub fn new(
+        map: &'m M,
+        period: usize,
+        start: (&[f64], f64),
+        side: f64,
+    ) -> Result<UnstableManifold<'m, M>, Error> {
+        if !(side != 0.0 && side.is_finite()) {
+            return Err(Error::BadBranch { what: "the side of a manifold", value: side });
+        }
+        let local = LocalCurve::new(map, period, start)?;
+        let start = local.reach * side.signum();
+        Ok(UnstableManifold { map, local, start })
+    }
+
+    /// The saddle.
+    pub fn saddle(&self) -> &BranchPoint {
+        &self.local.saddle
+    }
+
+    /// The multiplier of g: of f²ⁿ, if that of fⁿ is negative.
+    pub fn multiplier(&self) -> f64 {
+        self.local.multiplier
+    }
+
+    /// Γ(t).
+    ///
+    /// # Errors
+    /// Those of the map.
+    pub fn at(&self, t: f64) -> Result<Vec<f64>, Error> {
+        Ok(self.image(t, self.images(t))?.0)
+    }
+
+    /// How often g is applied on the way from the cubic to Γ(t).
+    pub(super) fn images(&self, t: f64) -> usize {
+        t.ceil().clamp(0.0, MOST_IMAGES) as usize
+    }
+
+    /// Γ(t) by this number of images of g, with the pieces of the map on the way.
+    pub(super) fn image(&self, t: f64, images: usize) -> Result<(Vec<f64>, Vec<String>), Error> {
+        let s = self.start * pxfm::f_pow(self.local.multiplier, t - images as f64);
+        let (mut at, mut itinerary) = (self.local.at(s), Vec::new());
+        for _ in 0..images * self.local.times {
+            let image = self.map.image(&at, self.local.saddle.parameter)?;
+            itinerary.extend(image.itinerary);
+            at = image.point;
+        }
+        Ok((at, itinerary))
+    }
+}
+
+/// Images of g are not counted further than this: a manifold is long before.
+const MOST_IMAGES: f64 = 1e6;

@@ -1,0 +1,13 @@
+//! Where do the orbits go that leave a saddle, and where do they come from?
+//!
+//! `local` is the curve near the saddle, `manifold` the whole one as a function of one number, `curve` its points at even distances,
+//! `crossings` where two of them meet.
+
+mod crossings;
+mod curve;
+mod local;
+mod manifold;
+
+pub use crossings::{ManifoldCrossing, manifold_crossings};
+pub use curve::{ManifoldCurve, ManifoldCut, ManifoldEnd, ManifoldSteps};
+pub use manifold::UnstableManifold;

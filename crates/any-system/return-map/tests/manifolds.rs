@@ -1,0 +1,213 @@
+//! Manifolds of saddles: over basins, and where they cross.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+use return_map::{
+    Error, ManifoldEnd, ManifoldSteps, MapFamily, UnstableManifold, family, manifold_crossings,
+    pieces,
+};
+use std::ops::ControlFlow::{Break, Continue};
+
+const B: f64 = 0.3;
+
+fn henon() -> impl MapFamily {
+    family(2, |x: &[f64], a| Ok(vec![1.0 - a * x[0] * x[0] + x[1], B * x[0]]))
+}
+
+fn inverse_henon() -> impl MapFamily {
+    family(2, |x: &[f64], a| {
+        let before = x[1] / B;
+        Ok(vec![before, x[0] - 1.0 + a * before * before])
+    })
+}
+
+/// x ↦ x/2, y ↦ 2y + x²·c with the unstable manifold x = 0, and in bent coordinates an exact curve.
+#[test]
+fn a_known_manifold() {
+    // u ↦ 2u, w ↦ w/2 with x = u, y = w + u²: the unstable manifold is y = x².
+    let map = family(2, |x: &[f64], _| {
+        let (u, w) = (2.0 * x[0], 0.5 * (x[1] - x[0] * x[0]));
+        Ok(vec![u, w + u * u])
+    });
+    for side in [1.0, -1.0] {
+        let manifold = UnstableManifold::new(&map, 1, (&[0.0, 0.0], 0.0), side).unwrap();
+        assert!((manifold.multiplier() - 2.0).abs() < 1e-12);
+        let steps = ManifoldSteps { length: 30.0, ..ManifoldSteps::default() };
+        let curve = manifold.curve(&steps, |_| Continue(()));
+        assert_eq!(curve.end, ManifoldEnd::Length);
+        for point in &curve.points {
+            assert!((point[1] - point[0] * point[0]).abs() < 1e-10 * (1.0 + point[1]), "{point:?}");
+            assert!(point[0] * side >= 0.0);
+        }
+        let apart = curve.points.windows(2).skip(1);
+        let longest = apart.map(|p| (p[0][0] - p[1][0]).hypot(p[0][1] - p[1][1]));
+        assert!(longest.fold(0.0, f64::max) <= 0.02);
+    }
+    let stop = |point: &[f64]| if point[0] > 1.0 { Break(()) } else { Continue(()) };
+    let manifold = UnstableManifold::new(&map, 1, (&[0.0, 0.0], 0.0), 1.0).unwrap();
+    assert_eq!(manifold.curve(&ManifoldSteps::default(), stop).end, ManifoldEnd::Stopped);
+    assert!(UnstableManifold::new(&map, 1, (&[0.0, 0.0], 0.0), 0.0).is_err());
+    // No saddle.
+    let sink = family(2, |x: &[f64], _| Ok(vec![0.5 * x[0], 0.3 * x[1]]));
+    let none = UnstableManifold::new(&sink, 1, (&[0.0, 0.0], 0.0), 1.0);
+    assert!(matches!(none, Err(Error::NoSaddle { unstable: 0, .. })));
+}
+
+/// The stable manifold of the left fixed point of Hénon's map bounds the basin of infinity: on a raster the edges of the basin are
+/// within a pixel of it.
+#[test]
+fn the_boundary_of_henon_s_basin() {
+    let a = 1.4;
+    let back = inverse_henon();
+    let x = (-(1.0 - B) - ((1.0 - B) * (1.0 - B) + 4.0 * a).sqrt()) / (2.0 * a);
+    let steps = ManifoldSteps {
+        length: 10.0,
+        region: vec![(-1.5, 1.5); 2],
+        longest: 0.005,
+        points: 200_000,
+        ..ManifoldSteps::default()
+    };
+    let mut points = Vec::new();
+    for side in [1.0, -1.0] {
+        let manifold = UnstableManifold::new(&back, 1, (&[x, B * x], a), side).unwrap();
+        points.extend(manifold.curve(&steps, |_| Continue(())).points);
+    }
+    let escapes = |mut x: f64, mut y: f64| {
+        for _ in 0..200 {
+            (x, y) = (1.0 - a * x * x + y, B * x);
+            if x.abs() > 100.0 {
+                return true;
+            }
+        }
+        false
+    };
+    let edges = edges_beside(&points, escapes);
+    assert!(edges > 100, "{edges}");
+}
+
+/// The number of pixels of [−1.5, 1.5]² at which a label changes along a row. Each of them is within a pixel of the points.
+fn edges_beside(points: &[Vec<f64>], label: impl Fn(f64, f64) -> bool) -> usize {
+    const N: usize = 120;
+    let pixel = 3.0 / N as f64;
+    let at = |k: usize| -1.5 + (k as f64 + 0.5) * pixel;
+    let mut edges = 0;
+    for row in 0..N {
+        let mut before = label(at(0), at(row));
+        for column in 1..N {
+            let here = label(at(column), at(row));
+            if here != before {
+                edges += 1;
+                let edge = [0.5 * (at(column) + at(column - 1)), at(row)];
+                let is_near =
+                    |p: &Vec<f64>| (0..2).all(|axis| (p[axis] - edge[axis]).abs() <= pixel);
+                assert!(points.iter().any(is_near), "{edge:?}");
+            }
+            before = here;
+        }
+    }
+    edges
+}
+
+/// A ball in a double well with friction: ẍ = x − x³ − 0.2 ẋ. The stable manifold of the ridge parts the basins of both wells.
+#[test]
+fn the_boundary_of_duffing_s_basins() {
+    let rate = |x: f64, v: f64| (v, x - x * x * x - 0.2 * v);
+    // A quarter of a unit of time by Runge and Kutta's steps, forward or backward.
+    let flow = move |mut x: f64, mut v: f64, direction: f64| {
+        let h = direction * 0.25 / 25.0;
+        for _ in 0..25 {
+            let (k1, l1) = rate(x, v);
+            let (k2, l2) = rate(x + 0.5 * h * k1, v + 0.5 * h * l1);
+            let (k3, l3) = rate(x + 0.5 * h * k2, v + 0.5 * h * l2);
+            let (k4, l4) = rate(x + h * k3, v + h * l3);
+            x += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+            v += h / 6.0 * (l1 + 2.0 * l2 + 2.0 * l3 + l4);
+        }
+        (x, v)
+    };
+    let back = family(2, move |x: &[f64], _| {
+        let (x, v) = flow(x[0], x[1], -1.0);
+        Ok(vec![x, v])
+    });
+    let steps = ManifoldSteps {
+        length: 30.0,
+        region: vec![(-1.6, 1.6); 2],
+        points: 3000,
+        ..ManifoldSteps::default()
+    };
+    let mut points = Vec::new();
+    for side in [1.0, -1.0] {
+        let manifold = UnstableManifold::new(&back, 1, (&[0.0, 0.0], 0.0), side).unwrap();
+        points.extend(manifold.curve(&steps, |_| Continue(())).points);
+    }
+    let ends_right = |mut x: f64, mut v: f64| {
+        for _ in 0..400 {
+            (x, v) = flow(x, v, 1.0);
+            // Below the ridge a ball stays in its well.
+            if 0.5 * v * v - 0.5 * x * x + 0.25 * x * x * x * x < 0.0 {
+                break;
+            }
+        }
+        x > 0.0
+    };
+    let edges = edges_beside(&points, ends_right);
+    assert!(edges > 150, "{edges}");
+}
+
+/// Homoclinic points of Hénon's map: on both manifolds, and so are their images.
+#[test]
+fn homoclinic_points() {
+    let (a, forth, back) = (1.4, henon(), inverse_henon());
+    let saddle = [0.631_354_477_089_505, 0.3 * 0.631_354_477_089_505];
+    let steps = ManifoldSteps { length: 8.0, ..ManifoldSteps::default() };
+    let mut found = Vec::new();
+    for side in [1.0, -1.0] {
+        let unstable = UnstableManifold::new(&forth, 1, (&saddle, a), 1.0).unwrap();
+        let stable = UnstableManifold::new(&back, 1, (&saddle, a), side).unwrap();
+        let curves =
+            [unstable.curve(&steps, |_| Continue(())), stable.curve(&steps, |_| Continue(()))];
+        let crossings = manifold_crossings((&unstable, &curves[0]), (&stable, &curves[1]));
+        for crossing in &crossings {
+            let [t, r] = crossing.numbers;
+            let on = [unstable.at(t).unwrap(), stable.at(r).unwrap()];
+            assert!((on[0][0] - on[1][0]).hypot(on[0][1] - on[1][1]) < 1e-10);
+            assert!(crossing.angle > 0.0 && crossing.error < 1e-10, "{crossing:?}");
+            // The orbit leads to the saddle forward.
+            let mut at = crossing.point.to_vec();
+            let mut nearest = f64::INFINITY;
+            for _ in 0..12 {
+                at = forth.image(&at, a).unwrap().point;
+                nearest = nearest.min((at[0] - saddle[0]).hypot(at[1] - saddle[1]));
+            }
+            assert!(nearest < 1e-2, "{crossing:?} {nearest}");
+        }
+        found.extend(crossings);
+    }
+    assert!(found.len() >= 4, "{}", found.len());
+}
+
+/// A map with a jump: its manifold is cut there, and the piece is named.
+#[test]
+fn manifolds_are_cut_at_discontinuities() {
+    let map = pieces(2, |x: &[f64], _| {
+        let (shift, name) = if x[0] > 1.0 { (3.0, "right") } else { (0.0, "left") };
+        Ok((vec![2.0 * x[0] + shift, 0.5 * x[1]], name))
+    });
+    let manifold = UnstableManifold::new(&map, 1, (&[0.0, 0.0], 0.0), 1.0).unwrap();
+    let steps = ManifoldSteps { length: 3.5, ..ManifoldSteps::default() };
+    let curve = manifold.curve(&steps, |_| Continue(()));
+    assert_eq!(curve.cuts.len(), 1, "{:?}", curve.cuts);
+    let cut = &curve.cuts[0];
+    assert_eq!(cut.pieces, [Some("left".to_owned()), Some("right".to_owned())]);
+    assert!((curve.points[cut.after][0] - 2.0).abs() < 1e-9);
+    assert!((curve.points[cut.after + 1][0] - 5.0).abs() < 1e-9);
+    // A map without images behind 1.
+    let ends = family(2, |x: &[f64], p| match x[0] < 1.0 {
+        true => Ok(vec![2.0 * x[0], 0.5 * x[1]]),
+        false => Err(Error::NoImage { point: x.to_vec(), parameter: p }),
+    });
+    let manifold = UnstableManifold::new(&ends, 1, (&[0.0, 0.0], 0.0), 1.0).unwrap();
+    let curve = manifold.curve(&steps, |_| Continue(()));
+    assert!(matches!(curve.end, ManifoldEnd::NoImage(_)));
+    assert!((curve.points.last().unwrap()[0] - 2.0).abs() < 1e-9);
+}
