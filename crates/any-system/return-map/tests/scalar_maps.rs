@@ -117,7 +117,7 @@ fn many_pieces_and_gaps() {
         assert!(ApproximateMap::new(&logistic, &one, tolerance).is_err());
     }
     // Noise above the tolerance is an error, not a search without an end.
-    let noisy = scalar_family(|x, _| x + 1e-6 * (1e12 * x).sin());
+    let noisy = scalar_family(|x, _| x + 1e-6 * (1e9 * x).sin());
     let one = map_pieces(&noisy, 0.0, (0.1, 1.0), 9).unwrap();
     assert!(matches!(ApproximateMap::new(&noisy, &one, 1e-9), Err(Error::ManyPieces { .. })));
 }

@@ -1,0 +1,9 @@
+//! All tests of the crate, in one program.
+
+mod branches;
+mod known_answers;
+mod manifolds;
+mod orbits;
+mod scalar_maps;
+mod scalar_tools;
+mod starts_on_the_section;

@@ -1,0 +1,123 @@
+//! Return maps with answers that are known: by closed forms, or proved by others.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+use equations::Jet;
+use example_systems::ball_on_table::{FREQUENCY, ball_on_table, periodic_start};
+use example_systems::impact_oscillator::{grazing_forcing, impact_oscillator, steady_start};
+use hybrid_system::{Equations, Tolerances};
+use return_map::{
+    BifurcationKind, BranchEnd, BranchSteps, EquationReturns, MapFamily, follow_branch, pieces,
+};
+use std::ops::ControlFlow::{Break, Continue};
+
+/// The period-1 orbit of Rössler's system at c = 5.7, on x = 0 with ẋ > 0, whose place CAPD proves; the first of the doublings from
+/// which its chaos comes.
+#[test]
+fn roessler_s_orbit_of_period_one() {
+    let flow = Equations::new(&["x", "y", "z"], &[("a", "0.2"), ("b", "0.2"), ("c", "5.7")])
+        .mode_text("flow", &["-y - z", "x + a*y", "b + z*(x - c)"])
+        .rising_text("section", "x")
+        .crossing();
+    let returns = EquationReturns::new(&flow, "c", ("flow", "section"), &["y", "z"]).unwrap();
+    let steps = BranchSteps::default();
+    let start = (&[-8.4, 0.03][..], 5.7);
+    let here = follow_branch(&returns, 1, start, (5.699, 5.7), steps, |_| Break(())).unwrap();
+    let orbit = &here.points[0];
+    assert!((orbit.point[0] + 8.380_941_742_829_8).abs() < 1e-11, "{orbit:?}");
+    assert!((orbit.point[1] - 0.029_590_060_630_665).abs() < 1e-12, "{orbit:?}");
+    // Beside the doubling: from a point that was found by following the branch to it.
+    let returns = returns.tolerances(Tolerances::both(1e-10));
+    let steps = BranchSteps { first: 0.3, longest: 0.5, ..BranchSteps::default() };
+    let start = (&[-4.55, 0.0525][..], 2.87);
+    let branch = follow_branch(&returns, 1, start, (2.8, 2.87), steps, |_| Continue(())).unwrap();
+    assert_eq!(branch.bifurcations.len(), 1);
+    let doubling = &branch.bifurcations[0];
+    assert_eq!(doubling.kind, BifurcationKind::Doubling);
+    assert!((doubling.at.parameter - 2.832).abs() < 1e-3, "{}", doubling.at.parameter);
+}
+
+/// A ball that lands on a table once in a period (P. J. Holmes, 1982). With the table's speed w = g (1 − e)/(2 (1 + e)) at the impact
+/// the derivative of the exact map has the determinant e² and the trace 1 + e² + (1 + e)² A, where A is the acceleration of the table.
+/// The fold is at A = 0, the doubling at A = −2 (1 + e²)/(1 + e)²; the amplitude follows from w and A.
+#[test]
+fn holmes_s_lines() {
+    for e in [0.5f64, 0.8] {
+        let ball = ball_on_table().with_parameters(&[("restitution", &format!("{e:?}"))]);
+        let impacts =
+            EquationReturns::new(&ball, "amplitude", ("flight", "table"), &["phase", "v"])
+                .unwrap()
+                .starting_text(&["amplitude*sin(2*pi*phase)", "v", "phase"])
+                .unwrap()
+                .coordinates_text(&["t - 1", "speed"])
+                .unwrap();
+        let speed = 0.5 * (1.0 - e) / (1.0 + e);
+        let amplitude =
+            |acceleration: f64| (speed / FREQUENCY).hypot(acceleration / (FREQUENCY * FREQUENCY));
+        let (fold, doubling) = (amplitude(0.0), amplitude(2.0 * (1.0 + e * e) / (1.0 + e).powi(2)));
+        // A start between both lines.
+        let start = 0.5 * (fold + doubling);
+        let phase = (speed / (start * FREQUENCY)).acos() / FREQUENCY;
+        let window = (0.5 * fold, 1.2 * doubling);
+        let steps = BranchSteps::default();
+        let branch =
+            follow_branch(&impacts, 1, (&[phase, 0.5], start), window, steps, |_| Continue(()))
+                .unwrap();
+        let at = |kind| {
+            let found = branch.bifurcations.iter().find(|found| found.kind == kind);
+            found.unwrap().at.parameter
+        };
+        assert!((at(BifurcationKind::Fold) - fold).abs() < 1e-11, "{:?}", branch.bifurcations);
+        assert!((at(BifurcationKind::Doubling) - doubling).abs() < 1e-11);
+        for point in &branch.points {
+            let determinant: f64 = point.multipliers.iter().map(|m| m.norm()).product();
+            assert!((determinant - e * e).abs() < 1e-9, "{point:?}");
+        }
+    }
+    let [_, speed, phase] = periodic_start(0.03);
+    assert!(speed == 0.5 && phase > 0.0);
+}
+
+/// Beyond a grazing the derivative of the map grows as the inverse root of the distance (A. B. Nordmark, 1991).
+#[test]
+fn the_derivative_is_infinite_at_a_grazing() {
+    let oscillator =
+        impact_oscillator("0.3").clock_text("strobe", "2*pi/frequency", "2*pi/frequency");
+    let strobe =
+        EquationReturns::new(&oscillator, "forcing", ("free", "strobe"), &["x", "v"]).unwrap();
+    let largest = |beyond: f64| {
+        let forcing = grazing_forcing() + beyond;
+        let [x, v, _] = steady_start(forcing);
+        let image = strobe.image(&[x, v], forcing).unwrap();
+        assert_eq!(image.itinerary, ["free: stop", "free: strobe"]);
+        let curve = [Jet::moving(x, 1.0), Jet::moving(v, 0.0)];
+        let moved = strobe.pushed(&curve, Jet::number(forcing)).unwrap();
+        moved[0].0[1].hypot(moved[1].0[1])
+    };
+    let [near, nearer, nearest] = [1e-4, 1e-6, 1e-7].map(largest);
+    assert!((nearer / near - 10.0).abs() < 0.5, "{near} {nearer}");
+    assert!((nearest / nearer - 10f64.sqrt()).abs() < 0.01, "{nearer} {nearest}");
+}
+
+/// The skew tent map a x + μ for x < 0, b x + μ for x > 0: with b < −1 the points of its cycle of two are μ (1 + a)/(1 − a b) and
+/// μ (1 + b)/(1 − a b), with the multiplier a b. It is born at the border, where both collide.
+#[test]
+fn the_cycle_of_the_skew_tent_map() {
+    let (a, b) = (0.4, -1.5);
+    let tent = pieces(1, move |x: &[f64], mu| {
+        let left = x[0] < 0.0;
+        Ok((vec![if left { a } else { b } * x[0] + mu], if left { "left" } else { "right" }))
+    });
+    let steps = BranchSteps::default();
+    let start = (&[0.5][..], 0.5);
+    let branch = follow_branch(&tent, 2, start, (-1.0, 1.0), steps, |_| Continue(())).unwrap();
+    assert!(branch.points.len() > 20);
+    for point in &branch.points {
+        let mu = point.parameter;
+        assert!((point.point[0] - mu * (1.0 + a) / (1.0 - a * b)).abs() < 1e-12, "{point:?}");
+        assert!((point.multipliers[0].re - a * b).abs() < 1e-10 && point.is_stable);
+        assert_eq!(point.itinerary, ["right", "left"]);
+    }
+    let BranchEnd::Border { at, .. } = &branch.ends[0] else { panic!("{:?}", branch.ends) };
+    assert!(at.parameter.abs() < 1e-9, "{at:?}");
+}
