@@ -110,9 +110,7 @@ impl ApproximateMap {
 
     /// The image; `None` outside of all pieces.
     pub fn value(&self, x: f64) -> Option<f64> {
-        let place = self.cells.partition_point(|cell| cell.right < x);
-        let cell = self.cells.get(place).filter(|cell| cell.left <= x)?;
-        Some(cell.value(x))
+        self.cell(x).map(|(cell, _)| cell.value(x))
     }
 
     /// The laps: the intervals on which the map is monotone, each as both ends with their images.

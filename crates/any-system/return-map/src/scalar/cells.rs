@@ -44,12 +44,7 @@ impl Cell {
     /// The value at a point of the cell.
     pub(super) fn value(&self, x: f64) -> f64 {
         let inside = ((x - self.left) - (self.right - x)) / (self.right - self.left);
-        let double = inside + inside;
-        let (mut one, mut two) = (0.0, 0.0);
-        for &coefficient in self.coefficients.iter().skip(1).rev() {
-            (two, one) = (one, double * one - two + coefficient);
-        }
-        inside * one - two + self.coefficients.first().copied().unwrap_or(f64::NAN)
+        self.clenshaw(&inside, |number| number)
     }
 
     /// The image of a curve.
