@@ -6,4 +6,5 @@ mod manifolds;
 mod orbits;
 mod scalar_maps;
 mod scalar_tools;
+mod sections;
 mod starts_on_the_section;

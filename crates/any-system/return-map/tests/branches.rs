@@ -2,10 +2,11 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
+use crate::sections::{apexes, strobe};
 use equations::{Formulas, Names};
 use return_map::{
-    BifurcationKind, Branch, BranchEnd, BranchSteps, EquationReturns, Error, FormulaMap, MapFamily,
-    cascade, doubled_branch, family, follow_branch, follow_equilibria, pieces, scalar_family,
+    BifurcationKind, Branch, BranchEnd, BranchSteps, Error, FormulaMap, MapFamily, cascade,
+    doubled_branch, family, follow_branch, follow_equilibria, pieces, scalar_family,
 };
 use std::ops::ControlFlow::{Break, Continue};
 
@@ -200,11 +201,8 @@ fn what_cannot_be_followed_is_an_error() {
 /// A forced oscillator that grazes a stop: its free orbit ends at the forcing that the amplitude gives, by name of the surface.
 #[test]
 fn a_grazing_ends_a_branch_of_a_return_map() {
-    use example_systems::impact_oscillator::{grazing_forcing, impact_oscillator, steady_start};
-    let oscillator =
-        impact_oscillator("0.3").clock_text("strobe", "2*pi/frequency", "2*pi/frequency");
-    let strobe =
-        EquationReturns::new(&oscillator, "forcing", ("free", "strobe"), &["x", "v"]).unwrap();
+    use example_systems::impact_oscillator::{grazing_forcing, steady_start};
+    let strobe = strobe();
     let [x, v, _] = steady_start(0.3);
     let steps = BranchSteps { first: 0.3, longest: 0.5, ..BranchSteps::default() };
     let branch =
@@ -273,14 +271,7 @@ fn a_cycle_begins_at_an_equilibrium() {
 /// The spring leg at 5 m/s over its angle of attack: stable between a fold and a doubling, or the end of its flights.
 #[test]
 fn the_spring_leg_over_its_angle_of_attack() {
-    let leg = example_systems::spring_leg::spring_leg();
-    let apex = EquationReturns::new(&leg, "attack", ("flight", "apex"), &["h"])
-        .unwrap()
-        .starting_text(&["0", "h", "sqrt(25 + 2*gravity*(1 - h))", "0"])
-        .unwrap()
-        .coordinates_text(&["height"])
-        .unwrap()
-        .tolerances(hybrid_system::Tolerances::both(1e-11));
+    let apex = apexes().tolerances(hybrid_system::Tolerances::both(1e-11));
     let steps = BranchSteps { first: 0.05, longest: 0.15, ..BranchSteps::default() };
     let start = (&[example_systems::spring_leg::APEX][..], 68.0);
     let branch = follow_branch(&apex, 1, start, (66.2, 68.95), steps, |_| Continue(())).unwrap();

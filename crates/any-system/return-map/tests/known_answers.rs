@@ -2,9 +2,10 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
+use crate::sections::strobe;
 use equations::Jet;
 use example_systems::ball_on_table::{FREQUENCY, ball_on_table, periodic_start};
-use example_systems::impact_oscillator::{grazing_forcing, impact_oscillator, steady_start};
+use example_systems::impact_oscillator::{grazing_forcing, steady_start};
 use hybrid_system::{Equations, Tolerances};
 use return_map::{
     BifurcationKind, BranchEnd, BranchSteps, EquationReturns, MapFamily, follow_branch, pieces,
@@ -81,10 +82,7 @@ fn holmes_s_lines() {
 /// Beyond a grazing the derivative of the map grows as the inverse root of the distance (A. B. Nordmark, 1991).
 #[test]
 fn the_derivative_is_infinite_at_a_grazing() {
-    let oscillator =
-        impact_oscillator("0.3").clock_text("strobe", "2*pi/frequency", "2*pi/frequency");
-    let strobe =
-        EquationReturns::new(&oscillator, "forcing", ("free", "strobe"), &["x", "v"]).unwrap();
+    let strobe = strobe();
     let largest = |beyond: f64| {
         let forcing = grazing_forcing() + beyond;
         let [x, v, _] = steady_start(forcing);

@@ -2,6 +2,7 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
+use crate::sections::strobe;
 use equations::{Formulas, Names};
 use hybrid_system::Equations;
 use return_map::{
@@ -145,11 +146,8 @@ fn orbits_of_returns_end_at_surfaces() {
 /// The map of a flow over one period shrinks areas by e^(−2ζT): the exponents of the flow are −ζ.
 #[test]
 fn exponents_of_a_flow_through_events() {
-    use example_systems::impact_oscillator::{impact_oscillator, steady_start};
-    let oscillator =
-        impact_oscillator("0.3").clock_text("strobe", "2*pi/frequency", "2*pi/frequency");
-    let strobe =
-        EquationReturns::new(&oscillator, "forcing", ("free", "strobe"), &["x", "v"]).unwrap();
+    use example_systems::impact_oscillator::steady_start;
+    let strobe = strobe();
     let [x, v, _] = steady_start(0.3);
     let found = lyapunov_exponents(&strobe, (&[x, v], 0.3), 1, 64).unwrap();
     let sum: f64 = found.per_time.iter().map(|exponent| exponent.value).sum();

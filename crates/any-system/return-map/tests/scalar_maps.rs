@@ -2,10 +2,11 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
+use crate::sections::apexes;
 use equations::{Formulas, Names};
 use return_map::{
-    ApproximateMap, EquationReturns, Error, MapFamily, OrbitEnd, all_equilibria,
-    all_periodic_points, family, map_pieces, pieces, scalar_family,
+    ApproximateMap, Error, MapFamily, OrbitEnd, all_equilibria, all_periodic_points, family,
+    map_pieces, pieces, scalar_family,
 };
 
 /// Points between two ends, at no special places.
@@ -125,13 +126,7 @@ fn many_pieces_and_gaps() {
 /// The spring leg's apex map: its smooth piece, its approximation, and a thousand runs by it.
 #[test]
 fn a_return_map_by_polynomials() {
-    let leg = example_systems::spring_leg::spring_leg();
-    let apex = EquationReturns::new(&leg, "attack", ("flight", "apex"), &["h"])
-        .unwrap()
-        .starting_text(&["0", "h", "sqrt(25 + 2*gravity*(1 - h))", "0"])
-        .unwrap()
-        .coordinates_text(&["height"])
-        .unwrap();
+    let apex = apexes();
     let found = map_pieces(&apex, 68.0, (0.8, 1.4), 25).unwrap();
     let legs: Vec<&str> = found.pieces.iter().map(|piece| piece.itinerary[0].as_str()).collect();
     assert!(legs.contains(&"flight: touchdown"), "{found:?}");

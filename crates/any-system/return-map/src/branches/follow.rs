@@ -6,7 +6,7 @@ use super::locate::between;
 use super::orbit::{Kind, Orbit, eigenvalues, split};
 use super::start::{check, check_period, scales, solved};
 use crate::error::Error;
-use crate::families::MapFamily;
+use crate::families::{MapFamily, first_difference};
 use nalgebra::DVector;
 use std::ops::ControlFlow;
 
@@ -313,8 +313,7 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
                 _ => far = middle,
             }
         }
-        let place = itinerary.iter().zip(&beyond).position(|(own, other)| own != other);
-        let place = place.unwrap_or(itinerary.len().min(beyond.len()));
+        let place = first_difference(itinerary, &beyond);
         let at = point_of(&self.orbit, &at, itinerary.to_vec());
         BranchEnd::Border { at, beyond, place }
     }

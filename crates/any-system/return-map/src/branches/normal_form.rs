@@ -58,7 +58,7 @@ impl<M: MapFamily + ?Sized> Forms<'_, M> {
 }
 
 /// The vector that a matrix maps nearest to zero, of length 1.
-fn null_vector(matrix: &DMatrix<f64>) -> Option<Vector> {
+pub(crate) fn null_vector(matrix: &DMatrix<f64>) -> Option<Vector> {
     let svd = matrix.clone().try_svd(false, true, f64::EPSILON, 10_000)?;
     let smallest = svd.singular_values.imin();
     Some(svd.v_t?.row(smallest).transpose())

@@ -2,7 +2,7 @@
 
 use super::curve::Curve;
 use crate::error::Error;
-use crate::families::MapFamily;
+use crate::families::{MapFamily, curve_after, orbit_after, point_after};
 use equations::Jet;
 use nalgebra::{Complex, DMatrix, DVector, Schur};
 
@@ -55,11 +55,8 @@ impl<M: MapFamily + ?Sized> Orbit<'_, M> {
     }
 
     /// The image of a curve under fⁿ, or under the field, to third order.
-    pub(super) fn pushed(&self, (mut curve, parameter): Pushed) -> Result<Vec<Jet<4>>, Error> {
-        for _ in 0..self.times() {
-            curve = self.map.pushed(&curve, parameter)?;
-        }
-        Ok(curve)
+    pub(super) fn pushed(&self, curve: Pushed) -> Result<Vec<Jet<4>>, Error> {
+        curve_after(self.map, curve, self.times())
     }
 
     /// The straight line through a point in a direction, of the point and the parameter.
@@ -72,14 +69,8 @@ impl<M: MapFamily + ?Sized> Orbit<'_, M> {
 
     /// The pieces of the map that the orbit meets, one after the other.
     pub(super) fn itinerary(&self, at: &DVector<f64>) -> Result<Vec<String>, Error> {
-        let (mut point, parameter) = split(at);
-        let mut itinerary = Vec::new();
-        for _ in 0..self.times() {
-            let image = self.map.image(&point, parameter)?;
-            itinerary.extend(image.itinerary);
-            point = image.point;
-        }
-        Ok(itinerary)
+        let (point, parameter) = split(at);
+        Ok(orbit_after(self.map, (&point, parameter), self.times())?.1)
     }
 }
 
@@ -93,10 +84,7 @@ pub(super) fn split(at: &DVector<f64>) -> (Vec<f64>, f64) {
 impl<M: MapFamily + ?Sized> Curve for Orbit<'_, M> {
     fn values(&self, at: &DVector<f64>) -> Result<DVector<f64>, Error> {
         let (start, parameter) = split(at);
-        let mut point = start.clone();
-        for _ in 0..self.times() {
-            point = self.map.image(&point, parameter)?.point;
-        }
+        let point = point_after(self.map, (&start, parameter), self.times())?;
         let shift = self.kind.at_fold();
         let off = point.iter().zip(&start).map(|(f, x)| f - shift * x);
         Ok(DVector::from_iterator(start.len(), off))

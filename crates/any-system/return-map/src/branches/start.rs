@@ -40,11 +40,16 @@ pub(crate) fn solve_periodic<M: MapFamily + ?Sized>(
 
 /// The sizes of the unknowns: that of the first point, or 1, for each component, and the widths of the windows.
 pub(super) fn scales(point: &[f64], windows: &[(f64, f64)]) -> DVector<f64> {
-    let size = point.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
-    let size = if size > 0.0 { size } else { 1.0 };
+    let size = size_of(point);
     let widths = windows.iter().map(|(left, right)| right - left);
     let all: Vec<f64> = point.iter().map(|_| size).chain(widths).collect();
     DVector::from(all)
+}
+
+/// The largest size of some numbers, or 1 if they are zero.
+pub(crate) fn size_of<'n>(numbers: impl IntoIterator<Item = &'n f64>) -> f64 {
+    let size = numbers.into_iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+    if size > 0.0 { size } else { 1.0 }
 }
 
 /// An error for a period that is not positive, or too long to be iterated.

@@ -2,7 +2,7 @@
 
 use super::family::{Image, MapFamily};
 use crate::error::Error;
-use equations::Jet;
+use equations::{Jet, horner};
 
 /// The distance of the values of a difference, on the scale of the point. With seven values an error of order h⁶ is left in the
 /// first derivative, 2·10⁻¹³, as large as the rounding of the values over h. The third derivative has one of order h⁴. A smaller
@@ -12,11 +12,6 @@ const REACH: f64 = 1.0 / 128.0;
 /// Where some value lies beyond a border of the map, the distance is made so much shorter, at most so often.
 const SHORTER: f64 = 1.0 / 8.0;
 const MOST_SHORTENINGS: usize = 4;
-
-/// The polynomial of a curve at s.
-fn at(jet: &Jet<4>, s: f64) -> f64 {
-    jet.0.iter().rev().fold(0.0, |sum, term| sum * s + term)
-}
 
 /// The image of a curve to third order, by differences.
 pub(super) fn pushed<M: MapFamily + ?Sized>(
@@ -32,8 +27,8 @@ pub(super) fn pushed<M: MapFamily + ?Sized>(
         unit.min(size / first).min((size / second).sqrt()).min(pxfm::f_cbrt(size / third))
     });
     let of = |s: f64| -> Result<Image, Error> {
-        let point: Vec<f64> = curve.iter().map(|jet| at(jet, s)).collect();
-        map.image(&point, at(&parameter, s))
+        let point: Vec<f64> = curve.iter().map(|jet| horner(&jet.0, s)).collect();
+        map.image(&point, horner(&parameter.0, s))
     };
     let here = of(0.0)?;
     if unit == f64::INFINITY {

@@ -67,6 +67,15 @@ impl Map {
         }
         Ok(Map(JetSeries::of_values(&formulas.with_time_as_state(None))?))
     }
+
+    fn values<const T: usize>(
+        &self,
+        (state, time): (&[Jet<T>], Jet<T>),
+        parameters: impl Iterator<Item = Jet<T>>,
+    ) -> Result<Vec<Jet<T>>, Error> {
+        let all: Vec<_> = state.iter().copied().chain([time]).chain(parameters).collect();
+        Ok(self.0.values(&all)?)
+    }
 }
 
 /// The time at which a return begins, unless the start says another one.
@@ -225,14 +234,9 @@ impl EquationReturns {
             return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
         }
         match &self.start {
-            Some(Map(start)) => {
-                let all: Vec<_> = coordinates
-                    .iter()
-                    .copied()
-                    .chain([Jet::number(START)])
-                    .chain(self.parameters(parameter))
-                    .collect();
-                let mut state = start.values(&all)?;
+            Some(start) => {
+                let begin = Jet::number(START);
+                let mut state = start.values((coordinates, begin), self.parameters(parameter))?;
                 let has_time = state.len() > self.equations.names().states.len();
                 let time = if has_time { state.pop() } else { None };
                 Ok((state, time.unwrap_or(Jet::number(START))))
@@ -256,11 +260,7 @@ impl EquationReturns {
         let names = &self.equations.names().states;
         let state = &state[..names.len().min(state.len())];
         match &self.coordinates {
-            Some(Map(coordinates)) => {
-                let all: Vec<_> =
-                    state.iter().copied().chain([time]).chain(self.parameters(parameter)).collect();
-                Ok(coordinates.values(&all)?)
-            }
+            Some(coordinates) => coordinates.values((state, time), self.parameters(parameter)),
             None => {
                 let of = |name: &String| {
                     let place = names.iter().position(|own| own == name);

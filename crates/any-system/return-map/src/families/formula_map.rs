@@ -38,10 +38,7 @@ impl FormulaMap {
                 equations::Error::Length { what: "formulas of a map", needed, given }.into()
             );
         }
-        if formulas.uses_time() {
-            let (name, reason) = ("t".to_owned(), "a map has no time");
-            return Err(equations::Error::Name { name, reason }.into());
-        }
+        check_without_time(formulas)?;
         let place = names.parameters.iter().position(|name| name == parameter);
         let reason = "no parameter of these formulas";
         let name = parameter.to_owned();
@@ -66,6 +63,15 @@ impl FormulaMap {
         let all: Vec<Jet<T>> = curve.iter().copied().chain(parameters).collect();
         Ok(self.series.values(&all)?)
     }
+}
+
+/// An error for formulas of a map that use the time.
+pub(crate) fn check_without_time(formulas: &Formulas) -> Result<(), Error> {
+    if formulas.uses_time() {
+        let (name, reason) = ("t".to_owned(), "a map has no time");
+        return Err(equations::Error::Name { name, reason }.into());
+    }
+    Ok(())
 }
 
 impl MapFamily for FormulaMap {

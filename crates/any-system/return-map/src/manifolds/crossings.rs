@@ -34,7 +34,6 @@ pub fn manifold_crossings<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
 ) -> Vec<ManifoldCrossing> {
     let mut found: Vec<ManifoldCrossing> = Vec::new();
     let is_cut = |curve: &ManifoldCurve, k: usize| curve.cuts.iter().any(|cut| cut.after == k);
-    let plane = |point: &[f64]| Some(Vector2::new(*point.first()?, *point.get(1)?));
     for k in 1..curve.points.len().saturating_sub(1) {
         let (Some(a), Some(b)) = (plane(&curve.points[k]), plane(&curve.points[k + 1])) else {
             return found;
@@ -67,6 +66,10 @@ pub fn manifold_crossings<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
     found
 }
 
+fn plane(point: &[f64]) -> Option<Vector2<f64>> {
+    Some(Vector2::new(*point.first()?, *point.get(1)?))
+}
+
 /// Where two chords cross, as parts of them.
 fn chords(
     (a, b): (Vector2<f64>, Vector2<f64>),
@@ -87,9 +90,8 @@ fn solved<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
 ) -> Option<ManifoldCrossing> {
     /// Slopes are taken so far beside, as a part of the distance of points: their error only slows the steps.
     const BESIDE: f64 = 1e-4;
-    let plane = |point: Vec<f64>| Some(Vector2::new(*point.first()?, *point.get(1)?));
-    let one = |t: f64| plane(first.at(t).ok()?);
-    let two = |t: f64| plane(second.at(t).ok()?);
+    let one = |t: f64| plane(&first.at(t).ok()?);
+    let two = |t: f64| plane(&second.at(t).ok()?);
     let [mut t, mut r] = start;
     let mut best: Option<ManifoldCrossing> = None;
     for _ in 0..MOST_STEPS {

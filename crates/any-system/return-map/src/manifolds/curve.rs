@@ -2,7 +2,7 @@
 
 use super::manifold::UnstableManifold;
 use crate::error::Error;
-use crate::families::MapFamily;
+use crate::families::{MapFamily, first_difference};
 use std::ops::ControlFlow;
 
 /// How the points of a manifold are chosen. Lengths are those of the section's coordinates.
@@ -114,9 +114,10 @@ impl<M: MapFamily + ?Sized> UnstableManifold<'_, M> {
             }
             let next = if t == f64::NEG_INFINITY { 0.0 } else { t + step };
             let images = self.images(next);
+            let is_shortest = step <= NEIGHBOURS * next.abs().max(1.0);
             let (point, pieces) = match self.image(next, images) {
                 Ok(found) => found,
-                Err(_) if step > NEIGHBOURS * next.abs().max(1.0) && t.is_finite() => {
+                Err(_) if !is_shortest && t.is_finite() => {
                     step *= 0.5;
                     continue;
                 }
@@ -131,15 +132,14 @@ impl<M: MapFamily + ?Sized> UnstableManifold<'_, M> {
             let longest = steps.longest.max(AWAY * away);
             let is_near = distance <= longest
                 && (distance <= SHARPEST * longest || self.turns(&curve, &point) <= steps.angle);
-            let is_jump = !is_near && step <= NEIGHBOURS * next.abs().max(1.0);
+            let is_jump = !is_near && is_shortest;
             if t.is_finite() && !is_near && !is_jump {
                 step *= 0.5;
                 continue;
             }
             if is_jump && distance > longest {
                 let before = self.image(t, images).map_or(Vec::new(), |(_, pieces)| pieces);
-                let place = before.iter().zip(&pieces).position(|(a, b)| a != b);
-                let place = place.unwrap_or(before.len().min(pieces.len()));
+                let place = first_difference(&before, &pieces);
                 let pieces = [before.get(place).cloned(), pieces.get(place).cloned()];
                 curve.cuts.push(ManifoldCut { after: curve.points.len() - 1, pieces });
             } else if away == 0.0 {

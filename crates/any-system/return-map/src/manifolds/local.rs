@@ -1,9 +1,9 @@
 //! The unstable curve of a saddle, next to it: a cubic.
 
-use crate::branches::{BranchPoint, solve_periodic};
+use crate::branches::{BranchPoint, null_vector, size_of, solve_periodic};
 use crate::error::Error;
-use crate::families::MapFamily;
-use equations::Jet;
+use crate::families::{MapFamily, curve_after, orbit_after};
+use equations::{Jet, horner};
 use nalgebra::{DMatrix, DVector};
 
 /// The curve x(s) = x* + s v + s² w₂ + s³ w₃ that g = fⁿ maps to x(μ s), up to s⁴; of a negative multiplier g = f²ⁿ.
@@ -50,7 +50,9 @@ impl LocalCurve {
         };
         let n = derivative.nrows();
         let shifted = |by: f64| DMatrix::identity(n, n) * by - &derivative;
-        let direction = null_vector(&shifted(multiplier)).ok_or_else(no_saddle)?;
+        let vector = null_vector(&shifted(multiplier)).ok_or_else(no_saddle)?;
+        // With its largest component positive.
+        let direction = &vector * vector[vector.iamax()].signum();
         let mut curve = LocalCurve {
             terms: saddle
                 .point
@@ -65,15 +67,15 @@ impl LocalCurve {
         };
         for order in [2, 3] {
             // What g makes of the terms so far is μᵏ w less A w.
-            let image = curve.pushed(map)?;
+            let parameter = Jet::number(curve.saddle.parameter);
+            let image = curve_after(map, (curve.terms.clone(), parameter), times)?;
             let side = DVector::from_iterator(n, image.iter().map(|jet| jet.0[order]));
             let power = multiplier.powi(order as i32);
             let term = shifted(power).lu().solve(&side);
             let Some(term) = term else { break };
             curve.terms.iter_mut().zip(term.iter()).for_each(|(own, term)| own.0[order] = *term);
         }
-        let size = curve.saddle.point.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
-        let size = if size > 0.0 { size } else { 1.0 };
+        let size = size_of(&curve.saddle.point);
         let mut reach = size;
         for _ in 0..MOST_HALVINGS {
             reach *= 0.5;
@@ -88,42 +90,19 @@ impl LocalCurve {
         })
     }
 
-    fn pushed<M: MapFamily + ?Sized>(&self, map: &M) -> Result<Vec<Jet<4>>, Error> {
-        let mut curve = self.terms.clone();
-        for _ in 0..self.times {
-            curve = map.pushed(&curve, Jet::number(self.saddle.parameter))?;
-        }
-        Ok(curve)
-    }
-
     /// The point at s.
     pub(super) fn at(&self, s: f64) -> Vec<f64> {
-        let value = |jet: &Jet<4>| jet.0.iter().rev().fold(0.0, |sum, term| sum * s + term);
-        self.terms.iter().map(value).collect()
+        self.terms.iter().map(|jet| horner(&jet.0, s)).collect()
     }
 
     /// True if g maps x(s/μ) to x(s), on both sides, with the same pieces of the map.
     fn is_exact<M: MapFamily + ?Sized>(&self, map: &M, s: f64, error: f64) -> bool {
         [s, -s, 0.5 * s, -0.5 * s].into_iter().all(|s| {
-            let mut at = self.at(s / self.multiplier);
-            let mut itinerary = Vec::new();
-            for _ in 0..self.times {
-                let Ok(image) = map.image(&at, self.saddle.parameter) else { return false };
-                itinerary.extend(image.itinerary);
-                at = image.point;
-            }
+            let start = (&self.at(s / self.multiplier)[..], self.saddle.parameter);
+            let Ok((at, itinerary)) = orbit_after(map, start, self.times) else { return false };
             let off =
                 at.iter().zip(self.at(s)).fold(0.0, |off: f64, (a, b)| off.max((a - b).abs()));
             off <= error && itinerary.starts_with(&self.saddle.itinerary)
         })
     }
-}
-
-/// The vector that a matrix maps nearest to zero, of length 1, with its largest component positive.
-fn null_vector(matrix: &DMatrix<f64>) -> Option<DVector<f64>> {
-    let svd = matrix.clone().try_svd(false, true, f64::EPSILON, 10_000)?;
-    let smallest = svd.singular_values.imin();
-    let vector = svd.v_t?.row(smallest).transpose();
-    let largest = vector[vector.iamax()];
-    Some(vector * largest.signum())
 }

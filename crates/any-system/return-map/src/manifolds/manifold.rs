@@ -3,7 +3,7 @@
 use super::local::LocalCurve;
 use crate::branches::BranchPoint;
 use crate::error::Error;
-use crate::families::MapFamily;
+use crate::families::{MapFamily, orbit_after};
 
 /// One side of the one-dimensional unstable manifold of a saddle of a map: a fixed or periodic point with one multiplier outside of the
 /// unit circle.
@@ -77,13 +77,8 @@ impl<'m, M: MapFamily + ?Sized> UnstableManifold<'m, M> {
     /// Γ(t) by this number of images of g, with the pieces of the map on the way.
     pub(super) fn image(&self, t: f64, images: usize) -> Result<(Vec<f64>, Vec<String>), Error> {
         let s = self.start * pxfm::f_pow(self.local.multiplier, t - images as f64);
-        let (mut at, mut itinerary) = (self.local.at(s), Vec::new());
-        for _ in 0..images * self.local.times {
-            let image = self.map.image(&at, self.local.saddle.parameter)?;
-            itinerary.extend(image.itinerary);
-            at = image.point;
-        }
-        Ok((at, itinerary))
+        let start = (&self.local.at(s)[..], self.local.saddle.parameter);
+        orbit_after(self.map, start, images * self.local.times)
     }
 }
 

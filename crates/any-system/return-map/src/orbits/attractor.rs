@@ -1,14 +1,14 @@
 //! Periodic orbits that attract, with a neighbourhood that leads to each.
 
-use crate::branches::{BranchPoint, solve_periodic};
+use crate::branches::{BranchPoint, size_of, solve_periodic};
 use crate::error::Error;
-use crate::families::MapFamily;
+use crate::families::{MapFamily, orbit_after};
 use nalgebra::{DMatrix, DVector};
 
 /// An attracting periodic orbit, and a trap: an ellipsoid about its first point that fⁿ shrinks towards this point.
 ///
 /// The shape of the ellipsoid is that in which the derivative of fⁿ contracts. Its size is the largest one, by halving, at which fⁿ brings
-/// 256 points of it closer, on the same pieces of the map. What happens between these points is not proved.
+/// 256 points of it closer (on the line eight), on the same pieces of the map. What happens between these points is not proved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PeriodicAttractor {
     /// The first point, with multipliers and itinerary.
@@ -44,9 +44,7 @@ impl PeriodicAttractor {
         let (mut point, mut derivative) = solve_periodic(map, period, (start, parameter))?;
         let mut orbit = orbit_of(map, &point, period)?;
         // A point of a shorter period is one of the longer period, too.
-        let known = orbit.iter().flatten().chain(start);
-        let size = known.fold(0.0, |size: f64, x| size.max(x.abs()));
-        let size = if size > 0.0 { size } else { 1.0 };
+        let size = size_of(orbit.iter().flatten().chain(start));
         let is_least = |n: &usize| {
             period.is_multiple_of(*n) && distance(&orbit[*n % period], &point.point) <= SAME * size
         };
@@ -64,45 +62,37 @@ impl PeriodicAttractor {
         let longest = shape.clone().symmetric_eigenvalues().max();
         let factor = root_of_mean(1.0 - 1.0 / longest);
         let root = shape.clone().cholesky().ok_or_else(no_trap)?.l().transpose();
-        let mut radius = size * longest.sqrt();
+        let tests = tests(&root).ok_or_else(no_trap)?;
+        let error = no_trap();
+        let radius = size * longest.sqrt();
+        let mut found = PeriodicAttractor { point, orbit, shape, radius };
         for _ in 0..MOST_HALVINGS {
-            let mut found = PeriodicAttractor {
-                point: point.clone(),
-                orbit: orbit.clone(),
-                shape: shape.clone(),
-                radius,
-            };
-            if found.shrinks(map, &root, factor) {
+            if found.shrinks(map, &tests, factor) {
                 // On the border of the trap a comparison could go either way.
                 found.radius *= 0.99;
                 return Ok(found);
             }
-            radius *= 0.5;
+            found.radius *= 0.5;
         }
-        Err(no_trap())
+        Err(error)
     }
 
-    /// True if fⁿ brings the points of the ellipsoid closer, at least by a factor.
-    fn shrinks<M: MapFamily + ?Sized>(&self, map: &M, root: &DMatrix<f64>, factor: f64) -> bool {
-        let dimension = self.point.point.len();
-        let is_closer = |number: usize| {
-            let direction = direction(number, dimension);
-            let step = RADII[number % RADII.len()] * self.radius;
-            let Some(offset) = root.solve_upper_triangular(&(direction * step)) else {
-                return false;
-            };
-            let mut at: Vec<f64> =
-                self.point.point.iter().zip(offset.iter()).map(|(x, v)| x + v).collect();
-            let mut itinerary = Vec::new();
-            for _ in 0..self.orbit.len() {
-                let Ok(image) = map.image(&at, self.point.parameter) else { return false };
-                itinerary.extend(image.itinerary);
-                at = image.point;
-            }
-            self.distance(&at) <= factor * step && itinerary == self.point.itinerary
-        };
-        // In one dimension the two ends of each radius are all.
-        (0..TESTED).all(is_closer)
+    /// True if fⁿ brings these points of the ellipsoid closer, at least by a factor.
+    fn shrinks<M: MapFamily + ?Sized>(
+        &self,
+        map: &M,
+        tests: &[(f64, DVector<f64>)],
+        factor: f64,
+    ) -> bool {
+        tests.iter().all(|(part, offset)| {
+            let first = self.point.point.iter().zip(offset.iter());
+            let start: Vec<f64> = first.map(|(x, v)| x + v * self.radius).collect();
+            let after = orbit_after(map, (&start, self.point.parameter), self.orbit.len());
+            after.is_ok_and(|(at, itinerary)| {
+                self.distance(&at) <= factor * part * self.radius
+                    && itinerary == self.point.itinerary
+            })
+        })
     }
 
     /// The distance from the first point, in the norm of the trap.
@@ -161,26 +151,31 @@ fn shape(derivative: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     None
 }
 
-/// A direction of length 1: those of many numbers fill the sphere evenly.
-fn direction(number: usize, dimension: usize) -> DVector<f64> {
-    // Both signs of each direction, at each radius.
-    let sign = if (number / RADII.len()).is_multiple_of(2) { 1.0 } else { -1.0 };
-    let place = (number / (2 * RADII.len())) as f64 + 0.5;
+/// Points of the ellipsoid vᵀ P v ≤ 1 that are tested: the part of its radius, and the offset v, where P = RᵀR for the `root` R. Both signs of
+/// each direction are there, at each radius. `None` for a singular root.
+fn tests(root: &DMatrix<f64>) -> Option<Vec<(f64, DVector<f64>)>> {
+    let dimension = root.nrows();
+    // On the line there are two directions.
+    let directions = if dimension == 1 { 1 } else { TESTED / (2 * RADII.len()) };
     // The powers of the positive root of x^(d+1) = x + 1 have no small ratios (M. Roberts's sequence).
-    let mut root: f64 = 1.5;
+    let mut ratio: f64 = 1.5;
     for _ in 0..60 {
-        root = pxfm::f_pow(1.0 + root, 1.0 / (dimension as f64 + 1.0));
+        ratio = pxfm::f_pow(1.0 + ratio, 1.0 / (dimension as f64 + 1.0));
     }
-    let component = |axis: usize| {
-        let step = pxfm::f_pow(root, -(axis as f64 + 1.0));
-        2.0 * (place * step).fract() - 1.0
-    };
-    let vector = DVector::from_fn(dimension, |axis, _| component(axis));
-    let length = vector.norm();
-    match length > 0.0 {
-        true => vector * (sign / length),
-        false => DVector::from_element(dimension, sign / (dimension as f64).sqrt()),
+    let mut found = Vec::with_capacity(2 * RADII.len() * directions);
+    for number in 0..directions {
+        let direction = DVector::from_fn(dimension, |axis, _| {
+            let step = pxfm::f_pow(ratio, -(axis as f64 + 1.0));
+            2.0 * ((number as f64 + 0.5) * step).fract() - 1.0
+        });
+        let direction = direction.try_normalize(0.0)?;
+        for part in RADII {
+            let offset = root.solve_upper_triangular(&(&direction * part))?;
+            found.push((part, -&offset));
+            found.push((part, offset));
+        }
     }
+    Some(found)
 }
 
 /// The attracting periodic orbits, of periods up to `longest`, on which the orbits of some seeds settle after `transient` images. Each is
@@ -220,9 +215,10 @@ fn settled<M: MapFamily + ?Sized>(
     (transient, longest): (usize, usize),
     known: &[PeriodicAttractor],
 ) -> Option<PeriodicAttractor> {
+    let is_known = |point: &[f64]| known.iter().any(|known| known.contains(point));
     let mut at = seed.to_vec();
     for _ in 0..transient {
-        if known.iter().any(|known| known.contains(&at)) {
+        if is_known(&at) {
             return None;
         }
         at = map.image(&at, parameter).ok()?.point;
@@ -237,13 +233,13 @@ fn settled<M: MapFamily + ?Sized>(
     for (_, period) in returns.into_iter().take(MOST_TRIES) {
         let Ok(new) = PeriodicAttractor::new(map, period, (&at, parameter)) else { continue };
         // A known one, whose trap the orbit has not reached.
-        if new.orbit.iter().any(|own| known.iter().any(|known| known.contains(own))) {
+        if new.orbit.iter().any(|own| is_known(own)) {
             return None;
         }
         // The orbit itself must reach it.
         let mut at = at.clone();
         for _ in 0..=transient + new.orbit.len() {
-            if known.iter().any(|known| known.contains(&at)) {
+            if is_known(&at) {
                 return None;
             }
             if new.contains(&at) {

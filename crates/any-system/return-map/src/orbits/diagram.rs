@@ -1,7 +1,7 @@
 //! Bifurcation diagrams: where orbits are after a transient, over a parameter.
 
 use crate::error::Error;
-use crate::families::MapFamily;
+use crate::families::{MapFamily, point_after};
 use hybrid_system::many;
 use std::ops::ControlFlow;
 
@@ -109,10 +109,7 @@ fn orbit<M: MapFamily + ?Sized>(
     parameter: f64,
     length: OrbitLength,
 ) -> Result<(Vec<Vec<f64>>, Vec<f64>), Error> {
-    let mut point = start.to_vec();
-    for _ in 0..length.transient {
-        point = map.image(&point, parameter)?.point;
-    }
+    let mut point = point_after(map, (start, parameter), length.transient)?;
     let mut kept = Vec::with_capacity(length.keep.min(1 << 16));
     for _ in 0..length.keep {
         point = map.image(&point, parameter)?.point;

@@ -1,7 +1,7 @@
 //! Lyapunov exponents of maps.
 
 use crate::error::Error;
-use crate::families::MapFamily;
+use crate::families::{MapFamily, point_after};
 use equations::Jet;
 use nalgebra::DMatrix;
 
@@ -64,10 +64,7 @@ pub fn lyapunov_exponents<M: MapFamily + ?Sized>(
         let what = "the start of an orbit";
         return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
     }
-    let mut point = start.to_vec();
-    for _ in 0..transient {
-        point = map.image(&point, parameter)?.point;
-    }
+    let mut point = point_after(map, (start, parameter), transient)?;
     let per_batch = steps.div_ceil(BATCHES).max(1);
     let mut frame = DMatrix::<f64>::identity(dimension, dimension);
     let (mut batches, mut times) = (vec![vec![0.0; dimension]; BATCHES], vec![0.0; BATCHES]);

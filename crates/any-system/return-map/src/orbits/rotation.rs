@@ -1,7 +1,7 @@
 //! How fast an orbit turns: the rotation number.
 
 use crate::error::Error;
-use crate::families::MapFamily;
+use crate::families::{MapFamily, point_after};
 
 /// The mean number of turns of an orbit for one image.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,10 +47,7 @@ pub fn rotation_number<M: MapFamily + ?Sized>(
             value: 0.0,
         });
     }
-    let mut point = start.to_vec();
-    for _ in 0..transient {
-        point = map.image(&point, parameter)?.point;
-    }
+    let mut point = point_after(map, (start, parameter), transient)?;
     let (mut sum, mut weighted, mut weights) = (0.0, 0.0, 0.0);
     for k in 0..images {
         let image = map.image(&point, parameter)?.point;

@@ -2,6 +2,7 @@
 
 use crate::branches::check_period;
 use crate::error::Error;
+use crate::families::check_without_time;
 use equations::{Enclosure, Formulas};
 
 /// What a search of a window has found.
@@ -101,10 +102,7 @@ fn search(
             equations::Error::Length { what: "formulas of a scalar map", needed, given }.into()
         );
     }
-    if formula.uses_time() {
-        let (name, reason) = ("t".to_owned(), "a map has no time");
-        return Err(equations::Error::Name { name, reason }.into());
-    }
+    check_without_time(formula)?;
     let equation = Equation { formula: formula.clone(), derivative: formula.jacobian()?, period };
     let mut found = AllPeriodicPoints::default();
     let mut todo = vec![Enclosure::new(left, right)];

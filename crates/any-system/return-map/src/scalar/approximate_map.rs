@@ -7,8 +7,8 @@ use crate::families::{Image, MapFamily};
 use equations::Jet;
 use interval_arithmetic::bracketed_root;
 
-/// A map of one variable at one value of its parameter, by Chebyshev polynomials on cells: an iteration takes some tens of nanoseconds,
-/// whatever the flow behind it takes.
+/// A map of one variable at one value of its parameter, by Chebyshev polynomials on cells: an iteration evaluates one of
+/// them, whatever the flow behind it takes.
 ///
 /// ```
 /// use return_map::{ApproximateMap, map_pieces, scalar_family};
@@ -27,8 +27,13 @@ use interval_arithmetic::bracketed_root;
 /// piece, where roots begin, cells get narrow.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "Stored"))]
-pub struct ApproximateMap {
+#[cfg_attr(feature = "serde", serde(try_from = "Parts"))]
+pub struct ApproximateMap(Parts);
+
+/// What a map consists of. From a file it is checked before it is used.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Parts {
     parameter: f64,
     tolerance: f64,
     error: f64,
@@ -53,7 +58,7 @@ impl ApproximateMap {
             let what = "the tolerance of an approximate map";
             return Err(Error::BadBranch { what, value: tolerance });
         }
-        let mut made = ApproximateMap {
+        let mut made = Parts {
             parameter: on.parameter,
             tolerance,
             error: 0.0,
@@ -74,38 +79,38 @@ impl ApproximateMap {
                 made.error = made.error.max(error);
             }
         }
-        Ok(made)
+        Ok(ApproximateMap(made))
     }
 
     /// The largest difference from the map at the tests.
     pub fn error(&self) -> f64 {
-        self.error
+        self.0.error
     }
 
     /// The tolerance that was asked for.
     pub fn tolerance(&self) -> f64 {
-        self.tolerance
+        self.0.tolerance
     }
 
     /// The parameter of the map.
     pub fn parameter(&self) -> f64 {
-        self.parameter
+        self.0.parameter
     }
 
     /// The pieces, with their borders and critical points.
     pub fn pieces(&self) -> &[MapPiece] {
-        &self.pieces
+        &self.0.pieces
     }
 
     /// The number of polynomials.
     pub fn polynomials(&self) -> usize {
-        self.cells.len()
+        self.0.cells.len()
     }
 
     fn cell(&self, x: f64) -> Option<(&Cell, &MapPiece)> {
-        let place = self.cells.partition_point(|cell| cell.right < x);
-        let cell = self.cells.get(place).filter(|cell| cell.left <= x)?;
-        Some((cell, self.pieces.get(*self.owners.get(place)?)?))
+        let place = self.0.cells.partition_point(|cell| cell.right < x);
+        let cell = self.0.cells.get(place).filter(|cell| cell.left <= x)?;
+        Some((cell, self.0.pieces.get(*self.0.owners.get(place)?)?))
     }
 
     /// The image; `None` outside of all pieces.
@@ -115,12 +120,16 @@ impl ApproximateMap {
 
     /// The laps: the intervals on which the map is monotone, each as both ends with their images.
     pub fn laps(&self) -> Vec<[(f64, f64); 2]> {
-        self.pieces.iter().flat_map(MapPiece::laps).collect()
+        self.0.pieces.iter().flat_map(MapPiece::laps).collect()
     }
 
     /// The inverse of a lap, by its number among the [laps](Self::laps): the point of it with this image; `None` if it has none.
     pub fn inverse(&self, lap: usize, image: f64) -> Option<f64> {
-        let [(left, at_left), (right, at_right)] = *self.laps().get(lap)?;
+        self.inverse_on(self.laps().get(lap)?, image)
+    }
+
+    fn inverse_on(&self, lap: &[(f64, f64); 2], image: f64) -> Option<f64> {
+        let [(left, at_left), (right, at_right)] = *lap;
         if image < at_left.min(at_right) || image > at_left.max(at_right) {
             return None;
         }
@@ -135,7 +144,7 @@ impl ApproximateMap {
     /// All points with this image, from left to right.
     pub fn preimages(&self, image: f64) -> Vec<f64> {
         let mut found: Vec<f64> =
-            (0..self.laps().len()).filter_map(|lap| self.inverse(lap, image)).collect();
+            self.laps().iter().filter_map(|lap| self.inverse_on(lap, image)).collect();
         found.dedup();
         found
     }
@@ -147,8 +156,8 @@ impl ApproximateMap {
     /// As [`new`](Self::new) and [`map_pieces`](super::map_pieces); [`Error::BadWindow`] without a piece.
     pub fn then(&self, next: &ApproximateMap) -> Result<ApproximateMap, Error> {
         let ends = |piece: &MapPiece| [piece.ends.0, piece.ends.1];
-        let mut cuts: Vec<f64> = self.pieces.iter().flat_map(ends).collect();
-        for border in next.pieces.iter().flat_map(ends) {
+        let mut cuts: Vec<f64> = self.0.pieces.iter().flat_map(ends).collect();
+        for border in next.0.pieces.iter().flat_map(ends) {
             cuts.extend(self.preimages(border));
         }
         cuts.sort_by(f64::total_cmp);
@@ -169,10 +178,10 @@ impl ApproximateMap {
             return Err(Error::BadWindow { left, right, samples: samples.len() });
         }
         let both = Both(self, next);
-        let found = pieces_between(&both, self.parameter, &samples)?;
-        let tolerance = self.tolerance.max(next.tolerance);
+        let found = pieces_between(&both, self.0.parameter, &samples)?;
+        let tolerance = self.0.tolerance.max(next.0.tolerance);
         let mut made = ApproximateMap::new(&both, &found, tolerance)?;
-        made.error += next.error + self.error * next.steepest();
+        made.0.error += next.0.error + self.0.error * next.steepest();
         Ok(made)
     }
 
@@ -184,7 +193,7 @@ impl ApproximateMap {
                 .into_iter()
                 .fold(0.0, f64::max)
         };
-        self.cells.iter().map(of).fold(0.0, f64::max)
+        self.0.cells.iter().map(of).fold(0.0, f64::max)
     }
 }
 
@@ -200,16 +209,15 @@ impl MapFamily for ApproximateMap {
 
     fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error> {
         let x = point.first().copied().unwrap_or(f64::NAN);
-        let found = self.cell(x).filter(|_| parameter == self.parameter);
+        let found = self.cell(x).filter(|_| parameter == self.0.parameter);
         let (cell, piece) = found.ok_or_else(|| missing(x, parameter))?;
-        let mut image = Image::of_number(vec![cell.value(x)], None);
-        image.itinerary.clone_from(&piece.itinerary);
-        Ok(image)
+        let itinerary = piece.itinerary.clone();
+        Ok(Image { itinerary, ..Image::of_number(vec![cell.value(x)], None) })
     }
 
     fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
         let x = curve.first().copied().unwrap_or(Jet::number(f64::NAN));
-        let found = self.cell(x.value()).filter(|_| parameter == Jet::number(self.parameter));
+        let found = self.cell(x.value()).filter(|_| parameter == Jet::number(self.0.parameter));
         let (cell, _) = found.ok_or_else(|| missing(x.value(), parameter.value()))?;
         Ok(vec![cell.pushed(&x)])
     }
@@ -225,43 +233,31 @@ impl MapFamily for Both<'_> {
 
     fn image(&self, point: &[f64], _: f64) -> Result<Image, Error> {
         let Both(first, second) = self;
-        let mut between = first.image(point, first.parameter)?;
-        let after = second.image(&between.point, second.parameter)?;
+        let mut between = first.image(point, first.0.parameter)?;
+        let after = second.image(&between.point, second.0.parameter)?;
         between.itinerary.extend(after.itinerary);
         Ok(Image { point: after.point, time: between.time + after.time, ..between })
     }
 
     fn pushed(&self, curve: &[Jet<4>], _: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
         let Both(first, second) = self;
-        let between = first.pushed(curve, Jet::number(first.parameter))?;
-        second.pushed(&between, Jet::number(second.parameter))
+        let between = first.pushed(curve, Jet::number(first.0.parameter))?;
+        second.pushed(&between, Jet::number(second.0.parameter))
     }
 }
 
-/// What a file has: it is checked before it is used.
 #[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-struct Stored {
-    parameter: f64,
-    tolerance: f64,
-    error: f64,
-    pieces: Vec<MapPiece>,
-    cells: Vec<Cell>,
-    owners: Vec<usize>,
-}
-
-#[cfg(feature = "serde")]
-impl TryFrom<Stored> for ApproximateMap {
+impl TryFrom<Parts> for ApproximateMap {
     type Error = String;
 
-    fn try_from(stored: Stored) -> Result<ApproximateMap, String> {
-        let Stored { parameter, tolerance, error, pieces, cells, owners } = stored;
+    fn try_from(parts: Parts) -> Result<ApproximateMap, String> {
+        let Parts { pieces, cells, owners, .. } = &parts;
         let in_order = cells.windows(2).all(|pair| pair[0].right <= pair[1].left);
         let have_owners =
             owners.len() == cells.len() && owners.iter().all(|&owner| owner < pieces.len());
         if !cells.iter().all(Cell::is_sound) || !in_order || !have_owners {
             return Err("no approximate map: its polynomials must be finite, on cells from left to right, each of one piece".to_owned());
         }
-        Ok(ApproximateMap { parameter, tolerance, error, pieces, cells, owners })
+        Ok(ApproximateMap(parts))
     }
 }

@@ -13,8 +13,7 @@ pub(super) struct Cell {
     coefficients: Vec<f64>,
 }
 
-/// The degree of a polynomial before terms that do not count are left out. A larger one needs fewer cells and more time at each value:
-/// from 8 to 32 the time of a value changes by less than a third.
+/// The degree of a polynomial before terms that do not count are left out. A larger one needs fewer cells and more time at each value.
 const DEGREE: usize = 16;
 
 /// A part of the tolerance that the terms may have that are left out.
@@ -135,5 +134,5 @@ pub(super) fn cells(
     Ok((done, worst))
 }
 
-/// Most cells: some 30 MB. Smooth functions need some tens; noise above the tolerance would need as many as there are numbers.
+/// Most cells: some 20 MB. Smooth functions need some tens; noise above the tolerance would need as many as there are numbers.
 const MOST_CELLS: usize = 100_000;

@@ -1,5 +1,6 @@
 //! Fixed points of scalar maps: where the graph crosses the diagonal, and where it touches it.
 
+use super::samples::samples_of;
 use crate::error::Error;
 use interval_arithmetic::{bracketed_root, golden_section_minimum};
 use std::cell::Cell;
@@ -67,19 +68,9 @@ pub fn fixed_points(
     right: f64,
     samples: usize,
 ) -> Result<Vec<FixedPoint>, Error> {
-    if !(left < right) || !(right - left).is_finite() || !(3..=MOST_SAMPLES).contains(&samples) {
-        return Err(Error::BadWindow { left, right, samples });
-    }
+    let at = samples_of((left, right), samples, MOST_SAMPLES)?;
     let gap = |x: f64| map(x).map(|image| image - x);
     let last = samples - 1;
-    // The sum may round to a place beyond the right end, where the map may not be defined.
-    let at = |k: usize| {
-        if k == last {
-            right
-        } else {
-            (left + (right - left) * (k as f64 / last as f64)).min(right)
-        }
-    };
     let mut found = Vec::new();
     // Three neighbouring samples are kept, so that the memory does not depend on their number.
     let (mut before, mut here) = (None, gap(left));

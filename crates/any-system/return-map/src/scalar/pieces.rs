@@ -1,6 +1,7 @@
 //! The domain of a map of one variable, and the pieces on which it is smooth.
 
 use super::extrema::{Extremum, extrema};
+use super::samples::samples_of;
 use crate::error::Error;
 use crate::families::{Image, MapFamily};
 use crate::orbits::{OrbitEnd, end_of};
@@ -90,19 +91,11 @@ const MOST_PIECES: usize = 100_000;
 pub fn map_pieces<M: MapFamily + ?Sized>(
     map: &M,
     parameter: f64,
-    (left, right): (f64, f64),
+    window: (f64, f64),
     samples: usize,
 ) -> Result<MapPieces, Error> {
     const MOST_SAMPLES: usize = 1_000_000;
-    if !(left < right) || !(right - left).is_finite() || !(3..=MOST_SAMPLES).contains(&samples) {
-        return Err(Error::BadWindow { left, right, samples });
-    }
-    let last = samples - 1;
-    let at = |k: usize| match k {
-        0 => left,
-        k if k == last => right,
-        k => (left + (right - left) * (k as f64 / last as f64)).min(right),
-    };
+    let at = samples_of(window, samples, MOST_SAMPLES)?;
     pieces_between(map, parameter, &(0..samples).map(at).collect::<Vec<f64>>())
 }
 

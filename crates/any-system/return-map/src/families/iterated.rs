@@ -1,0 +1,51 @@
+//! A map that is applied several times.
+
+use super::family::MapFamily;
+use crate::error::Error;
+use equations::Jet;
+
+/// The point after some images.
+pub(crate) fn point_after<M: MapFamily + ?Sized>(
+    map: &M,
+    (start, parameter): (&[f64], f64),
+    images: usize,
+) -> Result<Vec<f64>, Error> {
+    let mut point = start.to_vec();
+    for _ in 0..images {
+        point = map.image(&point, parameter)?.point;
+    }
+    Ok(point)
+}
+
+/// The point after some images, and the pieces of the map on the way.
+pub(crate) fn orbit_after<M: MapFamily + ?Sized>(
+    map: &M,
+    (start, parameter): (&[f64], f64),
+    images: usize,
+) -> Result<(Vec<f64>, Vec<String>), Error> {
+    let (mut point, mut itinerary) = (start.to_vec(), Vec::new());
+    for _ in 0..images {
+        let image = map.image(&point, parameter)?;
+        itinerary.extend(image.itinerary);
+        point = image.point;
+    }
+    Ok((point, itinerary))
+}
+
+/// A curve after some images, to third order.
+pub(crate) fn curve_after<M: MapFamily + ?Sized>(
+    map: &M,
+    (mut curve, parameter): (Vec<Jet<4>>, Jet<4>),
+    images: usize,
+) -> Result<Vec<Jet<4>>, Error> {
+    for _ in 0..images {
+        curve = map.pushed(&curve, parameter)?;
+    }
+    Ok(curve)
+}
+
+/// The place at which two sequences of pieces differ first.
+pub(crate) fn first_difference(a: &[String], b: &[String]) -> usize {
+    let place = a.iter().zip(b).position(|(a, b)| a != b);
+    place.unwrap_or(a.len().min(b.len()))
+}
