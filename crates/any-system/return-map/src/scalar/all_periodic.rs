@@ -115,8 +115,10 @@ fn search(
         match equation.look(interval) {
             Look::None => {}
             Look::One(point) => {
-                let is_known =
-                    |known: &ProvedPoint| known.alone_in.intersection(&point.at).is_some();
+                // The same point: it is within an interval that has one alone.
+                let is_known = |known: &ProvedPoint| {
+                    point.at.is_inside(&known.alone_in) || known.at.is_inside(&point.alone_in)
+                };
                 let is_outside = point.at.high < left || point.at.low > right;
                 if !is_outside && !found.points.iter().any(is_known) {
                     found.points.push(point);
