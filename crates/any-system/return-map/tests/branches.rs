@@ -206,7 +206,7 @@ fn a_grazing_ends_a_branch_of_a_return_map() {
     let [x, v, _] = steady_start(0.3);
     let steps = BranchSteps { first: 0.3, longest: 0.5, ..BranchSteps::default() };
     let branch =
-        follow_branch(&strobe, 1, (&[x, v], 0.3), (0.1, 0.9), steps, |_| Continue(())).unwrap();
+        follow_branch(&strobe, 1, (&[x, v], 0.3), (0.2, 0.9), steps, |_| Continue(())).unwrap();
     for point in &branch.points {
         let [x, v, _] = steady_start(point.parameter);
         assert!((point.point[0] - x).abs() < 1e-11 && (point.point[1] - v).abs() < 1e-11);

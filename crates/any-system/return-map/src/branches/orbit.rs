@@ -119,8 +119,8 @@ impl<M: ?Sized> Orbit<'_, M> {
     }
 }
 
-/// Sweeps of the method for eigenvalues, for each of them. A few are usual.
-const MOST_SWEEPS: usize = 100;
+/// Sweeps of the method for eigenvalues, for each of them. A few are usual; LAPACK stops at as many.
+const MOST_SWEEPS: usize = 30;
 
 /// The eigenvalues of a matrix; none if it has an entry that is not finite, or if they are not found.
 ///
