@@ -166,7 +166,7 @@ pub use fate::{End, Fate, FateOf, many};
 #[cfg(all(feature = "ode", feature = "serde"))]
 pub use formulas::SavedRun;
 #[cfg(feature = "ode")]
-pub use formulas::{Along, Equations, EquationsModel, ExecutionJet, Label, Start};
+pub use formulas::{Along, Equations, EquationsModel, ExecutionJet, Label, Start, Turn};
 pub use guard::{Direction, Guard, Role, Touch};
 pub use interval_arithmetic::Enclosure;
 pub use lands_beyond::LandsBeyond;

@@ -94,6 +94,22 @@ pub enum Error {
         /// The parameter.
         parameter: f64,
     },
+    /// A map is not known beyond the border of a piece.
+    #[error(
+        "the map does not go on beyond the piece of {event:?}: it must be that of equations, and the piece a sequence of their events"
+    )]
+    NoPassage {
+        /// The piece, or what is no event of it.
+        event: String,
+    },
+    /// A border that no curve in two parameters follows.
+    #[error(
+        "no curve of this border, {border}: a grazing or a corner of guards with formulas has one"
+    )]
+    BorderNotFollowed {
+        /// The border.
+        border: String,
+    },
     /// A map of one variable has more pieces than can be kept.
     #[error(
         "more than {most} pieces between {left} and {at}: take a smaller window, or a tolerance above the noise of the map"

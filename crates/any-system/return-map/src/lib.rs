@@ -114,13 +114,14 @@ mod scalar;
 mod section;
 
 pub use branches::{
-    Bifurcation, BifurcationCurvePoint, BifurcationKind, Branch, BranchEnd, BranchPoint,
-    BranchSteps, bifurcation_curve, cascade, continue_branch, doubled_branch, follow_branch,
-    follow_equilibria,
+    Bifurcation, BifurcationCurve, BifurcationCurvePoint, BifurcationKind, Branch, BranchEnd,
+    BranchPoint, BranchSteps, CurveEnd, bifurcation_curve, border_curve, cascade, continue_branch,
+    doubled_branch, follow_branch, follow_equilibria,
 };
 pub use error::Error;
 pub use families::{
-    Closure, EquationReturns, FormulaMap, Image, MapFamily, family, pieces, scalar_family,
+    Border, BorderSite, Clearance, Closure, EquationReturns, FormulaMap, Image, MapFamily, family,
+    pieces, scalar_family,
 };
 pub use manifolds::{
     ManifoldCrossing, ManifoldCurve, ManifoldCut, ManifoldEnd, ManifoldSteps, UnstableManifold,

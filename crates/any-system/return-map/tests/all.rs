@@ -1,5 +1,6 @@
 //! All tests of the crate, in one program.
 
+mod borders;
 mod branches;
 mod known_answers;
 mod manifolds;

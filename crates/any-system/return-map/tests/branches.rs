@@ -5,7 +5,7 @@
 use crate::sections::{apexes, strobe};
 use equations::{Formulas, Names};
 use return_map::{
-    BifurcationKind, Branch, BranchEnd, BranchSteps, Error, FormulaMap, MapFamily, cascade,
+    BifurcationKind, Border, Branch, BranchEnd, BranchSteps, Error, FormulaMap, MapFamily, cascade,
     doubled_branch, family, follow_branch, follow_equilibria, pieces, scalar_family,
 };
 use std::ops::ControlFlow::{Break, Continue};
@@ -144,7 +144,7 @@ fn a_border_collision_ends_a_branch() {
         Ok((vec![if left { a } else { b } * x[0] + mu], if left { "left" } else { "right" }))
     });
     let branch = followed(&tent, (&[-1.0], -0.6), (-1.0, 1.0));
-    let BranchEnd::Border { at, beyond, place } = &branch.ends[1] else {
+    let BranchEnd::Border { border: Border::Piece, at, beyond, place } = &branch.ends[1] else {
         panic!("{:?}", branch.ends)
     };
     assert!(at.parameter.abs() < 1e-9 && at.point[0].abs() < 1e-9, "{at:?}");
@@ -214,15 +214,12 @@ fn a_grazing_ends_a_branch_of_a_return_map() {
         let exact = (-0.05 * std::f64::consts::TAU / 1.3f64).exp();
         assert!(point.multipliers.iter().all(|m| (m.norm() - exact).abs() < 1e-11));
     }
-    let BranchEnd::Border { at, beyond, place } = &branch.ends[1] else {
+    let BranchEnd::Border { border, at, beyond, place } = &branch.ends[1] else {
         panic!("{:?}", branch.ends)
     };
-    assert!(
-        (at.parameter - grazing_forcing()).abs() < 1e-9,
-        "{} {}",
-        at.parameter,
-        grazing_forcing()
-    );
+    assert_eq!(border, &Border::Grazing { surface: String::from("free: stop") });
+    let exact = grazing_forcing();
+    assert!((at.parameter - exact).abs() < 1e-13, "{} {exact}", at.parameter);
     assert_eq!(beyond[*place], "free: stop");
 }
 

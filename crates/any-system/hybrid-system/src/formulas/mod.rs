@@ -5,7 +5,7 @@
 //! solves linear fields, in functions of time that `quasi_values` computes with. `motion` and `part` are the
 //! motion and the part of a [`Model`](crate::Model). `reversed` are equations backward in time. `jets` has the derivatives of whole executions, `derivatives` those of
 //! [`Differentiable`](crate::Differentiable). `file` is the JSON of equations,
-//! `saved_run` that of an execution. `many_fates` follows many runs side by side.
+//! `saved_run` that of an execution. `many_fates` follows many runs side by side. `turns` has the points at which guards turn, and equations along one sequence of events.
 
 mod builder;
 mod closed_form;
@@ -25,6 +25,7 @@ mod reversed;
 #[cfg(feature = "serde")]
 mod saved_run;
 mod start;
+mod turns;
 
 pub use self::equations::{Equations, EquationsModel};
 pub use jets::{Along, ExecutionJet};
@@ -34,3 +35,4 @@ pub use part::FormulaPart;
 #[cfg(feature = "serde")]
 pub use saved_run::SavedRun;
 pub use start::Start;
+pub use turns::Turn;

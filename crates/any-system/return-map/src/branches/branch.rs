@@ -1,5 +1,6 @@
 //! What a branch consists of.
 
+use crate::families::Border;
 use nalgebra::Complex;
 
 /// A branch of fixed points, periodic points or equilibria, from one end to the other.
@@ -101,10 +102,13 @@ pub enum BranchEnd {
     PointLimit,
     /// It was stopped.
     Stopped,
-    /// The orbit meets other pieces of the map behind this point, which is the last one on its own pieces: a border collision; for a
-    /// return map a grazing, or two events at one instant.
+    /// The orbit meets other pieces of the map behind this point: a border collision; for a return map a grazing, two events at one
+    /// instant, an onset of sliding or of complete chattering.
     Border {
-        /// The last point, as near to the border as the map tells.
+        /// What lies there.
+        border: Border,
+        /// The point on the border, to rounding where the map goes on smoothly beyond it; else the last one that was found on its own
+        /// pieces. Its multipliers are those on this side.
         at: BranchPoint,
         /// The pieces behind the border, where they are known.
         beyond: Vec<String>,

@@ -28,6 +28,23 @@ pub(super) struct OnCurve {
     pub(super) steps: usize,
 }
 
+/// The largest angle between tangents at two neighbouring points, as its cosine: 18°. A larger angle would let a step change to
+/// another branch.
+pub(super) const STRAIGHT: f64 = 0.95;
+
+impl OnCurve {
+    /// True if the step from the point before to this one passes the first point of the curve, in its direction.
+    pub(super) fn passes(&self, before: &OnCurve, first: &OnCurve, scales: &DVector<f64>) -> bool {
+        let apart = |a: &OnCurve, b: &OnCurve| (&a.at - &b.at).component_div(scales).norm();
+        let step = apart(before, self);
+        let along = (&first.at - &before.at).component_div(scales).dot(&before.tangent);
+        apart(before, first) <= step
+            && apart(self, first) <= step
+            && (0.0..=step).contains(&along)
+            && self.tangent.dot(&first.tangent) > STRAIGHT
+    }
+}
+
 /// Newton steps of a corrector. From a good prediction it takes three or four; more mean that the step is too long.
 const MOST_NEWTON_STEPS: usize = 12;
 

@@ -1,12 +1,12 @@
 //! Follows a branch from a point in both directions.
 
 use super::branch::{Branch, BranchEnd, BranchPoint};
-use super::curve::{OnCurve, corrected, tangent};
+use super::curve::{OnCurve, STRAIGHT, corrected, tangent};
 use super::locate::between;
 use super::orbit::{Kind, Orbit, eigenvalues, split};
 use super::start::{check, check_period, scales, solved};
 use crate::error::Error;
-use crate::families::{MapFamily, first_difference};
+use crate::families::MapFamily;
 use nalgebra::DVector;
 use std::ops::ControlFlow;
 
@@ -30,16 +30,9 @@ impl Default for BranchSteps {
     }
 }
 
-/// The largest angle between tangents at two neighbouring points, as its cosine: 18°. A larger angle would let a step change to
-/// another branch.
-pub(super) const STRAIGHT: f64 = 0.95;
-
 /// The curve is no further from the end of a step along the tangent than this part of the step: it turns by no more than the largest
 /// angle. Another branch beside it is.
 const ASIDE: f64 = 0.35;
-
-/// Looks ahead of the last point for other pieces of the map, each twice as far as the one before: up to 10⁶ shortest steps.
-const LOOKS_AHEAD: usize = 20;
 
 /// After a step with at most so many Newton steps the next one is longer by this factor.
 const QUICK: usize = 4;
@@ -185,7 +178,9 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
         let mut way =
             OneWay { points: Vec::new(), located: Vec::new(), end: BranchEnd::PointLimit };
         let (mut last, mut length) = (first.clone(), self.steps.first.min(self.steps.longest));
-        let mut reason = String::from("the tangent turns faster than the shortest step");
+        let mut near = self.orbit.clearances(&first);
+        let too_long = "the tangent turns faster than the shortest step";
+        let mut reason = String::from(too_long);
         while way.points.len() < self.steps.points {
             if length < self.steps.shortest {
                 way.end = self.lost(&last, itinerary, reason);
@@ -194,6 +189,7 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
             let next = match self.step(&last, length) {
                 Ok(Some(next)) => next,
                 Ok(None) => {
+                    reason = String::from(too_long);
                     length *= 0.5;
                     continue;
                 }
@@ -227,6 +223,12 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
                     }
                 },
             };
+            let next_near = self.orbit.clearances(&next);
+            if let Some(end) = self.touched((&last, &near), (&next, &next_near), itinerary) {
+                way.end = end;
+                return way;
+            }
+            near = next_near;
             way.located.extend(between(&self.orbit, (&last, &next), itinerary));
             let point = point_of(&self.orbit, &next, itinerary.to_vec());
             let stopped = (self.see)(&point).is_break();
@@ -235,7 +237,7 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
                 way.end = if leaves { BranchEnd::Window } else { BranchEnd::Stopped };
                 return way;
             }
-            if way.points.len() > 2 && self.closes(&first, (&last, &next)) {
+            if way.points.len() > 2 && next.passes(&last, &first, &self.orbit.scales) {
                 way.end = BranchEnd::Closed;
                 return way;
             }
@@ -248,12 +250,12 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
     }
 
     /// A step along the tangent; `None` if it is too long.
-    fn step(&self, last: &OnCurve, length: f64) -> Result<Option<OnCurve>, Error> {
+    pub(super) fn step(&self, last: &OnCurve, length: f64) -> Result<Option<OnCurve>, Error> {
         let predicted = predicted(&self.orbit.scales, last, length);
         let next = corrected(&self.orbit, &predicted, &last.tangent)?;
         Ok(next.filter(|next| {
             let off = (&next.at - &predicted).component_div(&self.orbit.scales).norm();
-            off <= ASIDE * length && next.tangent.dot(&last.tangent) > STRAIGHT
+            off <= ASIDE * length.abs() && next.tangent.dot(&last.tangent) > STRAIGHT
         }))
     }
 
@@ -269,53 +271,6 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
         found.tangent = tangent(&found.slopes, &next.tangent)?;
         found.at[last] = end;
         Some(found)
-    }
-
-    /// True if the step between two points passes the first point of the branch.
-    fn closes(&self, first: &OnCurve, (last, next): (&OnCurve, &OnCurve)) -> bool {
-        let apart =
-            |a: &OnCurve, b: &OnCurve| (&a.at - &b.at).component_div(&self.orbit.scales).norm();
-        apart(last, first) <= apart(last, next)
-            && apart(next, first) <= apart(last, next)
-            && next.tangent.dot(&first.tangent) > STRAIGHT
-    }
-
-    /// The end of a branch of which no further point was found: a border of the map, if other pieces are ahead.
-    fn lost(&self, last: &OnCurve, itinerary: &[String], reason: String) -> BranchEnd {
-        let mut ahead = self.steps.shortest;
-        for _ in 0..LOOKS_AHEAD {
-            if let Ok(other) = self.orbit.itinerary(&predicted(&self.orbit.scales, last, ahead))
-                && other != itinerary
-            {
-                return self.border(last, itinerary, other, 0.0);
-            }
-            ahead *= 2.0;
-        }
-        BranchEnd::Lost { reason }
-    }
-
-    /// The last point before a border of the map, within a step: by halving.
-    fn border(
-        &self,
-        last: &OnCurve,
-        itinerary: &[String],
-        mut beyond: Vec<String>,
-        length: f64,
-    ) -> BranchEnd {
-        let (mut near, mut far, mut at) = (0.0, length, last.clone());
-        while far - near > f64::EPSILON * self.steps.longest {
-            let middle = 0.5 * (near + far);
-            let found = self.step(last, middle).ok().flatten();
-            let own = found.as_ref().map(|found| self.orbit.itinerary(&found.at));
-            match (found, own) {
-                (Some(found), Some(Ok(own))) if own == itinerary => (near, at) = (middle, found),
-                (_, Some(Ok(other))) => (far, beyond) = (middle, other),
-                _ => far = middle,
-            }
-        }
-        let place = first_difference(itinerary, &beyond);
-        let at = point_of(&self.orbit, &at, itinerary.to_vec());
-        BranchEnd::Border { at, beyond, place }
     }
 }
 

@@ -3,10 +3,13 @@
 //! A [`Branch`] is followed by pseudo-arclength (`curve`, `follow`, from `start`): H. B. Keller, *Numerical solution of bifurcation and nonlinear
 //! eigenvalue problems* (1977). `orbit` has the equations of a periodic
 //! point, `tests` the numbers that change their signs at bifurcations, `locate` finds these, `normal_form` has their coefficients,
-//! `doubled` the branch behind a doubling and cascades of them, `continued` goes on with a branch that was stopped, `bifurcation_curve` curves in two parameters. Y. A. Kuznetsov, *Elements of Applied Bifurcation Theory*, Springer
+//! `doubled` the branch behind a doubling and cascades of them, `continued` goes on with a branch that was stopped, `border` is where a branch meets another piece of the map. `two_parameters` follows
+//! curves in two parameters, of smooth bifurcations (`bifurcation_curve`), and of grazings and corners (`border_curve`). Y. A. Kuznetsov, *Elements of Applied Bifurcation Theory*, Springer
 //! (2004).
 
 mod bifurcation_curve;
+mod border;
+mod border_curve;
 mod branch;
 mod continued;
 mod curve;
@@ -17,11 +20,14 @@ mod normal_form;
 mod orbit;
 mod start;
 mod tests;
+mod two_parameters;
 
-pub use bifurcation_curve::{BifurcationCurvePoint, bifurcation_curve};
+pub use bifurcation_curve::bifurcation_curve;
+pub use border_curve::border_curve;
 pub use branch::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint};
 pub use continued::continue_branch;
 pub use doubled::{cascade, doubled_branch};
 pub use follow::{BranchSteps, follow_branch, follow_equilibria};
 pub(crate) use normal_form::null_vector;
 pub(crate) use start::{check_period, size_of, solve_periodic};
+pub use two_parameters::{BifurcationCurve, BifurcationCurvePoint, CurveEnd};

@@ -1,12 +1,16 @@
 //! Return maps of hybrid systems that are given by their equations, as families of maps.
 
+use super::border::{BorderSite, Clearance};
+use super::differences;
+use super::equation_borders::Observed;
 use super::family::{Image, MapFamily};
+use super::formula_values::FormulaValues;
+use super::return_arcs::{ReturnArcs, elapsed, itinerary, least_certain};
 use crate::error::Error;
-use equations::{Expression, Formulas, Jet, JetSeries, Names, Parameters, States};
-use hybrid_system::{
-    Along, Arc, Certainty, Equations, EquationsModel, Execution, Label, Limits, Stop, Tolerances,
-};
+use equations::{Expression, Formulas, Jet, Names, Parameters, States};
+use hybrid_system::{Along, Equations, EquationsModel, Execution, Label, Limits, Stop, Tolerances};
 use nalgebra::DVector;
+use std::sync::{self, Mutex, OnceLock};
 
 /// The return map of [`Equations`] to the events of a surface, as one of their parameters changes. (feature `ode` of
 /// `hybrid-system`)
@@ -17,7 +21,7 @@ use nalgebra::DVector;
 /// says another time.
 ///
 /// The itinerary of an image has the mode and the surface of each event on the way, those of observers too. Derivatives are exact: by
-/// the Taylor series of the motion, through all events.
+/// the Taylor series of the motion, through all events. Through a Zeno limit they are differences.
 ///
 /// ```
 /// use hybrid_system::Equations;
@@ -37,46 +41,29 @@ use nalgebra::DVector;
 /// ```
 #[derive(Debug)]
 pub struct EquationReturns {
-    equations: Equations,
-    parameter: String,
+    pub(super) equations: Equations,
+    pub(super) parameter: String,
     mode: Label,
-    surface: Label,
+    pub(super) surface: Label,
     /// The names of the coordinates, with the parameters of the equations.
     section: Names,
     /// The start from the coordinates.
-    start: Option<Map>,
+    start: Option<sync::Arc<FormulaValues>>,
     /// The coordinates from the state.
-    coordinates: Option<Map>,
+    coordinates: Option<sync::Arc<FormulaValues>>,
     tolerances: Tolerances,
     limits: Limits,
+    /// The last models, by the bits of the parameter.
+    models: Mutex<Vec<(u64, sync::Arc<ReturnModel>)>>,
+    /// The same with observers of turns, made at its first use.
+    observed: OnceLock<Result<Box<Observed>, Error>>,
 }
 
-/// Some formulas of states, the time and parameters, with derivatives.
-#[derive(Debug)]
-struct Map(JetSeries);
+type ReturnModel = EquationsModel<DVector<f64>>;
 
-impl Map {
-    fn new(
-        formulas: &Formulas,
-        what: &'static str,
-        (needed, most): (usize, usize),
-    ) -> Result<Map, Error> {
-        let given = formulas.count();
-        if given < needed || given > most {
-            return Err(equations::Error::Length { what, needed, given }.into());
-        }
-        Ok(Map(JetSeries::of_values(&formulas.with_time_as_state(None))?))
-    }
-
-    fn values<const T: usize>(
-        &self,
-        (state, time): (&[Jet<T>], Jet<T>),
-        parameters: impl Iterator<Item = Jet<T>>,
-    ) -> Result<Vec<Jet<T>>, Error> {
-        let all: Vec<_> = state.iter().copied().chain([time]).chain(parameters).collect();
-        Ok(self.0.values(&all)?)
-    }
-}
+/// The number of models that are kept. A map has many images at one parameter, and a diagram computes as many columns at once as there are
+/// processors.
+const KEPT_MODELS: usize = 16;
 
 /// The time at which a return begins, unless the start says another one.
 const START: f64 = 0.0;
@@ -119,6 +106,8 @@ impl EquationReturns {
             coordinates: None,
             tolerances: Tolerances::both(1e-13),
             limits: Limits::new(LONGEST.0, LONGEST.1),
+            models: Mutex::new(Vec::new()),
+            observed: OnceLock::new(),
         };
         // A mode that is not there is an error of its executions.
         let model = returns.model(None)?;
@@ -153,7 +142,9 @@ impl EquationReturns {
     fn starting_by(mut self, formulas: &Formulas) -> Result<Self, Error> {
         let needed = self.equations.names().states.len();
         let count = (needed, needed + 1);
-        self.start = Some(Map::new(formulas, "formulas of the start", count)?);
+        self.start =
+            Some(sync::Arc::new(FormulaValues::new(formulas, "formulas of the start", count)?));
+        self.observed = OnceLock::new();
         Ok(self)
     }
 
@@ -185,7 +176,9 @@ impl EquationReturns {
     fn coordinates_by(mut self, formulas: &Formulas) -> Result<Self, Error> {
         let needed = self.section.states.len();
         let count = (needed, needed);
-        self.coordinates = Some(Map::new(formulas, "formulas of the coordinates", count)?);
+        let coordinates = FormulaValues::new(formulas, "formulas of the coordinates", count)?;
+        self.coordinates = Some(sync::Arc::new(coordinates));
+        self.observed = OnceLock::new();
         Ok(self)
     }
 
@@ -193,6 +186,8 @@ impl EquationReturns {
     #[must_use]
     pub fn tolerances(mut self, tolerances: Tolerances) -> Self {
         self.tolerances = tolerances;
+        self.models = Mutex::new(Vec::new());
+        self.observed = OnceLock::new();
         self
     }
 
@@ -200,22 +195,66 @@ impl EquationReturns {
     #[must_use]
     pub fn limits(mut self, limits: Limits) -> Self {
         self.limits = limits;
+        self.observed = OnceLock::new();
         self
     }
 
+    /// The same returns of other equations with the same names, from another mode.
+    pub(super) fn with_equations(&self, equations: Equations, mode: Label) -> EquationReturns {
+        EquationReturns {
+            equations,
+            parameter: self.parameter.clone(),
+            mode,
+            surface: self.surface,
+            section: self.section.clone(),
+            start: self.start.clone(),
+            coordinates: self.coordinates.clone(),
+            tolerances: self.tolerances,
+            limits: self.limits,
+            models: Mutex::new(Vec::new()),
+            observed: OnceLock::new(),
+        }
+    }
+
+    /// The number of components of the state, without the time.
+    pub(super) fn components(&self) -> usize {
+        self.equations.names().states.len()
+    }
+
+    fn observed(&self) -> Result<&Observed, Error> {
+        let made = self.observed.get_or_init(|| {
+            Ok(Box::new(Observed::new(self, self.equations.with_turns()?, self.mode)?))
+        });
+        made.as_ref().map(|observed| &**observed).map_err(Error::clone)
+    }
+
     /// The model at a value of the parameter.
-    fn model(&self, value: Option<f64>) -> Result<EquationsModel<DVector<f64>>, Error> {
+    pub(super) fn model(&self, value: Option<f64>) -> Result<sync::Arc<ReturnModel>, Error> {
+        let bits = value.map(f64::to_bits);
+        if let Ok(models) = self.models.try_lock()
+            && let Some((_, model)) = models.iter().find(|(known, _)| Some(*known) == bits)
+        {
+            return Ok(sync::Arc::clone(model));
+        }
         let equations = match value {
             Some(value) => {
                 self.equations.clone().with_parameters(&[(&self.parameter, &format!("{value:?}"))])
             }
             None => self.equations.clone(),
         };
-        Ok(equations.model::<DVector<f64>>()?.tolerances(self.tolerances))
+        let model = sync::Arc::new(equations.model::<DVector<f64>>()?.tolerances(self.tolerances));
+        if let (Ok(mut models), Some(bits)) = (self.models.try_lock(), bits) {
+            models.truncate(KEPT_MODELS - 1);
+            models.insert(0, (bits, sync::Arc::clone(&model)));
+        }
+        Ok(model)
     }
 
     /// The parameters of the equations as jets, with one of them moving.
-    fn parameters<const T: usize>(&self, moving: Jet<T>) -> impl Iterator<Item = Jet<T>> + '_ {
+    pub(super) fn parameters<const T: usize>(
+        &self,
+        moving: Jet<T>,
+    ) -> impl Iterator<Item = Jet<T>> + '_ {
         let names = self.equations.names();
         names.parameters.iter().zip(&names.values).map(move |(name, value)| {
             if *name == self.parameter { moving } else { Jet::number(value.value()) }
@@ -223,7 +262,7 @@ impl EquationReturns {
     }
 
     /// The state and the time at which a return starts.
-    fn start<const T: usize>(
+    pub(super) fn start<const T: usize>(
         &self,
         coordinates: &[Jet<T>],
         parameter: Jet<T>,
@@ -274,11 +313,11 @@ impl EquationReturns {
     }
 
     /// The arcs of a return from a state.
-    fn arcs(
+    pub(super) fn arcs(
         &self,
-        model: &EquationsModel<DVector<f64>>,
+        model: &ReturnModel,
         (start, time): (&[f64], f64),
-    ) -> Result<Vec<Arc<Label, Label, DVector<f64>>>, Error> {
+    ) -> Result<ReturnArcs, Error> {
         let mut state = start.to_vec();
         let dimension = model.series(self.mode.as_str()).map_or(0, equations::Series::dimension);
         if state.len() + 1 == dimension {
@@ -315,7 +354,7 @@ impl MapFamily for EquationReturns {
         let coordinates: Vec<Jet<1>> = point.iter().copied().map(still).collect();
         let (start, begin) = self.start(&coordinates, still(parameter))?;
         let start: Vec<f64> = start.iter().map(Jet::value).collect();
-        let arcs = self.arcs(&self.model(Some(parameter))?, (&start, begin.value()))?;
+        let arcs = self.arcs(&*self.model(Some(parameter))?, (&start, begin.value()))?;
         let time = elapsed(&arcs);
         let after = arcs.last().and_then(|arc| arc.event()?.after.as_ref());
         let state = after.map_or(&[][..], |(_, state)| state.as_slice());
@@ -336,39 +375,42 @@ impl MapFamily for EquationReturns {
             whole.push(begin);
         }
         let along = Along::curve(&whole).and_parameter_curve(&self.parameter, parameter);
-        let back = model.jet::<4>(&arcs, &along)?;
+        let back = match model.jet::<4>(&arcs, &along) {
+            Err(hybrid_system::Error::NoSensitivity { .. }) => {
+                return differences::pushed(self, curve, parameter);
+            }
+            back => back?,
+        };
         // The time of the arcs is that since their start.
         let mut time = begin;
         time.0.iter_mut().zip(back.time.0).skip(1).for_each(|(own, more)| *own += more);
         time.0[0] += elapsed(&arcs);
         self.image_of((&back.state, time), parameter)
     }
-}
 
-/// The time of some arcs.
-fn elapsed(arcs: &[Arc<Label, Label, DVector<f64>>]) -> f64 {
-    match (arcs.first(), arcs.last()) {
-        (Some(first), Some(last)) => last.time + last.duration - first.time,
-        _ => 0.0,
+    fn clearances(
+        &self,
+        curve: &[Jet<4>],
+        parameter: Jet<4>,
+    ) -> Result<Option<Vec<Clearance>>, Error> {
+        Ok(Some(self.observed()?.clearances(curve, parameter)?))
     }
-}
 
-/// The certainty of the least certain event.
-fn least_certain(arcs: &[Arc<Label, Label, DVector<f64>>]) -> Certainty {
-    let rank = |certainty: &Certainty| match certainty {
-        Certainty::Exact => 0,
-        Certainty::Certain => 1,
-        Certainty::Interpolated => 2,
-        Certainty::Sampled { .. } => 3,
-    };
-    let events = arcs.iter().filter_map(|arc| Some(arc.event()?.certainty));
-    events.max_by_key(rank).unwrap_or(Certainty::Exact)
-}
+    fn border(
+        &self,
+        at: (&[f64], f64),
+        pieces: (&[String], &[String]),
+        place: usize,
+        within: f64,
+    ) -> BorderSite {
+        self.border_at(at, pieces, place, within)
+    }
 
-/// The mode and the surface of each event.
-fn itinerary(arcs: &[Arc<Label, Label, DVector<f64>>]) -> Vec<String> {
-    let of = |arc: &Arc<Label, Label, DVector<f64>>| {
-        Some(format!("{}: {}", arc.mode, arc.event()?.surface))
-    };
-    arcs.iter().filter_map(of).collect()
+    fn along(
+        &self,
+        itinerary: &[String],
+        border: Option<&BorderSite>,
+    ) -> Result<Box<dyn MapFamily + '_>, Error> {
+        Ok(Box::new(self.passages(itinerary, border)?))
+    }
 }

@@ -1,5 +1,6 @@
 //! Maps that depend on a parameter.
 
+use super::border::{Border, BorderSite, Clearance};
 use super::differences::pushed;
 use crate::error::Error;
 use equations::Jet;
@@ -53,6 +54,52 @@ pub trait MapFamily: Sync {
     fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
         pushed(self, curve, parameter)
     }
+
+    /// How near the orbits of a curve of starts come to the surfaces that they do not meet. On a branch a surface that is touched and
+    /// left again between two of its points is found by it.
+    ///
+    /// Default: `None`. A map of numbers has no surfaces.
+    ///
+    /// # Errors
+    /// Those of the map.
+    fn clearances(
+        &self,
+        curve: &[Jet<4>],
+        parameter: Jet<4>,
+    ) -> Result<Option<Vec<Clearance>>, Error> {
+        let _ = (curve, parameter);
+        Ok(None)
+    }
+
+    /// What lies between the pieces `own` and `beyond`, which differ first at `place`, beside a point that is on one of them.
+    /// `within` is the largest distance from the border, in parts of the size of the guard.
+    ///
+    /// Default: [`Border::Piece`].
+    fn border(
+        &self,
+        at: (&[f64], f64),
+        (own, beyond): (&[String], &[String]),
+        place: usize,
+        within: f64,
+    ) -> BorderSite {
+        let _ = (at, beyond, within);
+        BorderSite { border: Border::Piece, itinerary: own.to_vec(), place, side: 1.0 }
+    }
+
+    /// The map of one piece, as it goes on smoothly beyond its borders. With a border the images have one component more, a number that
+    /// is zero on it.
+    ///
+    /// # Errors
+    /// [`Error::NoPassage`] if the map does not go on; [`Error::BorderNotFollowed`] for a border of another kind than a grazing or
+    /// a corner. Default: the former.
+    fn along(
+        &self,
+        itinerary: &[String],
+        border: Option<&BorderSite>,
+    ) -> Result<Box<dyn MapFamily + '_>, Error> {
+        let _ = border;
+        Err(Error::NoPassage { event: itinerary.join(", ") })
+    }
 }
 
 impl<T: MapFamily + ?Sized> MapFamily for &T {
@@ -64,5 +111,28 @@ impl<T: MapFamily + ?Sized> MapFamily for &T {
     }
     fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
         (**self).pushed(curve, parameter)
+    }
+    fn clearances(
+        &self,
+        curve: &[Jet<4>],
+        parameter: Jet<4>,
+    ) -> Result<Option<Vec<Clearance>>, Error> {
+        (**self).clearances(curve, parameter)
+    }
+    fn border(
+        &self,
+        at: (&[f64], f64),
+        pieces: (&[String], &[String]),
+        place: usize,
+        within: f64,
+    ) -> BorderSite {
+        (**self).border(at, pieces, place, within)
+    }
+    fn along(
+        &self,
+        itinerary: &[String],
+        border: Option<&BorderSite>,
+    ) -> Result<Box<dyn MapFamily + '_>, Error> {
+        (**self).along(itinerary, border)
     }
 }

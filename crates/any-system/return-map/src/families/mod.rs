@@ -2,15 +2,21 @@
 //!
 //! A [`MapFamily`] gives images, and the images of curves to third order (`family`). `closures` are functions of numbers,
 //! whose derivatives are `differences`. `formula_map` has exact ones, and so have the
-//! return maps of equations, `equation_returns`. `iterated` applies a map several times.
+//! return maps of equations, `equation_returns`. `iterated` applies a map several times. `border` says what lies between pieces of a map,
+//! and `equation_borders` finds it for equations, whose arcs `return_arcs` reads and whose formulas `formula_values` evaluates.
 
+mod border;
 mod closures;
 mod differences;
+mod equation_borders;
 mod equation_returns;
 mod family;
 mod formula_map;
+mod formula_values;
 mod iterated;
+mod return_arcs;
 
+pub use border::{Border, BorderSite, Clearance};
 pub use closures::{Closure, family, pieces, scalar_family};
 pub use equation_returns::EquationReturns;
 pub use family::{Image, MapFamily};

@@ -1,0 +1,322 @@
+//! Where a branch meets a border of the map.
+
+use super::branch::{BranchEnd, BranchPoint};
+use super::curve::OnCurve;
+use super::follow::{Follower, point_of, predicted};
+use super::orbit::{Kind, Orbit, split};
+use crate::error::Error;
+use crate::families::{Border, BorderSite, Clearance, MapFamily, first_difference};
+use equations::Jet;
+use nalgebra::{DMatrix, DVector};
+use std::ops::ControlFlow;
+
+/// Looks ahead of the last point for other pieces of the map, each twice as far as the one before: up to 10⁶ shortest steps.
+const LOOKS_AHEAD: usize = 20;
+
+/// Where a cubic through two clearances with their slopes falls below this part of the smaller one, the clearance there is computed: the
+/// cubic is wrong by the fourth power of the step. A smaller number would trust it more.
+const TRUSTED: f64 = 0.25;
+
+/// How often a step is halved at such places.
+const MOST_HALVINGS: usize = 10;
+
+/// How far from the point that bisection has found a border is looked for, in units of the scales.
+const NEAR: f64 = 1e-3;
+
+/// After so many halvings the border is tried to be located.
+const TRIES: [usize; 3] = [6, 18, 30];
+
+/// The largest distance from a border of a point beside it, in parts of the size of the guard. A point that was found by halving alone
+/// is beside its border to rounding; beside a grazing the speed of an event that vanishes is the root of that, and its square counts. A border
+/// that is located afterwards may be further off.
+pub(super) const BESIDE: f64 = 1e-6;
+const AROUND: f64 = 0.1;
+
+/// How far on both sides of a border the pieces of the map are compared, in parts of the longest step.
+const BOTH_SIDES: f64 = 1e-7;
+
+/// Newton steps at a border.
+const MOST_STEPS: usize = 20;
+
+impl<M: MapFamily + ?Sized> Orbit<'_, M> {
+    /// How near the orbit of a point comes to surfaces that it does not meet, along the tangent. Where this cannot be computed there are
+    /// none, and the pieces alone tell where the branch ends.
+    pub(super) fn clearances(&self, of: &OnCurve) -> Vec<Clearance> {
+        let Kind::Periodic(period) = self.kind else { return Vec::new() };
+        let direction = of.tangent.component_mul(&self.scales);
+        let (mut curve, parameter) = self.line(&of.at, &direction);
+        let (mut all, mut before) = (Vec::new(), 0);
+        for image in 0..period {
+            let Ok(Some(found)) = self.map.clearances(&curve, parameter) else { return all };
+            all.extend(found.into_iter().map(|one| Clearance { place: before + one.place, ..one }));
+            if image + 1 < period {
+                let point: Vec<f64> = curve.iter().map(Jet::value).collect();
+                let Ok(here) = self.map.image(&point, parameter.value()) else { return all };
+                let Ok(pushed) = self.map.pushed(&curve, parameter) else { return all };
+                before += here.itinerary.len();
+                curve = pushed;
+            }
+        }
+        all
+    }
+}
+
+/// The place in a step, from 0 to 1, at which a surface may be touched.
+fn suspicious(near: &Clearance, far: &Clearance, length: f64, turned: f64) -> Option<f64> {
+    let [from, rate] = near.value.0;
+    let [to, rate_there] = far.value.0;
+    let (m0, m1) = (rate * length, rate_there * length / turned);
+    let cubic = [from, m0, -3.0 * from + 3.0 * to - 2.0 * m0 - m1, 2.0 * from - 2.0 * to + m0 + m1];
+    let [c, b, a] = [cubic[1], cubic[2], 3.0 * cubic[3]];
+    // The root of c + 2 b t + a t² at which it rises.
+    let root = (b * b - a * c).sqrt();
+    let place = if b > 0.0 { -c / (b + root) } else { (root - b) / a };
+    let value = cubic.iter().rev().fold(0.0, |sum, term| sum * place + term);
+    (place > 0.0 && place < 1.0 && value < TRUSTED * from.min(to)).then_some(place)
+}
+
+impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<'_, M, S> {
+    /// The border that is met and left again between two points on the same pieces, if there is one.
+    pub(super) fn touched(
+        &self,
+        near: (&OnCurve, &[Clearance]),
+        far: (&OnCurve, &[Clearance]),
+        itinerary: &[String],
+    ) -> Option<BranchEnd> {
+        self.touched_within(near, far, itinerary, MOST_HALVINGS)
+    }
+
+    fn touched_within(
+        &self,
+        (last, near): (&OnCurve, &[Clearance]),
+        (next, far): (&OnCurve, &[Clearance]),
+        itinerary: &[String],
+        halvings: usize,
+    ) -> Option<BranchEnd> {
+        let off = (&next.at - &last.at).component_div(&self.orbit.scales);
+        let (length, turned) = (off.dot(&last.tangent), next.tangent.dot(&last.tangent));
+        let is_same = |a: &Clearance, b: &Clearance| {
+            (a.place, &a.surface, a.side) == (b.place, &b.surface, b.side)
+        };
+        let places = near.iter().filter_map(|own| {
+            let other = far.iter().find(|other| is_same(own, other))?;
+            suspicious(own, other, length, turned)
+        });
+        let place = places.min_by(f64::total_cmp).filter(|_| halvings > 0)?;
+        let between = self.step(last, place * length).ok().flatten()?;
+        match self.orbit.itinerary(&between.at) {
+            Ok(own) if own == itinerary => {
+                let here = self.orbit.clearances(&between);
+                let first =
+                    self.touched_within((last, near), (&between, &here), itinerary, halvings - 1);
+                first.or_else(|| {
+                    self.touched_within((&between, &here), (next, far), itinerary, halvings - 1)
+                })
+            }
+            Ok(other) => Some(self.border(last, itinerary, other, place * length)),
+            Err(_) => None,
+        }
+    }
+
+    /// The end of a branch of which no further point was found: a border of the map, if other pieces are ahead.
+    pub(super) fn lost(&self, last: &OnCurve, itinerary: &[String], reason: String) -> BranchEnd {
+        let mut ahead = self.steps.shortest;
+        for _ in 0..LOOKS_AHEAD {
+            if let Ok(other) = self.orbit.itinerary(&predicted(&self.orbit.scales, last, ahead))
+                && other != itinerary
+            {
+                return self.border(last, itinerary, other, 0.0);
+            }
+            ahead *= 2.0;
+        }
+        BranchEnd::Lost { reason }
+    }
+
+    /// The border of the map within a step: by halving, and to rounding where the map goes on beyond it.
+    pub(super) fn border(
+        &self,
+        last: &OnCurve,
+        itinerary: &[String],
+        mut beyond: Vec<String>,
+        length: f64,
+    ) -> BranchEnd {
+        // Each half begins at the last point before the border: a prediction from further away could lie beyond it.
+        let (mut at, mut ahead) = (last.clone(), length);
+        for halving in 1.. {
+            let is_last = ahead <= f64::EPSILON * self.steps.longest;
+            if is_last || TRIES.contains(&halving) {
+                let within = if is_last { BESIDE } else { AROUND };
+                let found = self.border_beside(&at, (itinerary, &beyond), within);
+                if let Some(end) = found.filter(|end| is_last || end.1) {
+                    return end.0;
+                }
+            }
+            if is_last {
+                break;
+            }
+            ahead *= 0.5;
+            let found = self.step(&at, ahead).ok().flatten();
+            let own = found.as_ref().map(|found| self.orbit.itinerary(&found.at));
+            match (found, own) {
+                (Some(found), Some(Ok(own))) if own == itinerary => at = found,
+                (_, Some(Ok(other))) => beyond = other,
+                _ => {}
+            }
+        }
+        let place = first_difference(itinerary, &beyond);
+        let at = point_of(&self.orbit, &at, itinerary.to_vec());
+        BranchEnd::Border { border: Border::Piece, at, beyond, place }
+    }
+
+    /// The border next to a point, and true if it is located on both sides of which the map has the two sequences of pieces.
+    fn border_beside(
+        &self,
+        at: &OnCurve,
+        (own, beyond): (&[String], &[String]),
+        within: f64,
+    ) -> Option<(BranchEnd, bool)> {
+        let place = first_difference(own, beyond);
+        let site = OrbitBorder::new(&self.orbit, &at.at, (own, beyond), place, within)?;
+        let mut point = point_of(&self.orbit, at, own.to_vec());
+        // Beside the point along the branch, which goes on smoothly where the map of the first sequence does.
+        let exact = site.located(&self.orbit, &at.at).filter(|(exact, _)| {
+            let by =
+                (BOTH_SIDES * self.steps.longest * &at.tangent).component_mul(&self.orbit.scales);
+            let is_own =
+                |at: DVector<f64>| self.orbit.itinerary(&at).is_ok_and(|found| found == own);
+            is_own(exact - &by) && !is_own(exact + &by)
+        });
+        let is_located = exact.is_some();
+        if let Some((exact, error)) = exact {
+            (point.point, point.parameter) = split(&exact);
+            point.error = error;
+        }
+        let (border, beyond) = (site.site.border, beyond.to_vec());
+        Some((BranchEnd::Border { border, at: point, beyond, place }, is_located))
+    }
+}
+
+/// A border that the orbit of a periodic point meets.
+#[derive(Debug, Clone)]
+pub(super) struct OrbitBorder {
+    /// The pieces of each image, which go on beyond the border.
+    pieces: Vec<Vec<String>>,
+    /// The image on whose way the border is met, and the border.
+    image: usize,
+    pub(super) site: BorderSite,
+}
+
+impl OrbitBorder {
+    /// The border at a place of the orbit's sequence of pieces, where another sequence differs from it.
+    pub(super) fn new<M: MapFamily + ?Sized>(
+        orbit: &Orbit<'_, M>,
+        at: &DVector<f64>,
+        (own, beyond): (&[String], &[String]),
+        place: usize,
+        within: f64,
+    ) -> Option<OrbitBorder> {
+        let Kind::Periodic(period) = orbit.kind else { return None };
+        let (mut point, parameter) = split(at);
+        let (mut pieces, mut found, mut before) = (Vec::new(), None, 0);
+        for image in 0..period {
+            let next = orbit.map.image(&point, parameter).ok()?;
+            let rest = own.get(before..)?;
+            // On the border itself the map does not tell which pieces it meets.
+            let is_behind = place >= before + next.itinerary.len().max(1);
+            if found.is_some() || is_behind && rest.starts_with(&next.itinerary) {
+                pieces.push(next.itinerary.clone());
+            } else {
+                let sides = (rest, beyond.get(before..)?);
+                let site = orbit.map.border((&point, parameter), sides, place - before, within);
+                pieces.push(site.itinerary.clone());
+                found = Some((image, site));
+            }
+            before += next.itinerary.len();
+            point = next.point;
+        }
+        let (image, site) = found?;
+        Some(OrbitBorder { pieces, image, site })
+    }
+
+    /// The maps of the images.
+    fn maps<'m, M: MapFamily + ?Sized>(
+        &self,
+        map: &'m M,
+    ) -> Result<Vec<Box<dyn MapFamily + 'm>>, Error> {
+        let of = |(image, pieces): (usize, &Vec<String>)| {
+            map.along(pieces, (image == self.image).then_some(&self.site))
+        };
+        self.pieces.iter().enumerate().map(of).collect()
+    }
+
+    /// fⁿ(x) − x, and the number that is zero on the border.
+    pub(super) fn values<M: MapFamily + ?Sized>(
+        &self,
+        map: &M,
+        at: &DVector<f64>,
+    ) -> Result<DVector<f64>, Error> {
+        let (start, parameter) = split(at);
+        let (mut point, mut number) = (start.clone(), f64::NAN);
+        for (image, map) in self.maps(map)?.iter().enumerate() {
+            point = map.image(&point, parameter)?.point;
+            if image == self.image {
+                number = point.pop().unwrap_or(f64::NAN);
+            }
+        }
+        let off = point.iter().zip(&start).map(|(f, x)| f - x).chain([number]);
+        Ok(DVector::from_iterator(start.len() + 1, off))
+    }
+
+    /// The derivatives of these values.
+    fn slopes<M: MapFamily + ?Sized>(
+        &self,
+        orbit: &Orbit<'_, M>,
+        at: &DVector<f64>,
+    ) -> Result<DMatrix<f64>, Error> {
+        let maps = self.maps(orbit.map)?;
+        let n = at.len();
+        let mut slopes = DMatrix::zeros(n, n);
+        for axis in 0..n {
+            let mut direction = DVector::zeros(n);
+            direction[axis] = 1.0;
+            let (mut curve, parameter) = orbit.line(at, &direction);
+            for (image, map) in maps.iter().enumerate() {
+                curve = map.pushed(&curve, parameter)?;
+                if image == self.image
+                    && let Some(number) = curve.pop()
+                {
+                    slopes[(n - 1, axis)] = number.0[1];
+                }
+            }
+            for (row, jet) in curve.iter().enumerate() {
+                slopes[(row, axis)] = jet.0[1] - f64::from(row == axis);
+            }
+        }
+        Ok(slopes)
+    }
+
+    /// The point on the border by Newton's method, and its last step in units of the scales; `None` if there is none near.
+    fn located<M: MapFamily + ?Sized>(
+        &self,
+        orbit: &Orbit<'_, M>,
+        near: &DVector<f64>,
+    ) -> Option<(DVector<f64>, f64)> {
+        let (mut at, mut before) = (near.clone(), f64::INFINITY);
+        for _ in 0..MOST_STEPS {
+            let values = self.values(orbit.map, &at).ok()?;
+            let step = self.slopes(orbit, &at).ok()?.lu().solve(&-values)?;
+            at += &step;
+            let length = step.component_div(&orbit.scales).amax();
+            let off = (&at - near).component_div(&orbit.scales).amax();
+            if !(off < NEAR) {
+                return None;
+            }
+            // It ends where rounding lets it become no shorter.
+            if length >= 0.5 * before || length == 0.0 {
+                return Some((at, length));
+            }
+            before = length;
+        }
+        None
+    }
+}
