@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::families::{Border, BorderSite, Clearance, MapFamily, first_difference};
 use equations::Jet;
 use nalgebra::{DMatrix, DVector};
-use std::ops::ControlFlow;
+use std::ops::{AddAssign, ControlFlow};
 
 /// Looks ahead of the last point for other pieces of the map, each twice as far as the one before: up to 10⁶ shortest steps.
 const LOOKS_AHEAD: usize = 20;
@@ -273,25 +273,27 @@ impl OrbitBorder {
         orbit: &Orbit<'_, M>,
         at: &DVector<f64>,
     ) -> Result<DMatrix<f64>, Error> {
-        let maps = self.maps(orbit.map)?;
         let n = at.len();
-        let mut slopes = DMatrix::zeros(n, n);
-        for axis in 0..n {
-            let mut direction = DVector::zeros(n);
-            direction[axis] = 1.0;
-            let (mut curve, parameter) = orbit.line(at, &direction);
-            for (image, map) in maps.iter().enumerate() {
-                curve = map.pushed(&curve, parameter)?;
-                if image == self.image
-                    && let Some(number) = curve.pop()
-                {
-                    slopes[(n - 1, axis)] = number.0[1];
-                }
-            }
-            for (row, jet) in curve.iter().enumerate() {
-                slopes[(row, axis)] = jet.0[1] - f64::from(row == axis);
+        let (mut point, parameter) = split(at);
+        let mut slopes = DMatrix::zeros(n - 1, n);
+        slopes.fill_diagonal(1.0);
+        let mut number = DMatrix::zeros(1, n);
+        for (image, map) in self.maps(orbit.map)?.iter().enumerate() {
+            let (found, own) = map.linearized(&point, parameter)?;
+            slopes = own.columns(0, n - 1) * slopes;
+            slopes.column_mut(n - 1).add_assign(&own.column(n - 1));
+            point = found.point;
+            if image == self.image {
+                point.pop();
+                number = slopes.rows(n - 1, 1).into_owned();
+                slopes = slopes.remove_row(n - 1);
             }
         }
+        for axis in 0..n - 1 {
+            slopes[(axis, axis)] -= 1.0;
+        }
+        slopes = slopes.insert_row(n - 1, 0.0);
+        slopes.row_mut(n - 1).copy_from(&number);
         Ok(slopes)
     }
 

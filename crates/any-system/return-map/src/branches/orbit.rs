@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::families::{MapFamily, curve_after, orbit_after, point_after};
 use equations::Jet;
 use nalgebra::{Complex, DMatrix, DVector, Schur};
+use std::ops::AddAssign;
 
 /// What the points of a branch are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,15 +92,18 @@ impl<M: MapFamily + ?Sized> Curve for Orbit<'_, M> {
     }
 
     fn slopes(&self, at: &DVector<f64>) -> Result<DMatrix<f64>, Error> {
-        let dimension = self.map.dimension();
+        let (mut point, parameter) = split(at);
+        let dimension = point.len();
         let mut slopes = DMatrix::zeros(dimension, dimension + 1);
-        for axis in 0..=dimension {
-            let mut direction = DVector::zeros(dimension + 1);
-            direction[axis] = 1.0;
-            let image = self.pushed(self.line(at, &direction))?;
-            for (row, jet) in image.iter().enumerate() {
-                slopes[(row, axis)] = jet.0[1] - self.kind.at_fold() * f64::from(row == axis);
-            }
+        slopes.fill_diagonal(1.0);
+        for _ in 0..self.times() {
+            let (image, own) = self.map.linearized(&point, parameter)?;
+            slopes = own.columns(0, dimension) * slopes;
+            slopes.column_mut(dimension).add_assign(&own.column(dimension));
+            point = image.point;
+        }
+        for axis in 0..dimension {
+            slopes[(axis, axis)] -= self.kind.at_fold();
         }
         Ok(slopes)
     }

@@ -1,10 +1,10 @@
 //! Where the orbits of equations come near to surfaces, and what lies between two pieces of a return map.
 
 use super::border::{Border, BorderSite, Clearance};
-use super::equation_returns::EquationReturns;
+use super::equation_returns::{EquationReturns, Way};
 use super::family::{Image, MapFamily};
 use super::formula_values::FormulaValues;
-use super::return_arcs::{LIMIT, ReturnArcs, elapsed, name_of};
+use super::return_arcs::{LIMIT, ReturnArcs, name_of};
 use crate::error::Error;
 use equations::Jet;
 use hybrid_system::{Along, Arc, Direction, Equations, Label, Turn};
@@ -52,10 +52,12 @@ impl Observed {
     fn value<const T: usize>(
         &self,
         map: &FormulaValues,
-        (state, time): (&[Jet<T>], Jet<T>),
+        state: &[Jet<T>],
         parameter: Jet<T>,
     ) -> Result<Jet<T>, Error> {
         let count = self.returns.components();
+        // A model whose formulas use the time has it behind the components.
+        let time = state.get(count).copied().unwrap_or(Jet::number(0.0));
         let state = &state[..count.min(state.len())];
         Ok(map.values((state, time), self.returns.parameters(parameter))?[0])
     }
@@ -81,7 +83,7 @@ impl Observed {
             };
             let state: Vec<_> = event.before.iter().map(|x| Jet::<1>([*x])).collect();
             let map = &self.turns[turn].1;
-            let own = self.value(map, (&state, Jet([event.time])), Jet([parameter]))?.value();
+            let own = self.value(map, &state, Jet([parameter]))?.value();
             let side = given.unwrap_or(own.signum());
             // On the positive side of a surface its guard has a minimum where it is nearest.
             let is_nearest = (event.direction == Some(Direction::Rising)) == (side > 0.0);
@@ -111,10 +113,9 @@ impl Observed {
         let first = |jet: &Jet<4>| Jet::<2>([jet.0[0], jet.0[1]]);
         let curve: Vec<Jet<2>> = curve.iter().map(first).collect();
         let parameter = first(&parameter);
+        let point: Vec<f64> = curve.iter().map(Jet::value).collect();
+        let Way { arcs, model, .. } = self.returns.way(&point, parameter.value())?;
         let (mut start, begin) = self.returns.start(&curve, parameter)?;
-        let values: Vec<f64> = start.iter().map(Jet::value).collect();
-        let model = self.returns.model(Some(parameter.value()))?;
-        let arcs = self.returns.arcs(&model, (&values, begin.value()))?;
         if arcs.first().is_some_and(|arc| arc.start.len() > start.len()) {
             start.push(begin);
         }
@@ -122,11 +123,8 @@ impl Observed {
         let of = |near: Nearest| {
             let until = &arcs[..=near.arc];
             let at = model.jet::<2>(until, &along)?;
-            let mut time = begin;
-            time.0[0] += elapsed(until);
-            time.0[1] += at.time.0[1];
             let (turn, map) = &self.turns[near.turn];
-            let mut value = self.value(map, (&at.state, time), parameter)?;
+            let mut value = self.value(map, &at.state, parameter)?;
             value.0.iter_mut().for_each(|part| *part *= near.side);
             let surface = name_of(turn.mode, turn.surface);
             Ok(Clearance { place: near.place, surface, side: near.side, value })
@@ -154,14 +152,6 @@ struct Watch {
 }
 
 impl Passages {
-    fn arcs(&self, point: &[f64], parameter: f64) -> Result<ReturnArcs, Error> {
-        let returns = &self.observed.returns;
-        let coordinates: Vec<_> = point.iter().map(|x| Jet::<1>([*x])).collect();
-        let (start, begin) = returns.start(&coordinates, Jet([parameter]))?;
-        let start: Vec<f64> = start.iter().map(Jet::value).collect();
-        returns.arcs(&*returns.model(Some(parameter))?, (&start, begin.value()))
-    }
-
     /// What is watched; `None` if the guard does not turn, or the passage does not end.
     fn watched(
         &self,
@@ -172,8 +162,7 @@ impl Passages {
         let Some(side) = watch.at_turn else {
             let event = in_passage(arcs, watch.passage).filter_map(Arc::event);
             let mut event = event.filter(|event| !self.observed.is_turn(event.surface));
-            let value =
-                event.next().map(|event| self.guard(watch, (&event.before, event.time), parameter));
+            let value = event.next().map(|event| self.guard(watch, &event.before, parameter));
             return value.transpose();
         };
         let near = self.observed.nearest(arcs, parameter, Some(side))?;
@@ -184,24 +173,19 @@ impl Passages {
         Ok(near.iter().find(is_own).map(|near| near.value))
     }
 
-    fn guard(
-        &self,
-        watch: &Watch,
-        (state, time): (&DVector<f64>, f64),
-        parameter: f64,
-    ) -> Result<f64, Error> {
+    fn guard(&self, watch: &Watch, state: &DVector<f64>, parameter: f64) -> Result<f64, Error> {
         let state: Vec<_> = state.iter().map(|x| Jet::<1>([*x])).collect();
-        Ok(self.observed.value(&watch.guard, (&state, Jet([time])), Jet([parameter]))?.value())
+        Ok(self.observed.value(&watch.guard, &state, Jet([parameter]))?.value())
     }
 
     /// How far a point is from the border, in parts of the size of the guard in the passage.
     fn distance(&self, (point, parameter): (&[f64], f64)) -> Option<f64> {
         let watch = self.watch.as_ref()?;
-        let arcs = self.arcs(point, parameter).ok()?;
+        let Way { arcs, .. } = self.observed.returns.way(point, parameter).ok()?;
         let value = self.watched(watch, &arcs, parameter).ok()??;
         let mut size = 0.0;
         for arc in in_passage(&arcs, watch.passage) {
-            let ends = [(&arc.start, arc.time), (&arc.event()?.before, arc.event()?.time)];
+            let ends = [&arc.start, &arc.event()?.before];
             for at in ends {
                 size = f64::max(size, self.guard(watch, at, parameter).ok()?.abs());
             }
@@ -224,11 +208,11 @@ impl MapFamily for Passages {
     }
 
     fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error> {
-        let mut image = self.observed.returns.image(point, parameter)?;
+        let way = self.observed.returns.way(point, parameter)?;
+        let mut image = self.observed.returns.image_after(&way, parameter)?;
         image.itinerary.clone_from(&self.itinerary);
         if let Some(watch) = &self.watch {
-            let arcs = self.arcs(point, parameter)?;
-            let value = self.watched(watch, &arcs, parameter)?;
+            let value = self.watched(watch, &way.arcs, parameter)?;
             image
                 .point
                 .push(value.ok_or_else(|| Error::NoImage { point: point.to_vec(), parameter })?);
@@ -351,7 +335,7 @@ impl EquationReturns {
         let rate = guard.rate(field).ok()?;
         let rate = FormulaValues::new(&rate, "formulas of a guard", (1, 1)).ok()?;
         let along = self.passages(own, None).ok()?;
-        let arcs = along.arcs(point, parameter).ok()?;
+        let Way { arcs, .. } = along.observed.returns.way(point, parameter).ok()?;
         let state = &arcs.last()?.event()?.before;
         let zero = (0..3).all(|k| {
             let moved = |(axis, x): (usize, &f64)| {
@@ -359,7 +343,7 @@ impl EquationReturns {
                 Jet::<1>([x + by * x.abs().max(1.0)])
             };
             let state: Vec<_> = state.iter().enumerate().map(moved).collect();
-            let value = along.observed.value(&rate, (&state, Jet([0.0])), Jet([parameter]));
+            let value = along.observed.value(&rate, &state, Jet([parameter]));
             value.is_ok_and(|value| value.value().abs() <= STAYS)
         });
         Some(zero)

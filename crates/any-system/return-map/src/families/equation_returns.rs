@@ -9,7 +9,7 @@ use super::return_arcs::{ReturnArcs, elapsed, itinerary, least_certain};
 use crate::error::Error;
 use equations::{Expression, Formulas, Jet, Names, Parameters, States};
 use hybrid_system::{Along, Equations, EquationsModel, Execution, Label, Limits, Stop, Tolerances};
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use std::sync::{self, Mutex, OnceLock};
 
 /// The return map of [`Equations`] to the events of a surface, as one of their parameters changes. (feature `ode` of
@@ -60,6 +60,15 @@ pub struct EquationReturns {
 }
 
 type ReturnModel = EquationsModel<DVector<f64>>;
+
+/// A return from a point.
+#[derive(Debug)]
+pub(super) struct Way {
+    pub(super) arcs: ReturnArcs,
+    pub(super) model: sync::Arc<ReturnModel>,
+    /// The time at which it begins. That of the arcs counts from there.
+    begin: f64,
+}
 
 /// The number of models that are kept. A map has many images at one parameter, and a diagram computes as many columns at once as there are
 /// processors.
@@ -342,6 +351,49 @@ impl EquationReturns {
         let (time, events) = (run.time(), run.jump());
         Err(Error::NoReturn { stop, surface, time, events })
     }
+
+    /// The return from a point.
+    pub(super) fn way(&self, point: &[f64], parameter: f64) -> Result<Way, Error> {
+        let coordinates: Vec<Jet<1>> = point.iter().map(|x| Jet([*x])).collect();
+        let (start, begin) = self.start(&coordinates, Jet([parameter]))?;
+        let start: Vec<f64> = start.iter().map(Jet::value).collect();
+        let model = self.model(Some(parameter))?;
+        let begin = begin.value();
+        Ok(Way { arcs: self.arcs(&model, (&start, begin))?, model, begin })
+    }
+
+    /// The image at the end of a return.
+    pub(super) fn image_after(&self, way: &Way, parameter: f64) -> Result<Image, Error> {
+        let arcs = &way.arcs;
+        let still = |value: f64| Jet::<1>([value]);
+        let after = arcs.last().and_then(|arc| arc.event()?.after.as_ref());
+        let state = after.map_or(&[][..], |(_, state)| state.as_slice());
+        let state: Vec<Jet<1>> = state.iter().copied().map(still).collect();
+        let at = (&state[..], still(way.begin + elapsed(arcs)));
+        let image = self.image_of(at, still(parameter))?;
+        let (point, certainty) = (image.iter().map(Jet::value).collect(), least_certain(arcs));
+        Ok(Image { point, itinerary: itinerary(arcs), time: elapsed(arcs), certainty })
+    }
+
+    /// The image of a curve at the end of the arcs from its first point.
+    fn pushed_along<const T: usize>(
+        &self,
+        way: &Way,
+        curve: &[Jet<T>],
+        parameter: Jet<T>,
+    ) -> Result<Vec<Jet<T>>, Error> {
+        let (mut start, begin) = self.start(curve, parameter)?;
+        if way.arcs.first().is_some_and(|arc| arc.start.len() > start.len()) {
+            start.push(begin);
+        }
+        let along = Along::curve(&start).and_parameter_curve(&self.parameter, parameter);
+        let back = way.model.jet::<T>(&way.arcs, &along)?;
+        // The time of the arcs is that since their start.
+        let mut time = begin;
+        time.0.iter_mut().zip(back.time.0).skip(1).for_each(|(own, more)| *own += more);
+        time.0[0] += elapsed(&way.arcs);
+        self.image_of((&back.state, time), parameter)
+    }
 }
 
 impl MapFamily for EquationReturns {
@@ -350,42 +402,43 @@ impl MapFamily for EquationReturns {
     }
 
     fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error> {
-        let still = |value: f64| Jet::<1>([value]);
-        let coordinates: Vec<Jet<1>> = point.iter().copied().map(still).collect();
-        let (start, begin) = self.start(&coordinates, still(parameter))?;
-        let start: Vec<f64> = start.iter().map(Jet::value).collect();
-        let arcs = self.arcs(&*self.model(Some(parameter))?, (&start, begin.value()))?;
-        let time = elapsed(&arcs);
-        let after = arcs.last().and_then(|arc| arc.event()?.after.as_ref());
-        let state = after.map_or(&[][..], |(_, state)| state.as_slice());
-        let state: Vec<Jet<1>> = state.iter().copied().map(still).collect();
-        let at = (&state[..], still(begin.value() + time));
-        let image = self.image_of(at, still(parameter))?;
-        let (point, certainty) = (image.iter().map(Jet::value).collect(), least_certain(&arcs));
-        Ok(Image { point, itinerary: itinerary(&arcs), time, certainty })
+        self.image_after(&self.way(point, parameter)?, parameter)
     }
 
     fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
-        let (start, begin) = self.start(curve, parameter)?;
-        let values: Vec<f64> = start.iter().map(Jet::value).collect();
-        let model = self.model(Some(parameter.value()))?;
-        let arcs = self.arcs(&model, (&values, begin.value()))?;
-        let mut whole = start;
-        if arcs.first().is_some_and(|arc| arc.start.len() > whole.len()) {
-            whole.push(begin);
-        }
-        let along = Along::curve(&whole).and_parameter_curve(&self.parameter, parameter);
-        let back = match model.jet::<4>(&arcs, &along) {
-            Err(hybrid_system::Error::NoSensitivity { .. }) => {
-                return differences::pushed(self, curve, parameter);
+        let point: Vec<f64> = curve.iter().map(Jet::value).collect();
+        let way = self.way(&point, parameter.value())?;
+        match self.pushed_along(&way, curve, parameter) {
+            Err(Error::Execution(hybrid_system::Error::NoSensitivity { .. })) => {
+                differences::pushed(self, curve, parameter)
             }
-            back => back?,
-        };
-        // The time of the arcs is that since their start.
-        let mut time = begin;
-        time.0.iter_mut().zip(back.time.0).skip(1).for_each(|(own, more)| *own += more);
-        time.0[0] += elapsed(&arcs);
-        self.image_of((&back.state, time), parameter)
+            found => found,
+        }
+    }
+
+    /// The execution is computed once, and each derivative by a polynomial of degree one.
+    fn linearized(&self, point: &[f64], parameter: f64) -> Result<(Image, DMatrix<f64>), Error> {
+        let way = self.way(point, parameter)?;
+        let image = self.image_after(&way, parameter)?;
+        let mut slopes = DMatrix::zeros(point.len(), point.len() + 1);
+        for axis in 0..=point.len() {
+            let along = |(k, x): (usize, &f64)| Jet::moving(*x, f64::from(k == axis));
+            let curve: Vec<Jet<2>> = point.iter().enumerate().map(along).collect();
+            let moving = Jet::moving(parameter, f64::from(axis == point.len()));
+            let pushed = match self.pushed_along(&way, &curve, moving) {
+                Err(Error::Execution(hybrid_system::Error::NoSensitivity { .. })) => {
+                    let further = |jet: &Jet<2>| Jet([jet.0[0], jet.0[1], 0.0, 0.0]);
+                    let curve: Vec<Jet<4>> = curve.iter().map(further).collect();
+                    let pushed = differences::pushed(self, &curve, further(&moving))?;
+                    pushed.iter().map(|jet| Jet([jet.0[0], jet.0[1]])).collect()
+                }
+                found => found?,
+            };
+            for (row, jet) in pushed.iter().enumerate() {
+                slopes[(row, axis)] = jet.0[1];
+            }
+        }
+        Ok((image, slopes))
     }
 
     fn clearances(

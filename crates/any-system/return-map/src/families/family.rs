@@ -5,6 +5,7 @@ use super::differences::pushed;
 use crate::error::Error;
 use equations::Jet;
 use hybrid_system::Certainty;
+use nalgebra::DMatrix;
 
 /// The image of a point.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,6 +54,26 @@ pub trait MapFamily: Sync {
     /// Those of the map. [`Error::Differences`] if it has several pieces there.
     fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
         pushed(self, curve, parameter)
+    }
+
+    /// The image, and its derivatives by the components of the point and, in the last column, by the parameter.
+    ///
+    /// Default: those of [`pushed`](Self::pushed).
+    ///
+    /// # Errors
+    /// Those of the map and of its derivatives.
+    fn linearized(&self, point: &[f64], parameter: f64) -> Result<(Image, DMatrix<f64>), Error> {
+        let image = self.image(point, parameter)?;
+        let mut slopes = DMatrix::zeros(image.point.len(), point.len() + 1);
+        for axis in 0..=point.len() {
+            let along = |(k, x): (usize, &f64)| Jet::moving(*x, f64::from(k == axis));
+            let curve: Vec<Jet<4>> = point.iter().enumerate().map(along).collect();
+            let parameter = Jet::moving(parameter, f64::from(axis == point.len()));
+            for (row, jet) in self.pushed(&curve, parameter)?.iter().enumerate() {
+                slopes[(row, axis)] = jet.0[1];
+            }
+        }
+        Ok((image, slopes))
     }
 
     /// How near the orbits of a curve of starts come to the surfaces that they do not meet. On a branch a surface that is touched and
@@ -111,6 +132,9 @@ impl<T: MapFamily + ?Sized> MapFamily for &T {
     }
     fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
         (**self).pushed(curve, parameter)
+    }
+    fn linearized(&self, point: &[f64], parameter: f64) -> Result<(Image, DMatrix<f64>), Error> {
+        (**self).linearized(point, parameter)
     }
     fn clearances(
         &self,

@@ -2,7 +2,6 @@
 
 use crate::error::Error;
 use crate::families::{MapFamily, point_after};
-use equations::Jet;
 use nalgebra::DMatrix;
 
 /// A mean over an orbit, with an interval that holds the limit with 95 % if the orbit is typical.
@@ -70,14 +69,17 @@ pub fn lyapunov_exponents<M: MapFamily + ?Sized>(
     let (mut batches, mut times) = (vec![vec![0.0; dimension]; BATCHES], vec![0.0; BATCHES]);
     for (sums, time) in batches.iter_mut().zip(&mut times) {
         for _ in 0..per_batch {
-            *time += map.image(&point, parameter)?.time;
-            let (image, slopes) = derivative(map, &point, parameter)?;
-            let qr = (slopes * &frame).qr();
+            let (image, slopes) = map.linearized(&point, parameter)?;
+            if !slopes.iter().chain(&image.point).all(|x| x.is_finite()) {
+                return Err(Error::NoImage { point, parameter });
+            }
+            *time += image.time;
+            let qr = (slopes.columns(0, dimension) * &frame).qr();
             let r = qr.r();
             for (axis, sum) in sums.iter_mut().enumerate() {
                 *sum += pxfm::f_log(r[(axis, axis)].abs());
             }
-            (frame, point) = (qr.q(), image);
+            (frame, point) = (qr.q(), image.point);
         }
     }
     let count = per_batch as f64;
@@ -103,28 +105,4 @@ fn mean(parts: impl Iterator<Item = f64>) -> OrbitMean {
     let squares = parts.iter().map(|part| (part - value) * (part - value)).sum::<f64>();
     let error = STUDENT * (squares / (count * (count - 1.0))).sqrt();
     OrbitMean { value, lower: value - error, upper: value + error }
-}
-
-/// The image and the derivative of a map at a point.
-fn derivative<M: MapFamily + ?Sized>(
-    map: &M,
-    point: &[f64],
-    parameter: f64,
-) -> Result<(Vec<f64>, DMatrix<f64>), Error> {
-    let dimension = point.len();
-    let mut slopes = DMatrix::zeros(dimension, dimension);
-    let mut image = Vec::new();
-    for axis in 0..dimension {
-        let along = |(k, x): (usize, &f64)| Jet::<4>::moving(*x, f64::from(k == axis));
-        let curve: Vec<Jet<4>> = point.iter().enumerate().map(along).collect();
-        let pushed = map.pushed(&curve, Jet::number(parameter))?;
-        for (row, jet) in pushed.iter().enumerate() {
-            slopes[(row, axis)] = jet.0[1];
-        }
-        image = pushed.iter().map(Jet::value).collect();
-    }
-    match slopes.iter().chain(&image).all(|x| x.is_finite()) {
-        true => Ok((image, slopes)),
-        false => Err(Error::NoImage { point: point.to_vec(), parameter }),
-    }
 }
