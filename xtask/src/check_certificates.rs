@@ -4,7 +4,7 @@
 //! index. If they cannot be had, a line that begins with SKIPPED is printed.
 
 use crate::error::Error;
-use crate::process::{cargo, skip, step, steps};
+use crate::process::{cargo, profile, skip, step, steps};
 use crate::python_environment::{environment_python, first_python};
 use crate::repository::repository;
 use std::path::{Path, PathBuf};
@@ -34,8 +34,8 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     // The files of an earlier run must not pass for new ones.
     certificates(&folder).iter().for_each(|file| drop(std::fs::remove_file(file)));
     let mut prove = Command::new(cargo());
-    prove.args(["run", "--quiet", "--release", "--package", "hopper-studies", "--", "prove"]);
-    prove.args(["--gate", "--out"]).arg(&folder).current_dir(repository());
+    prove.args(["run", "--quiet", "--package", "hopper-studies"]).arg(profile());
+    prove.args(["--", "prove", "--gate", "--out"]).arg(&folder).current_dir(repository());
     step(&mut prove, "prove")?;
     let files = certificates(&folder);
     let script = |name: &'static str, arguments: &[&str], files: &[PathBuf]| {
@@ -47,7 +47,7 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     let within = [folder.clone()];
     // Enclosures of functions. Both programs and all lemmas rest on sines and cosines.
     let mut enclosures = Command::new(cargo());
-    enclosures.args(["run", "--quiet", "--release", "--package", "interval-arithmetic"]);
+    enclosures.args(["run", "--quiet", "--package", "interval-arithmetic"]).arg(profile());
     enclosures
         .args(["--example", "function_enclosures", "--", ARGUMENTS])
         .current_dir(repository());

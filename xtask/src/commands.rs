@@ -1,7 +1,7 @@
 //! The commands: those of this program in a table, those of the studies read from where they are defined.
 
 use crate::error::Error;
-use crate::process::{become_program, cargo, print};
+use crate::process::{become_program, cargo, print, profile};
 use crate::repository::repository;
 use crate::{check_builds, check_certificates, check_dependencies, check_explorer, check_python};
 use crate::{explore, regenerate, tidy};
@@ -150,7 +150,7 @@ fn start(name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
 /// Builds a program of the workspace and runs it in the user's current folder.
 fn run_program(package: &str, name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
     let mut command = Command::new(cargo());
-    command.args(["run", "--quiet", "--release", "--package", package, "--manifest-path"]);
+    command.args(["run", "--quiet", "--package", package]).arg(profile()).arg("--manifest-path");
     command.arg(repository().join("Cargo.toml"));
     command.args([OsStr::new("--"), OsStr::new(name)]).args(arguments);
     become_program(&mut command)

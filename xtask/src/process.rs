@@ -33,6 +33,15 @@ pub(crate) fn cargo() -> OsString {
     std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
 }
 
+/// The option with the profile in which programs of the workspace run: release, or the one that the variable
+/// `XTASK_PROFILE` names. The gate names `dev`, in which the tests have built them before.
+pub(crate) fn profile() -> OsString {
+    let named = std::env::var_os("XTASK_PROFILE").filter(|name| !name.is_empty());
+    let mut option = OsString::from("--profile=");
+    option.push(named.unwrap_or_else(|| "release".into()));
+    option
+}
+
 /// Runs a step to its end; its own messages stand above the error.
 pub(crate) fn step(command: &mut Command, what: &str) -> Result<(), Error> {
     let status = command.status().map_err(Error::starting(command.get_program()))?;
