@@ -2,8 +2,8 @@
 //! package).
 
 use hybrid_system::{
-    Crossing, Error, Event, Execution, Guard, HybridSystem, Limits, NextEvent, Reset, Search,
-    State, Tolerances, integrated_crossing, integrated_flow,
+    Crossing, Equations, Error, Event, Execution, Guard, HybridSystem, Limits, NextEvent, Reset,
+    Search, State, Tolerances, integrated_crossing, integrated_flow,
 };
 use nalgebra::{SVector, Vector2, Vector3};
 use return_map::Section;
@@ -18,6 +18,41 @@ const FILLING: f64 = 20.0;
 const RESTITUTION: f64 = 0.8;
 /// The tolerances of the tutorial, so that speeds can be compared.
 const TOLERANCES: Tolerances = Tolerances::both(1e-10);
+
+/// Flow rates of the tutorial's diagram.
+pub const SMALLEST_FLOW: f64 = 0.2;
+/// The largest one.
+pub const LARGEST_FLOW: f64 = 10.0;
+
+/// The valve by its equations, with the flow rate q as the parameter `flow`.
+pub fn valve_equations() -> Equations {
+    let numbers = [
+        ("flow", "1"),
+        ("damping", "1.25"),
+        ("load", "10"),
+        ("filling", "20"),
+        ("restitution", "0.8"),
+    ];
+    Equations::new(&["displacement", "velocity", "pressure"], &numbers)
+        .mode_text(
+            "open",
+            &[
+                "velocity",
+                "pressure - load - displacement - damping*velocity",
+                "filling*(flow - displacement*sqrt(pressure))",
+            ],
+        )
+        .falling_text("seat", "displacement")
+        .resets_text(&["0", "-restitution*velocity", "pressure"])
+        .contact()
+        .falling_text("turning point", "velocity")
+        .crossing()
+        .rests_at("closed", |_, x, _| [x[0].number(0.0), x[0].number(0.0), x[2]])
+        .mode_text("closed", &["0", "0", "filling*flow"])
+        .rising_text("release", "pressure - load")
+        .resets_text(&["0", "0", "load"])
+        .to("open")
+}
 
 /// The two modes of the disc.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -10,6 +10,7 @@
 //! | [`Marker`] | symbols that differ by shape as well as by colour |
 //! | [`Svg::line_key`], [`Svg::marker_key`] | a sample of a line or a symbol, with its name |
 //! | [`smooth`], [`graph_pieces`] | curves and graphs of functions that do not exist everywhere |
+//! | [`Frame::point_cloud`], [`Frame::branch`], [`Frame::labelled_point`] | bifurcation diagrams: orbits in greys, branches that attract or not, bifurcations |
 //! | [`cobweb`] | the corners of the cobweb of an orbit |
 //! | [`palette`] | colours for categories |
 //! | [`html`] | the markup of labels as HTML |
@@ -47,6 +48,7 @@ pub mod axes;
 mod cobweb;
 mod curve;
 mod data;
+mod diagram;
 mod document;
 mod error;
 mod font;

@@ -20,11 +20,12 @@ const TRUSTED: f64 = 0.25;
 /// How often a step is halved at such places.
 const MOST_HALVINGS: usize = 10;
 
-/// How far from the point that bisection has found a border is looked for, in units of the scales.
-const NEAR: f64 = 1e-3;
+/// How far from the last point a border is looked for, in units of the scales. Beside a grazing a branch of orbits that meet the surface turns as
+/// a root does, and its last point is far off. Pieces on both sides tell if the border is that of the branch.
+const NEAR: f64 = 0.02;
 
-/// After so many halvings the border is tried to be located.
-const TRIES: [usize; 3] = [6, 18, 30];
+/// Before so many halvings the border is tried to be located.
+const TRIES: [usize; 4] = [1, 6, 18, 30];
 
 /// The largest distance from a border of a point beside it, in parts of the size of the guard. A point that was found by halving alone
 /// is beside its border to rounding; beside a grazing the speed of an event that vanishes is the root of that, and its square counts. A border
@@ -125,7 +126,7 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
             if let Ok(other) = self.orbit.itinerary(&predicted(&self.orbit.scales, last, ahead))
                 && other != itinerary
             {
-                return self.border(last, itinerary, other, 0.0);
+                return self.border(last, itinerary, other, ahead);
             }
             ahead *= 2.0;
         }

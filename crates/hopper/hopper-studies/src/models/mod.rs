@@ -1,5 +1,6 @@
 //! Figures of the generic crates: how guards are met, what happens at surfaces, and example models.
 
+mod bifurcations;
 mod eccentric_cylinder;
 mod forced_oscillator;
 mod guards;

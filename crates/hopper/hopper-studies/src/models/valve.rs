@@ -1,14 +1,20 @@
 //! The bifurcation diagram of the pressure relief valve.
 
+use super::bifurcations::{draw_branch, draw_end};
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
-use example_systems::valve::turning_points;
-use journal_figures::{Frame, Svg, csv_file, indexed_png, ticks};
-use rayon::prelude::*;
+use example_systems::valve::{LARGEST_FLOW, SMALLEST_FLOW, valve_equations};
+use hybrid_system::Tolerances;
+use journal_figures::{Anchor, Frame, Svg, csv_file, ticks};
+use return_map::{
+    BranchEnd, BranchSteps, EquationReturns, OrbitLength, Seeds, bifurcation_diagram,
+    doubled_branch, follow_branch,
+};
+use std::ops::ControlFlow::Continue;
 
 /// Flow rates of the tutorial's diagram.
-const RATES: (f64, f64) = (0.2, 10.0);
+const RATES: (f64, f64) = (SMALLEST_FLOW, LARGEST_FLOW);
 /// Number of flow rates, and number of flow rates in one piece that is stored on disk.
 const COLUMNS: usize = 980;
 const PIECE: usize = 20;
@@ -18,43 +24,63 @@ const TRANSIENT: usize = 1024;
 /// Turning points that are drawn. A periodic orbit with up to three of them meets each of its pixels 32 times or more,
 /// and is drawn black.
 const DRAWN: usize = 96;
-/// The picture in pixels, two across for each flow rate.
-const PIXELS: (usize, usize) = (2 * COLUMNS, 1200);
+/// The picture in pixels.
+const PIXELS: (usize, usize) = (COLUMNS, 600);
 /// The largest displacement that is drawn: the next whole number above the largest one found, 8.86.
 const HIGHEST: f64 = 9.0;
+/// Displacement and pressure at the start of each orbit.
+const START: [f64; 2] = [1.0, 10.0];
+/// A flow rate at which one orbit attracts all, and where the branches begin.
+const CALM: f64 = 4.0;
 
-/// The displacements at the turning points against the flow rate.
+/// The displacements at the turning points against the flow rate, with the orbits of one and two turning points.
 pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
+    let valve = valve_equations();
+    let section = ("open", "turning point");
+    let returns = EquationReturns::new(&valve, "flow", section, &["displacement", "pressure"])?;
+    // The tolerance of the tutorial for the orbits, the usual one for the branches.
+    let coarse = EquationReturns::new(&valve, "flow", section, &["displacement", "pressure"])?
+        .tolerances(Tolerances::both(1e-10));
     let rate =
         |column: usize| RATES.0 + (RATES.1 - RATES.0) * (column as f64 + 0.5) / COLUMNS as f64;
-    let pieces = job.scan("the valve's turning points", COLUMNS / PIECE, |piece| {
-        let columns = piece * PIECE..(piece + 1) * PIECE;
-        let displacements: Vec<Vec<f64>> = columns
-            .into_par_iter()
-            .map(|column| turning_points(rate(column), TRANSIENT, DRAWN))
-            .collect::<Result<_, _>>()?;
-        Ok(displacements.concat())
-    })?;
-    let displacements: Vec<f64> = pieces.concat();
-    let (width, height) = PIXELS;
-    let mut hits = vec![0u32; width * height];
-    for (k, &displacement) in displacements.iter().enumerate() {
-        let row = ((1.0 - displacement / HIGHEST) * height as f64).floor();
-        if row >= 0.0 && row < height as f64 {
-            for (down, right) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                let row = (row as usize + down).min(height - 1);
-                hits[row * width + 2 * (k / DRAWN) + right] += 1;
+    let seeds = [START.to_vec()];
+    let orbits = |rates: &[f64], length: OrbitLength| -> Result<Vec<Vec<f64>>, Error> {
+        let seeds = (&seeds[..], Seeds::Fresh);
+        let columns = bifurcation_diagram(&coarse, rates, seeds, length, |_| Continue(()));
+        let mut found = Vec::new();
+        for column in columns {
+            for orbit in column.orbits {
+                found.extend(orbit?);
             }
         }
-    }
-    // The shade is the bit length of the number of hits: one hit is light grey, 32 or more are black.
-    let shades: Vec<[u8; 3]> = [255, 120, 85, 60, 40, 20, 0].map(|grey| [grey; 3]).to_vec();
-    let pixels: Vec<u8> =
-        hits.iter().map(|&hits| (32 - hits.leading_zeros()).min(6) as u8).collect();
-    let png = indexed_png("valve", width, height, &shades, &pixels)?;
+        Ok(found)
+    };
+    let pieces = job.scan("the valve's turning points", COLUMNS / PIECE, |piece| {
+        let rates: Vec<f64> = (piece * PIECE..(piece + 1) * PIECE).map(rate).collect();
+        let length = OrbitLength { transient: TRANSIENT, keep: DRAWN };
+        Ok(orbits(&rates, length)?.iter().map(|point| point[0]).collect::<Vec<f64>>())
+    })?;
+    let displacements: Vec<f64> = pieces.concat();
     let mut svg = Svg::new(620.0, 400.0);
     let frame = Frame::linear(62.0, 14.0, 540.0, 330.0, RATES, (0.0, HIGHEST));
-    svg.image(frame.left, frame.top, frame.width, frame.height, &png);
+    let points = displacements.iter().enumerate();
+    let points = points.map(|(k, &displacement)| (rate(k / DRAWN), displacement));
+    frame.point_cloud(&mut svg, PIXELS, points)?;
+    let steps = BranchSteps::default();
+    let see = |_: &_| Continue(());
+    let calm = orbits(&[CALM], OrbitLength { transient: TRANSIENT, keep: 1 })?.concat();
+    let once = follow_branch(&returns, 1, (&calm, CALM), RATES, steps, see)?;
+    for doubling in &once.bifurcations {
+        draw_branch(&mut svg, frame, &doubled_branch(&returns, (1, doubling), RATES, steps, see)?);
+    }
+    draw_branch(&mut svg, frame, &once);
+    // Behind the grazing the disc does not hit its seat.
+    if let BranchEnd::Border { at, .. } = &once.ends[1] {
+        let start = (&at.point[..], at.parameter + BESIDE);
+        let free = follow_branch(&returns, 1, start, (at.parameter, RATES.1), steps, see)?;
+        draw_branch(&mut svg, frame, &free);
+        draw_end(&mut svg, frame, &once.ends[1], Anchor::Start);
+    }
     frame.axes(
         &mut svg,
         &ticks(RATES, 10),
@@ -77,3 +103,6 @@ pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
         ],
     )
 }
+
+/// How far behind the grazing the branch of free orbits begins.
+const BESIDE: f64 = 0.02;
