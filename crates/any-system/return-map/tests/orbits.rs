@@ -191,3 +191,30 @@ fn rotation_numbers() {
     assert!(rotation_number(&spiral, (&[1.0, 0.0], 0.0), 0, 0, angle).is_err());
     assert!(rotation_number(&spiral, (&[0.0, 0.0], 0.0), 0, 9, |_, _| f64::NAN).is_err());
 }
+
+/// The returns of a valve to its turning points become infinitely many in finite time. Image for image they would come nearer to the seat for
+/// ever; the orbit passes the limit, rests, and is released.
+#[test]
+fn an_orbit_passes_zeno_limits() {
+    let section = ("open", "turning point");
+    let names = ["displacement", "pressure"];
+    let valve = example_systems::valve::valve_equations();
+    let returns = EquationReturns::new(&valve, "flow", section, &names)
+        .unwrap()
+        .tolerances(hybrid_system::Tolerances::both(1e-9));
+    let (mut largest, mut count) = (0.0f64, 0);
+    let mut see = |image: return_map::Image| {
+        count += 1;
+        if count > 200 {
+            largest = largest.max(image.point[0]);
+        }
+        Continue(())
+    };
+    returns.orbit(&[0.001, 1.0], 0.2, 260, &mut see).unwrap();
+    assert!(count == 260 && largest > 0.1, "{largest}");
+    let mut point = vec![0.001, 1.0];
+    for _ in 0..260 {
+        point = returns.image(&point, 0.2).unwrap().point;
+    }
+    assert!(point[0] < 1e-20, "{point:?}");
+}

@@ -5,5 +5,6 @@
 
 mod check_bounds;
 mod check_reference;
+mod generic_tools;
 mod reproduce_paper;
 mod two_reports;

@@ -134,11 +134,26 @@ impl GuardProgram {
     }
 }
 
+impl Equations {
+    fn all_guards(&self) -> impl Iterator<Item = &GuardEquations> {
+        self.modes.iter().flat_map(|mode| &mode.guards).chain(&self.everywhere)
+    }
+
+    fn uses_time(&self) -> bool {
+        self.modes.iter().any(ModeEquations::uses_time)
+            || self.all_guards().any(GuardEquations::uses_time)
+    }
+
+    /// True if nothing depends on the time: no formula uses it, and there is no clock. What follows from a state is then the same at any
+    /// time.
+    pub fn is_autonomous(&self) -> bool {
+        !self.uses_time() && self.all_guards().all(|guard| guard.guard.role != Role::Clock)
+    }
+}
+
 impl Programs {
     pub(super) fn new(equations: &Equations) -> Result<Programs, Error> {
-        let guards = equations.modes.iter().flat_map(|mode| &mode.guards);
-        let uses_time = equations.modes.iter().any(ModeEquations::uses_time)
-            || guards.chain(&equations.everywhere).any(GuardEquations::uses_time);
+        let uses_time = equations.uses_time();
         let modes =
             equations.modes.iter().map(|mode| mode.program(&equations.everywhere, uses_time));
         Ok(Programs {

@@ -1,7 +1,8 @@
 //! Where the orbits of equations come near to surfaces, and what lies between two pieces of a return map.
 
 use super::border::{Border, BorderSite, Clearance};
-use super::equation_returns::{EquationReturns, Way};
+use super::equation_returns::EquationReturns;
+use super::equation_ways::Way;
 use super::family::{Image, MapFamily};
 use super::formula_values::FormulaValues;
 use super::return_arcs::{LIMIT, ReturnArcs, name_of};

@@ -1,15 +1,11 @@
 //! Return maps of hybrid systems that are given by their equations, as families of maps.
 
-use super::border::{BorderSite, Clearance};
-use super::differences;
 use super::equation_borders::Observed;
-use super::family::{Image, MapFamily};
 use super::formula_values::FormulaValues;
-use super::return_arcs::{ReturnArcs, elapsed, itinerary, least_certain};
 use crate::error::Error;
-use equations::{Expression, Formulas, Jet, Names, Parameters, States};
-use hybrid_system::{Along, Equations, EquationsModel, Execution, Label, Limits, Stop, Tolerances};
-use nalgebra::{DMatrix, DVector};
+use equations::{Expression, Formulas, Names, Parameters, States};
+use hybrid_system::{Equations, EquationsModel, Label, Limits, Tolerances};
+use nalgebra::DVector;
 use std::sync::{self, Mutex, OnceLock};
 
 /// The return map of [`Equations`] to the events of a surface, as one of their parameters changes. (feature `ode` of
@@ -43,39 +39,25 @@ use std::sync::{self, Mutex, OnceLock};
 pub struct EquationReturns {
     pub(super) equations: Equations,
     pub(super) parameter: String,
-    mode: Label,
+    pub(super) mode: Label,
     pub(super) surface: Label,
     /// The names of the coordinates, with the parameters of the equations.
-    section: Names,
+    pub(super) section: Names,
     /// The start from the coordinates.
-    start: Option<sync::Arc<FormulaValues>>,
+    pub(super) start: Option<sync::Arc<FormulaValues>>,
     /// The coordinates from the state.
-    coordinates: Option<sync::Arc<FormulaValues>>,
-    tolerances: Tolerances,
-    limits: Limits,
+    pub(super) coordinates: Option<sync::Arc<FormulaValues>>,
+    pub(super) tolerances: Tolerances,
+    pub(super) limits: Limits,
+    /// True if neither the equations nor the coordinates use the time.
+    pub(super) is_autonomous: bool,
     /// The last models, by the bits of the parameter.
-    models: Mutex<Vec<(u64, sync::Arc<ReturnModel>)>>,
+    pub(super) models: Mutex<Vec<(u64, sync::Arc<ReturnModel>)>>,
     /// The same with observers of turns, made at its first use.
-    observed: OnceLock<Result<Box<Observed>, Error>>,
+    pub(super) observed: OnceLock<Result<Box<Observed>, Error>>,
 }
 
-type ReturnModel = EquationsModel<DVector<f64>>;
-
-/// A return from a point.
-#[derive(Debug)]
-pub(super) struct Way {
-    pub(super) arcs: ReturnArcs,
-    pub(super) model: sync::Arc<ReturnModel>,
-    /// The time at which it begins. That of the arcs counts from there.
-    begin: f64,
-}
-
-/// The number of models that are kept. A map has many images at one parameter, and a diagram computes as many columns at once as there are
-/// processors.
-const KEPT_MODELS: usize = 16;
-
-/// The time at which a return begins, unless the start says another one.
-const START: f64 = 0.0;
+pub(super) type ReturnModel = EquationsModel<DVector<f64>>;
 
 /// The longest return of a map that states no limits: a thousand time units and ten thousand events.
 const LONGEST: (f64, usize) = (1e3, 10_000);
@@ -115,6 +97,7 @@ impl EquationReturns {
             coordinates: None,
             tolerances: Tolerances::both(1e-13),
             limits: Limits::new(LONGEST.0, LONGEST.1),
+            is_autonomous: equations.is_autonomous(),
             models: Mutex::new(Vec::new()),
             observed: OnceLock::new(),
         };
@@ -187,6 +170,7 @@ impl EquationReturns {
         let count = (needed, needed);
         let coordinates = FormulaValues::new(formulas, "formulas of the coordinates", count)?;
         self.coordinates = Some(sync::Arc::new(coordinates));
+        self.is_autonomous &= !formulas.uses_time();
         self.observed = OnceLock::new();
         Ok(self)
     }
@@ -220,6 +204,7 @@ impl EquationReturns {
             coordinates: self.coordinates.clone(),
             tolerances: self.tolerances,
             limits: self.limits,
+            is_autonomous: self.is_autonomous,
             models: Mutex::new(Vec::new()),
             observed: OnceLock::new(),
         }
@@ -230,240 +215,10 @@ impl EquationReturns {
         self.equations.names().states.len()
     }
 
-    fn observed(&self) -> Result<&Observed, Error> {
+    pub(super) fn observed(&self) -> Result<&Observed, Error> {
         let made = self.observed.get_or_init(|| {
             Ok(Box::new(Observed::new(self, self.equations.with_turns()?, self.mode)?))
         });
         made.as_ref().map(|observed| &**observed).map_err(Error::clone)
-    }
-
-    /// The model at a value of the parameter.
-    pub(super) fn model(&self, value: Option<f64>) -> Result<sync::Arc<ReturnModel>, Error> {
-        let bits = value.map(f64::to_bits);
-        if let Ok(models) = self.models.try_lock()
-            && let Some((_, model)) = models.iter().find(|(known, _)| Some(*known) == bits)
-        {
-            return Ok(sync::Arc::clone(model));
-        }
-        let equations = match value {
-            Some(value) => {
-                self.equations.clone().with_parameters(&[(&self.parameter, &format!("{value:?}"))])
-            }
-            None => self.equations.clone(),
-        };
-        let model = sync::Arc::new(equations.model::<DVector<f64>>()?.tolerances(self.tolerances));
-        if let (Ok(mut models), Some(bits)) = (self.models.try_lock(), bits) {
-            models.truncate(KEPT_MODELS - 1);
-            models.insert(0, (bits, sync::Arc::clone(&model)));
-        }
-        Ok(model)
-    }
-
-    /// The parameters of the equations as jets, with one of them moving.
-    pub(super) fn parameters<const T: usize>(
-        &self,
-        moving: Jet<T>,
-    ) -> impl Iterator<Item = Jet<T>> + '_ {
-        let names = self.equations.names();
-        names.parameters.iter().zip(&names.values).map(move |(name, value)| {
-            if *name == self.parameter { moving } else { Jet::number(value.value()) }
-        })
-    }
-
-    /// The state and the time at which a return starts.
-    pub(super) fn start<const T: usize>(
-        &self,
-        coordinates: &[Jet<T>],
-        parameter: Jet<T>,
-    ) -> Result<(Vec<Jet<T>>, Jet<T>), Error> {
-        let (expected, found) = (self.section.states.len(), coordinates.len());
-        if expected != found {
-            let what = "the coordinates of a section";
-            return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
-        }
-        match &self.start {
-            Some(start) => {
-                let begin = Jet::number(START);
-                let mut state = start.values((coordinates, begin), self.parameters(parameter))?;
-                let has_time = state.len() > self.equations.names().states.len();
-                let time = if has_time { state.pop() } else { None };
-                Ok((state, time.unwrap_or(Jet::number(START))))
-            }
-            None => {
-                let place = |name| self.section.states.iter().position(|own| own == name);
-                let names = self.equations.names().states.iter();
-                let of = |name| place(name).map_or(Jet::number(0.0), |place| coordinates[place]);
-                Ok((names.map(of).collect(), Jet::number(START)))
-            }
-        }
-    }
-
-    /// The coordinates of a state.
-    fn image_of<const T: usize>(
-        &self,
-        (state, time): (&[Jet<T>], Jet<T>),
-        parameter: Jet<T>,
-    ) -> Result<Vec<Jet<T>>, Error> {
-        // The time is no component of the formulas.
-        let names = &self.equations.names().states;
-        let state = &state[..names.len().min(state.len())];
-        match &self.coordinates {
-            Some(coordinates) => coordinates.values((state, time), self.parameters(parameter)),
-            None => {
-                let of = |name: &String| {
-                    let place = names.iter().position(|own| own == name);
-                    let reason = "no component of the state: give the coordinates by formulas";
-                    let name = name.clone();
-                    place.map(|place| state[place]).ok_or(equations::Error::Name { name, reason })
-                };
-                Ok(self.section.states.iter().map(of).collect::<Result<_, _>>()?)
-            }
-        }
-    }
-
-    /// The arcs of a return from a state.
-    pub(super) fn arcs(
-        &self,
-        model: &ReturnModel,
-        (start, time): (&[f64], f64),
-    ) -> Result<ReturnArcs, Error> {
-        let mut state = start.to_vec();
-        let dimension = model.series(self.mode.as_str()).map_or(0, equations::Series::dimension);
-        if state.len() + 1 == dimension {
-            state.push(time);
-        }
-        let mut run = Execution::new(model, self.mode, DVector::from(state), self.limits);
-        let (mut arcs, mut last) = (Vec::new(), None);
-        for arc in run.by_ref() {
-            let arc = arc?;
-            let back = arc.event().is_some_and(|event| {
-                last = Some(event.surface);
-                let at_once = event.time <= event.time_rounding;
-                event.surface == self.surface && !at_once && event.after.is_some()
-            });
-            arcs.push(arc);
-            if back {
-                return Ok(arcs);
-            }
-        }
-        let stop = run.stop().unwrap_or(Stop::Failed);
-        let surface = last.filter(|_| stop == Stop::Terminal).map(|surface| surface.to_string());
-        let (time, events) = (run.time(), run.jump());
-        Err(Error::NoReturn { stop, surface, time, events })
-    }
-
-    /// The return from a point.
-    pub(super) fn way(&self, point: &[f64], parameter: f64) -> Result<Way, Error> {
-        let coordinates: Vec<Jet<1>> = point.iter().map(|x| Jet([*x])).collect();
-        let (start, begin) = self.start(&coordinates, Jet([parameter]))?;
-        let start: Vec<f64> = start.iter().map(Jet::value).collect();
-        let model = self.model(Some(parameter))?;
-        let begin = begin.value();
-        Ok(Way { arcs: self.arcs(&model, (&start, begin))?, model, begin })
-    }
-
-    /// The image at the end of a return.
-    pub(super) fn image_after(&self, way: &Way, parameter: f64) -> Result<Image, Error> {
-        let arcs = &way.arcs;
-        let still = |value: f64| Jet::<1>([value]);
-        let after = arcs.last().and_then(|arc| arc.event()?.after.as_ref());
-        let state = after.map_or(&[][..], |(_, state)| state.as_slice());
-        let state: Vec<Jet<1>> = state.iter().copied().map(still).collect();
-        let at = (&state[..], still(way.begin + elapsed(arcs)));
-        let image = self.image_of(at, still(parameter))?;
-        let (point, certainty) = (image.iter().map(Jet::value).collect(), least_certain(arcs));
-        Ok(Image { point, itinerary: itinerary(arcs), time: elapsed(arcs), certainty })
-    }
-
-    /// The image of a curve at the end of the arcs from its first point.
-    fn pushed_along<const T: usize>(
-        &self,
-        way: &Way,
-        curve: &[Jet<T>],
-        parameter: Jet<T>,
-    ) -> Result<Vec<Jet<T>>, Error> {
-        let (mut start, begin) = self.start(curve, parameter)?;
-        if way.arcs.first().is_some_and(|arc| arc.start.len() > start.len()) {
-            start.push(begin);
-        }
-        let along = Along::curve(&start).and_parameter_curve(&self.parameter, parameter);
-        let back = way.model.jet::<T>(&way.arcs, &along)?;
-        // The time of the arcs is that since their start.
-        let mut time = begin;
-        time.0.iter_mut().zip(back.time.0).skip(1).for_each(|(own, more)| *own += more);
-        time.0[0] += elapsed(&way.arcs);
-        self.image_of((&back.state, time), parameter)
-    }
-}
-
-impl MapFamily for EquationReturns {
-    fn dimension(&self) -> usize {
-        self.section.states.len()
-    }
-
-    fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error> {
-        self.image_after(&self.way(point, parameter)?, parameter)
-    }
-
-    fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
-        let point: Vec<f64> = curve.iter().map(Jet::value).collect();
-        let way = self.way(&point, parameter.value())?;
-        match self.pushed_along(&way, curve, parameter) {
-            Err(Error::Execution(hybrid_system::Error::NoSensitivity { .. })) => {
-                differences::pushed(self, curve, parameter)
-            }
-            found => found,
-        }
-    }
-
-    /// The execution is computed once, and each derivative by a polynomial of degree one.
-    fn linearized(&self, point: &[f64], parameter: f64) -> Result<(Image, DMatrix<f64>), Error> {
-        let way = self.way(point, parameter)?;
-        let image = self.image_after(&way, parameter)?;
-        let mut slopes = DMatrix::zeros(point.len(), point.len() + 1);
-        for axis in 0..=point.len() {
-            let along = |(k, x): (usize, &f64)| Jet::moving(*x, f64::from(k == axis));
-            let curve: Vec<Jet<2>> = point.iter().enumerate().map(along).collect();
-            let moving = Jet::moving(parameter, f64::from(axis == point.len()));
-            let pushed = match self.pushed_along(&way, &curve, moving) {
-                Err(Error::Execution(hybrid_system::Error::NoSensitivity { .. })) => {
-                    let further = |jet: &Jet<2>| Jet([jet.0[0], jet.0[1], 0.0, 0.0]);
-                    let curve: Vec<Jet<4>> = curve.iter().map(further).collect();
-                    let pushed = differences::pushed(self, &curve, further(&moving))?;
-                    pushed.iter().map(|jet| Jet([jet.0[0], jet.0[1]])).collect()
-                }
-                found => found?,
-            };
-            for (row, jet) in pushed.iter().enumerate() {
-                slopes[(row, axis)] = jet.0[1];
-            }
-        }
-        Ok((image, slopes))
-    }
-
-    fn clearances(
-        &self,
-        curve: &[Jet<4>],
-        parameter: Jet<4>,
-    ) -> Result<Option<Vec<Clearance>>, Error> {
-        Ok(Some(self.observed()?.clearances(curve, parameter)?))
-    }
-
-    fn border(
-        &self,
-        at: (&[f64], f64),
-        pieces: (&[String], &[String]),
-        place: usize,
-        within: f64,
-    ) -> BorderSite {
-        self.border_at(at, pieces, place, within)
-    }
-
-    fn along(
-        &self,
-        itinerary: &[String],
-        border: Option<&BorderSite>,
-    ) -> Result<Box<dyn MapFamily + '_>, Error> {
-        Ok(Box::new(self.passages(itinerary, border)?))
     }
 }

@@ -6,6 +6,7 @@ use crate::error::Error;
 use equations::Jet;
 use hybrid_system::Certainty;
 use nalgebra::DMatrix;
+use std::ops::ControlFlow;
 
 /// The image of a point.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,6 +44,31 @@ pub trait MapFamily: Sync {
     /// # Errors
     /// Why the point has no image.
     fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error>;
+
+    /// The images of a point, one after the other, at most so many: `see` receives each. If it breaks, the orbit ends there.
+    ///
+    /// A return map goes on with the execution: where its returns become infinitely many in finite time, as those of a chattering contact,
+    /// the orbit passes their limit. Image for image it would come nearer to the limit for ever.
+    ///
+    /// # Errors
+    /// Why the last point that `see` has received has no image.
+    fn orbit(
+        &self,
+        start: &[f64],
+        parameter: f64,
+        images: usize,
+        see: &mut dyn FnMut(Image) -> ControlFlow<()>,
+    ) -> Result<(), Error> {
+        let mut point = start.to_vec();
+        for _ in 0..images {
+            let image = self.image(&point, parameter)?;
+            point.clone_from(&image.point);
+            if see(image).is_break() {
+                break;
+            }
+        }
+        Ok(())
+    }
 
     /// The image of a curve x(s), p(s), to third order in s: [`Jet`]s with the coefficients of 1, s, s² and s³. All derivatives of the
     /// map follow from such ones.
@@ -129,6 +155,15 @@ impl<T: MapFamily + ?Sized> MapFamily for &T {
     }
     fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error> {
         (**self).image(point, parameter)
+    }
+    fn orbit(
+        &self,
+        start: &[f64],
+        parameter: f64,
+        images: usize,
+        see: &mut dyn FnMut(Image) -> ControlFlow<()>,
+    ) -> Result<(), Error> {
+        (**self).orbit(start, parameter, images, see)
     }
     fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
         (**self).pushed(curve, parameter)

@@ -2,14 +2,16 @@
 //!
 //! A [`MapFamily`] gives images, and the images of curves to third order (`family`). `closures` are functions of numbers,
 //! whose derivatives are `differences`. `formula_map` has exact ones, and so have the
-//! return maps of equations, `equation_returns`. `iterated` applies a map several times. `border` says what lies between pieces of a map,
+//! return maps of equations, `equation_returns`, which `equation_ways` computes and `equation_family` makes a family. `iterated` applies a map several times. `border` says what lies between pieces of a map,
 //! and `equation_borders` finds it for equations, whose arcs `return_arcs` reads and whose formulas `formula_values` evaluates.
 
 mod border;
 mod closures;
 mod differences;
 mod equation_borders;
+mod equation_family;
 mod equation_returns;
+mod equation_ways;
 mod family;
 mod formula_map;
 mod formula_values;

@@ -1,7 +1,7 @@
 //! Bifurcation diagrams: where orbits are after a transient, over a parameter.
 
 use crate::error::Error;
-use crate::families::{MapFamily, point_after};
+use crate::families::MapFamily;
 use hybrid_system::many;
 use std::ops::ControlFlow;
 
@@ -109,11 +109,16 @@ fn orbit<M: MapFamily + ?Sized>(
     parameter: f64,
     length: OrbitLength,
 ) -> Result<(Vec<Vec<f64>>, Vec<f64>), Error> {
-    let mut point = point_after(map, (start, parameter), length.transient)?;
     let mut kept = Vec::with_capacity(length.keep.min(1 << 16));
-    for _ in 0..length.keep {
-        point = map.image(&point, parameter)?.point;
-        kept.push(point.clone());
-    }
-    Ok((kept, point))
+    let (mut last, mut images) = (start.to_vec(), 0);
+    let count = length.transient.saturating_add(length.keep);
+    map.orbit(start, parameter, count, &mut |image| {
+        images += 1;
+        if images > length.transient {
+            kept.push(image.point.clone());
+        }
+        last = image.point;
+        ControlFlow::Continue(())
+    })?;
+    Ok((kept, last))
 }

@@ -60,38 +60,37 @@ pub fn orbit_fate<M: MapFamily + ?Sized>(
 ) -> OrbitFate {
     let mut fate =
         OrbitFate { end: OrbitEnd::Budget, last: start.to_vec(), images: 0, time: 0.0, events: 0 };
-    let mut still = 0;
-    loop {
-        if still == STILL {
-            fate.end = OrbitEnd::Zeno;
-            return fate;
-        }
-        if let Some(number) = attractors.iter().position(|known| known.contains(&fate.last)) {
-            fate.end = OrbitEnd::Attractor(number);
-            return fate;
-        }
-        if fate.images == most_images {
-            return fate;
-        }
-        match map.image(&fate.last, parameter) {
-            Ok(image) => {
-                fate.images += 1;
-                let time = fate.time + image.time;
-                still = if time == fate.time { still + 1 } else { 0 };
-                fate.time = time;
-                fate.events += image.itinerary.len();
-                fate.last = image.point;
-            }
-            Err(error) => {
-                if let Error::NoReturn { time, events, .. } = &error {
-                    fate.time += time;
-                    fate.events += events;
-                }
-                fate.end = end_of(error);
-                return fate;
-            }
-        }
+    let reached = |point: &[f64]| attractors.iter().position(|known| known.contains(point));
+    if let Some(number) = reached(start) {
+        fate.end = OrbitEnd::Attractor(number);
+        return fate;
     }
+    let mut still = 0;
+    let ended = map.orbit(start, parameter, most_images, &mut |image| {
+        fate.images += 1;
+        let time = fate.time + image.time;
+        still = if time == fate.time { still + 1 } else { 0 };
+        fate.time = time;
+        fate.events += image.itinerary.len();
+        fate.last = image.point;
+        if let Some(number) = reached(&fate.last) {
+            fate.end = OrbitEnd::Attractor(number);
+        } else if still == STILL {
+            fate.end = OrbitEnd::Zeno;
+        }
+        match fate.end {
+            OrbitEnd::Budget => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
+        }
+    });
+    if let Err(error) = ended {
+        if let Error::NoReturn { time, events, .. } = &error {
+            fate.time += time;
+            fate.events += events;
+        }
+        fate.end = end_of(error);
+    }
+    fate
 }
 
 /// So many images in a row that do not move the time are the last ones of infinitely many: one or two may be those of a corner.
