@@ -134,3 +134,11 @@ fn length<const T: usize>(
     }
     length
 }
+
+/// The flow with derivatives of first and of third order, compiled here. Crates that are compiled without optimization call these
+/// instances, and their tests take a fraction of the time.
+#[used]
+static COMPILED: (Flow<2>, Flow<4>) = (JetSeries::flow::<2>, JetSeries::flow::<4>);
+
+type Flow<const T: usize> =
+    fn(&JetSeries, &[Jet<T>], f64, (f64, f64)) -> Result<Vec<Jet<T>>, Error>;

@@ -8,7 +8,8 @@ use example_systems::ball_on_table::{FREQUENCY, ball_on_table, periodic_start};
 use example_systems::impact_oscillator::{grazing_forcing, steady_start};
 use hybrid_system::{Equations, Tolerances};
 use return_map::{
-    BifurcationKind, BranchEnd, BranchSteps, EquationReturns, MapFamily, follow_branch, pieces,
+    BifurcationKind, Border, BranchEnd, BranchSteps, EquationReturns, FormulaMap, MapFamily,
+    follow_branch, follow_equilibria, pieces,
 };
 use std::ops::ControlFlow::{Break, Continue};
 
@@ -118,4 +119,43 @@ fn the_cycle_of_the_skew_tent_map() {
     }
     let BranchEnd::Border { at, .. } = &branch.ends[0] else { panic!("{:?}", branch.ends) };
     assert!(at.parameter.abs() < 1e-9, "{at:?}");
+}
+
+/// The valve's cycle without impacts: it begins at the Hopf bifurcation of the equilibrium, which the field alone tells, and ends where it
+/// grazes the seat. Two branches, with impacts and without, end at this grazing.
+#[test]
+fn the_valve_from_its_hopf_bifurcation_to_its_grazing() {
+    let valve = example_systems::valve::valve_equations();
+    let field = valve.field(hybrid_system::Label::new("open").unwrap()).unwrap();
+    let steps = BranchSteps { first: 0.05, longest: 0.25, ..BranchSteps::default() };
+    let see = |_: &_| Continue(());
+    let rest = (&[2.0, 0.0, 12.0][..], 2.0 * 12f64.sqrt());
+    let field = FormulaMap::new(field, "flow").unwrap();
+    let equilibria = follow_equilibria(&field, rest, (6.0, 9.5), steps, see).unwrap();
+    let [hopf] = &equilibria.bifurcations[..] else { panic!("{:?}", equilibria.bifurcations) };
+    assert_eq!(hopf.kind, BifurcationKind::Hopf);
+    let names = ["displacement", "pressure"];
+    let returns = EquationReturns::new(&valve, "flow", ("open", "turning point"), &names).unwrap();
+    let grazes = |branch: &return_map::Branch, end: usize| match &branch.ends[end] {
+        BranchEnd::Border { border: Border::Grazing { surface }, at, .. }
+            if surface == "open: seat" =>
+        {
+            at.parameter
+        }
+        other => panic!("{other:?}"),
+    };
+    let start = (&[8.845, 0.7278][..], 7.56);
+    let free = follow_branch(&returns, 1, start, (7.5, 8.6), steps, see).unwrap();
+    let grazing = grazes(&free, if free.points[0].parameter < 7.6 { 0 } else { 1 });
+    let start = (&[8.2, 0.76][..], 7.25);
+    let hits = follow_branch(&returns, 1, start, (7.2, 7.6), steps, see).unwrap();
+    let same = grazes(&hits, if hits.points[0].parameter < 7.21 { 1 } else { 0 });
+    assert!(
+        (grazing - same).abs() < 1e-12 && (grazing - 7.557_210_971_877).abs() < 1e-11,
+        "{grazing} {same}"
+    );
+    // Where it begins the cycle has no size, and the map a fold.
+    let fold = free.bifurcations.iter().find(|found| found.kind == BifurcationKind::Fold).unwrap();
+    assert!((fold.at.parameter - hopf.at.parameter).abs() < 1e-6, "{fold:?} {hopf:?}");
+    assert!((fold.at.point[0] - hopf.at.point[0]).abs() < 1e-4);
 }

@@ -116,9 +116,12 @@ impl Equations {
         Some(&self.guard_of(mode, surface).ok()?.function)
     }
 
-    /// The field of a mode; `None` if there is no such mode.
-    pub fn field(&self, mode: Label) -> Option<&Formulas> {
-        Some(&self.known_mode(mode).ok()?.field)
+    /// The field of a mode.
+    ///
+    /// # Errors
+    /// [`Error::BadEquations`] if there is no such mode.
+    pub fn field(&self, mode: Label) -> Result<&Formulas, Error> {
+        Ok(&self.known_mode(mode)?.field)
     }
 
     /// The mode and the surface of each guard, in order.

@@ -10,8 +10,11 @@ use equations::Jet;
 use nalgebra::{DMatrix, DVector};
 use std::ops::{AddAssign, ControlFlow};
 
-/// Looks ahead of the last point for other pieces of the map, each twice as far as the one before: up to 10⁶ shortest steps.
-const LOOKS_AHEAD: usize = 20;
+/// Looks ahead of the last point for other pieces of the map, each twice as far as the one before: up to 10⁹ shortest steps. Up to 10⁶ of
+/// them another piece is the end of the branch. Further on it is if its border is located: an event that vanishes at a grazing has a speed
+/// that is the root of the distance, and derivatives are refused before.
+const LOOKS_AHEAD: usize = 31;
+const NEAR_LOOKS: usize = 20;
 
 /// Where a cubic through two clearances with their slopes falls below this part of the smaller one, the clearance there is computed: the
 /// cubic is wrong by the fourth power of the step. A smaller number would trust it more.
@@ -22,7 +25,7 @@ const MOST_HALVINGS: usize = 10;
 
 /// How far from the last point a border is looked for, in units of the scales. Beside a grazing a branch of orbits that meet the surface turns as
 /// a root does, and its last point is far off. Pieces on both sides tell if the border is that of the branch.
-const NEAR: f64 = 0.02;
+const NEAR: f64 = 0.1;
 
 /// Before so many halvings the border is tried to be located.
 const TRIES: [usize; 4] = [1, 6, 18, 30];
@@ -122,11 +125,17 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
     /// The end of a branch of which no further point was found: a border of the map, if other pieces are ahead.
     pub(super) fn lost(&self, last: &OnCurve, itinerary: &[String], reason: String) -> BranchEnd {
         let mut ahead = self.steps.shortest;
-        for _ in 0..LOOKS_AHEAD {
+        for look in 0..LOOKS_AHEAD {
             if let Ok(other) = self.orbit.itinerary(&predicted(&self.orbit.scales, last, ahead))
                 && other != itinerary
             {
-                return self.border(last, itinerary, other, ahead);
+                let located = self.border_beside(last, (itinerary, &other), AROUND);
+                if let Some((end, true)) = located {
+                    return end;
+                }
+                if look < NEAR_LOOKS {
+                    return self.border(last, itinerary, other, ahead);
+                }
             }
             ahead *= 2.0;
         }

@@ -332,7 +332,7 @@ impl EquationReturns {
     fn stays(&self, (point, parameter): (&[f64], f64), own: &[String], name: &str) -> Option<bool> {
         let (mode, surface) = self.event_of(name)?;
         let guard = self.equations.guard_formula(mode, surface)?;
-        let field = self.equations.field(self.equations.leads_to(mode, surface)?)?;
+        let field = self.equations.field(self.equations.leads_to(mode, surface)?).ok()?;
         let rate = guard.rate(field).ok()?;
         let rate = FormulaValues::new(&rate, "formulas of a guard", (1, 1)).ok()?;
         let along = self.passages(own, None).ok()?;

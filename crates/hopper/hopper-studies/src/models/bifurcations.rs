@@ -1,7 +1,7 @@
 //! Branches and bifurcations of maps in a frame: the parameter to the right, the first coordinate upwards.
 
 use journal_figures::{Anchor, Frame, Marker, Svg};
-use return_map::{BifurcationKind, Border, Branch, BranchEnd, BranchPoint};
+use return_map::{Bifurcation, BifurcationKind, Border, Branch, BranchEnd, BranchPoint};
 
 const BRANCH: &str = "#1f4e96";
 const MARKED: &str = "#d03a2b";
@@ -22,25 +22,33 @@ fn place(point: &BranchPoint) -> (f64, f64) {
     (point.parameter, point.point.first().copied().unwrap_or(f64::NAN))
 }
 
-/// A branch, and its bifurcations with their names.
-pub(super) fn draw_branch(svg: &mut Svg, frame: Frame, branch: &Branch) {
+/// The points of a branch.
+pub(super) fn draw_points(svg: &mut Svg, frame: Frame, branch: &Branch) {
     let points = branch.points.iter().map(|point| {
         let (x, y) = place(point);
         (x, y, point.is_stable)
     });
     frame.branch(svg, &points.collect::<Vec<_>>(), BRANCH);
-    for found in &branch.bifurcations {
+}
+
+/// The points of a branch, and its bifurcations with their names. The doubling at which it begins has a name on the other branch.
+pub(super) fn draw_branch(svg: &mut Svg, frame: Frame, branch: &Branch) {
+    draw_points(svg, frame, branch);
+    let begins = |found: &Bifurcation| {
+        let ends = [branch.points.first(), branch.points.last()];
+        let mut ends = branch.ends.iter().zip(ends);
+        ends.any(|(end, point)| {
+            *end == BranchEnd::Doubling
+                && point.is_some_and(|point| point.parameter == found.at.parameter)
+        })
+    };
+    for found in branch.bifurcations.iter().filter(|found| !begins(found)) {
         let (name, marker) = mark(found.kind);
-        // The doubling at which a branch begins is that of another one.
-        let begins = branch.ends.contains(&BranchEnd::Doubling)
-            && [branch.points.first(), branch.points.last()]
-                .into_iter()
-                .flatten()
-                .any(|end| end.parameter == found.at.parameter);
-        if !begins {
-            let label = (Anchor::End, name);
-            frame.labelled_point(svg, place(&found.at), (marker, MARKED), label);
-        }
+        let at = place(&found.at);
+        // There is room beside the middle of a diagram.
+        let is_left = frame.at(at).0 < frame.left + 0.5 * frame.width;
+        let side = if is_left { Anchor::Start } else { Anchor::End };
+        frame.labelled_point(svg, at, (marker, MARKED), (side, name));
     }
 }
 

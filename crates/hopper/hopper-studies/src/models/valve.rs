@@ -1,15 +1,15 @@
 //! The bifurcation diagram of the pressure relief valve.
 
-use super::bifurcations::{draw_branch, draw_end};
+use super::bifurcations::{draw_branch, draw_end, draw_points};
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
 use example_systems::valve::{LARGEST_FLOW, SMALLEST_FLOW, valve_equations};
-use hybrid_system::Tolerances;
+use hybrid_system::{Label, Tolerances};
 use journal_figures::{Anchor, Frame, Svg, csv_file, ticks};
 use return_map::{
-    BranchEnd, BranchSteps, EquationReturns, OrbitLength, Seeds, bifurcation_diagram,
-    doubled_branch, follow_branch,
+    BranchEnd, BranchSteps, EquationReturns, FormulaMap, OrbitLength, Seeds, bifurcation_diagram,
+    doubled_branch, follow_branch, follow_equilibria,
 };
 use std::ops::ControlFlow::Continue;
 
@@ -30,6 +30,8 @@ const PIXELS: (usize, usize) = (COLUMNS, 600);
 const HIGHEST: f64 = 9.0;
 /// Displacement and pressure at the start of each orbit.
 const START: [f64; 2] = [1.0, 10.0];
+/// An equilibrium, where spring and pressure balance. Its flow rate is that of y₁ √y₃.
+const REST: [f64; 3] = [2.0, 0.0, 12.0];
 /// A flow rate at which one orbit attracts all, and where the branches begin.
 const CALM: f64 = 4.0;
 
@@ -71,16 +73,22 @@ pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
     let calm = orbits(&[CALM], OrbitLength { transient: TRANSIENT, keep: 1 })?.concat();
     let once = follow_branch(&returns, 1, (&calm, CALM), RATES, steps, see)?;
     for doubling in &once.bifurcations {
-        draw_branch(&mut svg, frame, &doubled_branch(&returns, (1, doubling), RATES, steps, see)?);
+        let twice = doubled_branch(&returns, (1, doubling), RATES, steps, see)?;
+        draw_branch(&mut svg, frame, &twice);
     }
     draw_branch(&mut svg, frame, &once);
     // Behind the grazing the disc does not hit its seat.
     if let BranchEnd::Border { at, .. } = &once.ends[1] {
         let start = (&at.point[..], at.parameter + BESIDE);
         let free = follow_branch(&returns, 1, start, (at.parameter, RATES.1), steps, see)?;
-        draw_branch(&mut svg, frame, &free);
+        // It ends where the orbit shrinks to the equilibrium.
+        draw_points(&mut svg, frame, &free);
         draw_end(&mut svg, frame, &once.ends[1], Anchor::Start);
     }
+    let field = valve.field(Label::new("open")?)?;
+    let field = FormulaMap::new(field, "flow")?;
+    let rest = (&REST[..], REST[0] * REST[2].sqrt());
+    draw_branch(&mut svg, frame, &follow_equilibria(&field, rest, RATES, steps, see)?);
     frame.axes(
         &mut svg,
         &ticks(RATES, 10),
