@@ -159,3 +159,36 @@ fn the_valve_from_its_hopf_bifurcation_to_its_grazing() {
     assert!((fold.at.parameter - hopf.at.parameter).abs() < 1e-6, "{fold:?} {hopf:?}");
     assert!((fold.at.point[0] - hopf.at.point[0]).abs() < 1e-4);
 }
+
+/// The rimless wheel (M. J. Coleman, 1998) over its slope γ: with half the angle α between spokes the map of Ω, the square of the speed
+/// after a collision, is cos² 2α (Ω + 4 sin γ sin α). The branch ends where the wheel only just passes the vertical.
+#[test]
+fn the_rimless_wheel_over_its_slope() {
+    let wheel = Equations::new(&["angle", "speed"], &[("slope", "0.1"), ("half", "0.3")])
+        .mode_text("rolls", &["speed", "sin(angle)"])
+        .rising_text("forward", "angle - slope - half")
+        .resets_text(&["slope - half", "cos(2*half)*speed"])
+        .falling_text("backward", "angle - slope + half")
+        .resets_text(&["slope + half", "cos(2*half)*speed"]);
+    let returns = EquationReturns::new(&wheel, "slope", ("rolls", "forward"), &["after"])
+        .unwrap()
+        .starting_text(&["slope - half", "after"])
+        .unwrap()
+        .coordinates_text(&["speed"])
+        .unwrap();
+    let (alpha, kept) = (0.3f64, 0.6f64.cos().powi(2));
+    let rolling = |slope: f64| kept * 4.0 * slope.sin() * alpha.sin() / (1.0 - kept);
+    let steps = BranchSteps { first: 0.1, longest: 0.3, ..BranchSteps::default() };
+    let start = (&[rolling(0.1).sqrt()][..], 0.1);
+    let branch = follow_branch(&returns, 1, start, (0.0, 0.2), steps, |_| Continue(())).unwrap();
+    for point in &branch.points {
+        assert!((point.point[0].powi(2) - rolling(point.parameter)).abs() < 1e-12, "{point:?}");
+        // Beside the vertical the motion is unstable: the longer it stays there, the fewer digits a derivative has.
+        let excess = rolling(point.parameter) - 2.0 * (1.0 - (point.parameter - alpha).cos());
+        let off = (point.multipliers[0].re - kept).abs();
+        assert!(off < 1e-12 + 1e-17 / (excess * excess), "{excess:e} {point:?}");
+    }
+    let slowest = branch.points.iter().map(|point| point.parameter).fold(1.0, f64::min);
+    let excess = rolling(slowest) - 2.0 * (1.0 - (slowest - alpha).cos());
+    assert!((0.0..1e-8).contains(&excess), "{slowest} {excess:e} {:?}", branch.ends);
+}
