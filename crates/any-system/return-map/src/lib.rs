@@ -95,11 +95,12 @@
 //! ```
 //!
 //! A step never passes to other pieces of the map. At a grazing, or where two events come at one instant, the branch ends in
-//! [`BranchEnd::Border`] with the surface. Derivatives of `FormulaMap` and `EquationReturns` are exact; those of closures are differences
+//! [`BranchEnd::Border`] with the surface, and [`border_curve`] follows this end in a second parameter. For [`EquationReturns`] surfaces
+//! that are touched and left again within one step are found, too. The example `bifurcation_diagram` goes from equations to a picture. Derivatives of `FormulaMap` and `EquationReturns` are exact; those of closures are differences
 //! of order six, which have some twelve digits of the first derivative of a smooth map with values to rounding.
 //!
 //! # Not here
-//! - Touches that come and go within one step of a branch; curves of grazings.
+//! - Errors of multipliers. Those of an orbit that stays long beside an unstable equilibrium lose digits.
 //! - Manifolds of more than one dimension, invariant circles and tori; cycles of flows without a section.
 //! - Proofs in more than one variable.
 
