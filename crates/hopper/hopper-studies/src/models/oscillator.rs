@@ -12,7 +12,7 @@ use return_map::{
 use std::ops::ControlFlow::Continue;
 
 /// Forcings, from the motion beside the stop to impacts.
-const FORCINGS: (f64, f64) = (0.33, 0.47);
+const FORCINGS: (f64, f64) = (0.1, 0.5);
 const COLUMNS: usize = 540;
 /// Periods that are left out while the motion settles: the free motion keeps 0.78 of a disturbance in each.
 const TRANSIENT: usize = 400;
@@ -21,7 +21,7 @@ const PIXELS: (usize, usize) = (COLUMNS, 600);
 /// Displacements that are drawn.
 const HEIGHTS: (f64, f64) = (-0.6, 0.5);
 
-/// The displacements once in a period of the forcing, and the branch of the motion that does not meet the stop.
+/// The displacements once in a period of the forcing, and the branches of the motions with and without impacts.
 pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
     let oscillator =
         impact_oscillator("0.4").clock_text("strobe", "2*pi/frequency", "2*pi/frequency");
@@ -34,10 +34,12 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
     let length = OrbitLength { transient: TRANSIENT, keep: DRAWN };
     let from = (&seeds[..], Seeds::Fresh);
     let columns = bifurcation_diagram(&periods, &forcings, from, length, |_| Continue(()));
-    let mut points = Vec::new();
+    let (mut points, mut last) = (Vec::new(), Vec::new());
     for column in columns {
         for orbit in column.orbits {
-            points.extend(orbit?.iter().map(|point| (column.parameter, point[0])));
+            let orbit = orbit?;
+            points.extend(orbit.iter().map(|point| (column.parameter, point[0])));
+            last = orbit.last().cloned().unwrap_or_default();
         }
     }
     let mut svg = Svg::new(620.0, 400.0);
@@ -47,10 +49,14 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
     let steps = BranchSteps::default();
     let free = follow_branch(&periods, 1, start, FORCINGS, steps, |_| Continue(()))?;
     draw_branch(&mut svg, frame, &free);
-    draw_end(&mut svg, frame, &free.ends[1], Anchor::End);
+    draw_end(&mut svg, frame, &free.ends[1], Anchor::Start);
+    // At the last forcing the motion has impacts.
+    let hits = (&last[..], forcings[COLUMNS - 1]);
+    let hits = follow_branch(&periods, 1, hits, FORCINGS, steps, |_| Continue(()))?;
+    draw_branch(&mut svg, frame, &hits);
     frame.axes(
         &mut svg,
-        &ticks(FORCINGS, 7),
+        &ticks(FORCINGS, 8),
         &ticks(HEIGHTS, 11),
         "forcing $F$ (dimensionless)",
         "displacement $x$ once in a period",
