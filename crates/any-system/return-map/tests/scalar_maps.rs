@@ -3,7 +3,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use crate::sections::apexes;
-use equations::{Formulas, Names};
+use equations::{Formulas, Jet, Names};
 use return_map::{
     ApproximateMap, Error, MapFamily, OrbitEnd, all_equilibria, all_periodic_points, family,
     map_pieces, pieces, scalar_family,
@@ -262,4 +262,24 @@ fn what_cannot_be_proved_is_named() {
     assert!(all_periodic_points(&of("x*t"), 1, (0.0, 1.0)).is_err());
     let two = Formulas::from_text(Names::new(&["x", "y"], &[]).unwrap(), &["x", "y"]).unwrap();
     assert!(all_periodic_points(&two, 1, (0.0, 1.0)).is_err());
+}
+
+/// Beside a border at which the second derivative of a piece is infinite: distances that fit on the piece are still too long.
+#[test]
+fn derivatives_beside_a_singular_border_are_as_sure_as_they_say() {
+    let map = pieces(1, |x: &[f64], _| {
+        let d = x[0];
+        Ok((vec![d - d.abs().powf(4.0 / 3.0)], d > 0.0))
+    });
+    for d in [1e-1, 1e-2, 1e-3] {
+        let found = map.pushed(&[Jet::moving(d, 1.0)], Jet::number(0.0)).unwrap()[0];
+        let exact = 1.0 - 4.0 / 3.0 * d.cbrt();
+        assert!((found.0[1] - exact).abs() < 1e-6, "{d}: {found:?} {exact}");
+    }
+    // A map that turns within 3·10⁻⁶: no distance has three digits.
+    let kinks = scalar_family(|x, _| (1e6 * x).sin().abs());
+    assert!(matches!(
+        kinks.pushed(&[Jet::moving(0.3, 1.0)], Jet::number(0.0)),
+        Err(Error::Differences { .. })
+    ));
 }

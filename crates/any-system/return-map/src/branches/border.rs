@@ -5,7 +5,7 @@ use super::curve::OnCurve;
 use super::follow::{Follower, point_of, predicted};
 use super::orbit::{Kind, Orbit, split};
 use crate::error::Error;
-use crate::families::{Border, BorderSite, Clearance, MapFamily, first_difference};
+use crate::families::{Border, BorderSite, Clearance, Image, MapFamily, first_difference};
 use equations::Jet;
 use nalgebra::{DMatrix, DVector};
 use std::ops::{AddAssign, ControlFlow};
@@ -36,7 +36,7 @@ const TRIES: [usize; 4] = [1, 6, 18, 30];
 pub(super) const BESIDE: f64 = 1e-6;
 const AROUND: f64 = 0.1;
 
-/// How far on both sides of a border the pieces of the map are compared, in parts of the longest step.
+/// How far on both sides of a border the pieces of the map are compared, in parts of the longest step or of the parameter.
 const BOTH_SIDES: f64 = 1e-7;
 
 /// Newton steps at a border.
@@ -206,6 +206,24 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
     }
 }
 
+/// The image of a point, and its parameter. On a border the map may refuse to say on which side a point is: then a point beside it, at
+/// another parameter, on the pieces `own`.
+fn beside<M: MapFamily + ?Sized>(
+    map: &M,
+    point: &[f64],
+    parameter: f64,
+    own: &[String],
+) -> Option<(Image, f64)> {
+    if let Ok(image) = map.image(point, parameter) {
+        return Some((image, parameter));
+    }
+    let by = BOTH_SIDES * parameter.abs().max(1.0);
+    [parameter - by, parameter + by].into_iter().find_map(|parameter| {
+        let image = map.image(point, parameter).ok()?;
+        own.starts_with(&image.itinerary).then_some((image, parameter))
+    })
+}
+
 /// A border that the orbit of a periodic point meets.
 #[derive(Debug, Clone)]
 pub(super) struct OrbitBorder {
@@ -229,8 +247,8 @@ impl OrbitBorder {
         let (mut point, parameter) = split(at);
         let (mut pieces, mut found, mut before) = (Vec::new(), None, 0);
         for image in 0..period {
-            let next = orbit.map.image(&point, parameter).ok()?;
             let rest = own.get(before..)?;
+            let (next, parameter) = beside(orbit.map, &point, parameter, rest)?;
             // On the border itself the map does not tell which pieces it meets.
             let is_behind = place >= before + next.itinerary.len().max(1);
             if found.is_some() || is_behind && rest.starts_with(&next.itinerary) {

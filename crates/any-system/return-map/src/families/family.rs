@@ -73,11 +73,12 @@ pub trait MapFamily: Sync {
     /// The image of a curve x(s), p(s), to third order in s: [`Jet`]s with the coefficients of 1, s, s² and s³. All derivatives of the
     /// map follow from such ones.
     ///
-    /// Default: by differences of order six. On a smooth map with values to rounding, on the scale of max(1, |x|), the first
-    /// derivative has some twelve digits, the second and the third have eight.
+    /// Default: by differences of order six, twice, at two distances. They are shortened until both first derivatives agree to ten
+    /// digits; where no distance gives that many, the best one is taken, if it has three. On a smooth map with values to rounding, on
+    /// the scale of max(1, |x|), the first derivative has some twelve digits, the second and the third have eight.
     ///
     /// # Errors
-    /// Those of the map. [`Error::Differences`] if it has several pieces there.
+    /// Those of the map. [`Error::Differences`] if it has several pieces there, or no derivative.
     fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
         pushed(self, curve, parameter)
     }
