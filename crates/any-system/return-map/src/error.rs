@@ -84,6 +84,17 @@ pub enum Error {
         /// How many multipliers are outside of the unit circle.
         unstable: usize,
     },
+    /// Two manifolds do not touch near a crossing.
+    #[error(
+        "no tangency found: at the parameter {parameter} the distance of the manifolds and the sine of their angle are {residual}. Begin \
+         with a crossing at a smaller angle"
+    )]
+    NoTangency {
+        /// The last parameter.
+        parameter: f64,
+        /// The distance of both points and the sine of the angle, as one length.
+        residual: f64,
+    },
     /// A branch goes on with another map than its own.
     #[error(
         "the end of the branch, {point:?} at the parameter {parameter}, is no periodic point of this map: take the map of the branch"

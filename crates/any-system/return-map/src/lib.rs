@@ -21,7 +21,7 @@
 //! | [`bifurcation_diagram`], [`lyapunov_exponents`], [`rotation_number`] | where orbits end over a parameter; how fast neighbours part; how fast orbits turn |
 //! | [`orbit_fate`], [`orbit_fates`], [`OrbitEnd`] | how orbits end: on an attractor, at a surface, at a Zeno limit |
 //! | [`PeriodicAttractor`], [`periodic_attractors`] | attracting orbits, each with a neighbourhood that leads to it |
-//! | [`UnstableManifold`], [`ManifoldCurve`], [`manifold_crossings`] | one-dimensional manifolds of saddles; homoclinic and heteroclinic points |
+//! | [`UnstableManifold`], [`ManifoldCurve`], [`manifold_crossings`], [`manifold_tangency`] | one-dimensional manifolds of saddles; homoclinic and heteroclinic points and tangencies |
 //! | [`map_pieces`], [`MapPiece`], [`Extremum`] | a map of one variable: its domain, smooth pieces, borders, laps |
 //! | [`ApproximateMap`] | the same map by polynomials: fast, with inverse branches and compositions |
 //! | [`all_periodic_points`], [`all_equilibria`] | all points of a period, or equilibria, in one variable, with proofs |
@@ -96,8 +96,10 @@
 //!
 //! A step never passes to other pieces of the map. At a grazing, or where two events come at one instant, the branch ends in
 //! [`BranchEnd::Border`] with the surface, and [`border_curve`] follows this end in a second parameter. For [`EquationReturns`] surfaces
-//! that are touched and left again within one step are found, too. The example `bifurcation_diagram` goes from equations to a picture. Derivatives of `FormulaMap` and `EquationReturns` are exact; those of closures are differences
-//! of order six, which have some twelve digits of the first derivative of a smooth map with values to rounding.
+//! that are touched and left again within one step are found, too. The example `bifurcation_diagram` goes from equations to a picture.
+//!
+//! Derivatives of `FormulaMap` and `EquationReturns` are exact. Those of closures are differences of order six, which have some twelve
+//! digits of the first derivative of a smooth map with values to rounding, and are refused below three.
 //!
 //! # Not here
 //! - Errors of multipliers. Those of an orbit that stays long beside an unstable equilibrium lose digits.
@@ -125,8 +127,8 @@ pub use families::{
     pieces, scalar_family,
 };
 pub use manifolds::{
-    ManifoldCrossing, ManifoldCurve, ManifoldCut, ManifoldEnd, ManifoldSteps, UnstableManifold,
-    manifold_crossings,
+    ManifoldCrossing, ManifoldCurve, ManifoldCut, ManifoldEnd, ManifoldSteps, ManifoldTangency,
+    UnstableManifold, manifold_crossings, manifold_tangency,
 };
 pub use orbits::{
     DiagramColumn, LyapunovExponents, OrbitEnd, OrbitFate, OrbitLength, OrbitMean,

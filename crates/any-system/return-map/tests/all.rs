@@ -1,6 +1,7 @@
 //! All tests of the crate, in one program.
 
 mod borders;
+mod branch_ends;
 mod branches;
 mod known_answers;
 mod manifolds;

@@ -3,8 +3,8 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use return_map::{
-    Error, ManifoldEnd, ManifoldSteps, MapFamily, UnstableManifold, family, manifold_crossings,
-    pieces,
+    Error, ManifoldCrossing, ManifoldEnd, ManifoldSteps, MapFamily, UnstableManifold, family,
+    manifold_crossings, manifold_tangency, pieces,
 };
 use std::ops::ControlFlow::{Break, Continue};
 
@@ -184,6 +184,41 @@ fn homoclinic_points() {
         found.extend(crossings);
     }
     assert!(found.len() >= 4, "{}", found.len());
+}
+
+/// Homoclinic tangencies of Hénon's map: one is found again from both crossings beside it, and that whose existence Z. Arai and
+/// K. Mischaikow (2006) prove between 1.392419807915 and 1.392419807931.
+#[test]
+fn homoclinic_tangencies() {
+    let (forth, back) = (henon(), inverse_henon());
+    let saddle = |a: f64| {
+        let x = (-0.7 + (0.49 + 4.0 * a).sqrt()) / (2.0 * a);
+        [x, 0.3 * x]
+    };
+    let one = |a: f64| UnstableManifold::new(&forth, 1, (&saddle(a), a), 1.0);
+    let two = |a: f64| UnstableManifold::new(&back, 1, (&saddle(a), a), -1.0);
+    let start = 1.385;
+    let (unstable, stable) = (one(start).unwrap(), two(start).unwrap());
+    let region = vec![(-2.0, 2.0); 2];
+    let steps = ManifoldSteps { length: 20.0, region, ..ManifoldSteps::default() };
+    let curves = [unstable.curve(&steps, |_| Continue(())), stable.curve(&steps, |_| Continue(()))];
+    let crossings = manifold_crossings((&unstable, &curves[0]), (&stable, &curves[1]));
+    let near: Vec<_> = crossings.iter().filter(|crossing| crossing.angle < 0.2).collect();
+    assert_eq!(near.len(), 2, "{crossings:?}");
+    let found = near
+        .iter()
+        .map(|crossing| manifold_tangency(one, two, (crossing, start), (1.3, 1.4)).unwrap())
+        .collect::<Vec<_>>();
+    let off = found[0].parameter - found[1].parameter;
+    assert!(off.abs() < 1e-13 && found[0].error < 1e-13, "{found:?}");
+    // No tangency is on that side.
+    let missed = manifold_tangency(one, two, (near[0], start), (1.3845, 1.4));
+    assert!(matches!(missed, Err(Error::NoTangency { .. })), "{missed:?}");
+    // Far along both curves.
+    let numbers = [5.3148, 6.8009];
+    let far = ManifoldCrossing { point: [1.2708, -0.0252], numbers, angle: 0.1, error: 1e-3 };
+    let found = manifold_tangency(one, two, (&far, 1.393), (1.39, 1.4)).unwrap();
+    assert!((1.392_419_807_915..1.392_419_807_931).contains(&found.parameter), "{found:?}");
 }
 
 /// A map with a jump: its manifold is cut there, and the piece is named.

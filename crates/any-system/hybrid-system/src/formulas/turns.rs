@@ -72,7 +72,8 @@ impl Equations {
     /// let labels = (Label::new("flight")?, Label::new("floor")?);
     /// let (along, _) = ball.along_events(&[labels])?;
     /// // It passes the ceiling.
-    /// let mut arcs = along.model::<State<2>>()?.start("passage 0", [0.0, 3.0], 7.0)?;
+    /// let model = along.model::<State<2>>()?;
+    /// let mut arcs = model.start("passage 0", [0.0, 3.0], 7.0)?;
     /// let landing = arcs.find_map(|arc| Some(arc.ok()?.event().copied()).filter(|event| event.is_some_and(|event| event.surface == "floor")));
     /// assert!((landing.flatten().expect("a landing").time - 6.0).abs() < 1e-14);
     /// # Ok::<(), hybrid_system::Error>(())

@@ -57,7 +57,8 @@ pub struct Bifurcation {
     pub at: BranchPoint,
     /// The eigenvector of the critical multiplier, of length 1; for a Neimark–Sacker or Hopf bifurcation its real part, at any phase.
     pub direction: Vec<f64>,
-    /// The coefficient of the normal form, with the eigenvector of length 1; `None` if it is not known.
+    /// The coefficient of the normal form, with the eigenvector of length 1; `None` if it is not known, and at the strong resonances μ³ = 1
+    /// and μ⁴ = 1 of a Neimark–Sacker bifurcation, where no coefficient alone tells what begins.
     ///
     /// | kind | normal form | meaning |
     /// |---|---|---|

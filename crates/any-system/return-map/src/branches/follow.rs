@@ -41,7 +41,7 @@ pub(super) const LONGER: f64 = 1.5;
 /// The branch of points of period `period` through a point near `start` at the parameter `parameter`, in the window of parameters, in
 /// both directions.
 ///
-/// `see` receives each point as it is found; if it breaks, the branch ends there. An end of the window is met exactly. The step adapts to
+/// `see` receives each point as it is found; if it breaks, the branch ends there in this direction, and is followed in the other one. An end of the window is met exactly. The step adapts to
 /// the curve, and never passes to other pieces of the map: there the branch ends with the reason.
 ///
 /// ```
@@ -199,9 +199,25 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
                     continue;
                 }
             };
+            let is_out = |p: f64| p < self.window.0 || p > self.window.1;
+            let (next, leaves) = match is_out(parameter_of(&next)) {
+                false => (next, false),
+                true if [self.window.0, self.window.1].contains(&parameter_of(&last)) => {
+                    way.end = BranchEnd::Window;
+                    return way;
+                }
+                true => match self.at_window(&last, &next) {
+                    Some(next) => (next, true),
+                    None => {
+                        length *= 0.5;
+                        continue;
+                    }
+                },
+            };
             match self.orbit.itinerary(&next.at) {
                 Ok(own) if own == itinerary => {}
                 Ok(other) => {
+                    let length = self.off(&last, &next.at).dot(&last.tangent);
                     way.end = self.border(&last, itinerary, other, length);
                     return way;
                 }
@@ -211,18 +227,6 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
                     continue;
                 }
             }
-            let is_out = |p: f64| p < self.window.0 || p > self.window.1;
-            let parameter = next.at[next.at.len() - 1];
-            let (next, leaves) = match is_out(parameter) {
-                false => (next, false),
-                true => match self.at_window(&next, parameter) {
-                    Some(next) => (next, true),
-                    None => {
-                        length *= 0.5;
-                        continue;
-                    }
-                },
-            };
             let next_near = self.orbit.clearances(&next);
             if let Some(end) = self.touched((&last, &near), (&next, &next_near), itinerary) {
                 way.end = end;
@@ -253,25 +257,38 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
     pub(super) fn step(&self, last: &OnCurve, length: f64) -> Result<Option<OnCurve>, Error> {
         let predicted = predicted(&self.orbit.scales, last, length);
         let next = corrected(&self.orbit, &predicted, &last.tangent)?;
-        Ok(next.filter(|next| {
-            let off = (&next.at - &predicted).component_div(&self.orbit.scales).norm();
-            off <= ASIDE * length.abs() && next.tangent.dot(&last.tangent) > STRAIGHT
-        }))
+        Ok(next.filter(|next| self.is_ahead(last, next, length)))
     }
 
-    /// The point at the end of the window.
-    fn at_window(&self, next: &OnCurve, parameter: f64) -> Option<OnCurve> {
-        let last = next.at.len() - 1;
-        let end = if parameter < self.window.0 { self.window.0 } else { self.window.1 };
-        let mut along = DVector::zeros(last + 1);
-        along[last] = 1.0;
+    /// How far unknowns are from a point, in units of the scales.
+    fn off(&self, from: &OnCurve, at: &DVector<f64>) -> DVector<f64> {
+        (at - &from.at).component_div(&self.orbit.scales)
+    }
+
+    /// True if a point is where the tangent leads at this length, and the curve goes on in its direction.
+    fn is_ahead(&self, last: &OnCurve, next: &OnCurve, length: f64) -> bool {
+        let aside = (self.off(last, &next.at) - length * &last.tangent).norm();
+        aside <= ASIDE * length && next.tangent.dot(&last.tangent) > STRAIGHT
+    }
+
+    /// The point at the end of the window, between the last point and one outside; `None` if the step is too long.
+    fn at_window(&self, last: &OnCurve, next: &OnCurve) -> Option<OnCurve> {
+        let place = next.at.len() - 1;
+        let end = if parameter_of(next) < self.window.0 { self.window.0 } else { self.window.1 };
+        let mut along = DVector::zeros(place + 1);
+        along[place] = 1.0;
         let mut predicted = next.at.clone();
-        predicted[last] = end;
+        predicted[place] = end;
         let mut found = corrected(&self.orbit, &predicted, &along).ok()??;
         found.tangent = tangent(&found.slopes, &next.tangent)?;
-        found.at[last] = end;
-        Some(found)
+        found.at[place] = end;
+        let length = self.off(last, &found.at).dot(&last.tangent);
+        self.is_ahead(last, &found, length).then_some(found)
     }
+}
+
+fn parameter_of(point: &OnCurve) -> f64 {
+    point.at[point.at.len() - 1]
 }
 
 /// The unknowns at a length along the tangent.

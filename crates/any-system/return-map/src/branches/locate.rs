@@ -19,9 +19,8 @@ pub(super) fn between<M: MapFamily + ?Sized>(
     let mut found: Vec<(f64, Bifurcation)> = Vec::new();
     for test in TESTS {
         let [before, behind] = [from, to].map(|point| test.value(point, orbit));
-        // A zero at the end of a step belongs to it, one at its beginning to the step before.
+        // Zero counts as a negative number, in each step: a zero at a point is found once, also at the first one.
         if (before > 0.0) != (behind > 0.0)
-            && before != 0.0
             && let Some((place, at)) = zero(orbit, ((from, before), (to, behind)), length, test)
             && let Some(bifurcation) = bifurcation(orbit, test, &at, itinerary)
         {

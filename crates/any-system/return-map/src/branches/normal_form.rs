@@ -12,6 +12,10 @@ use nalgebra::{Complex, DMatrix, DVector};
 /// differences it has an error of 10⁻⁸.
 const SYMMETRIC: f64 = 1e-5;
 
+/// So near to 1 the third or fourth power of a multiplier is one: a strong resonance, in whose normal form more terms count. Beside it the
+/// coefficient is large as the inverse distance.
+const RESONANT: f64 = 1e-6;
+
 pub(super) struct NormalForm {
     /// The eigenvector of the critical multiplier, or its real part, of length 1.
     pub(super) direction: Vec<f64>,
@@ -181,7 +185,9 @@ fn circle_form<M: MapFamily + ?Sized>(
         let all = cubic + second(&q, &bent)? * two + second(&q.conjugate(), &turned)?;
         Some(0.5 * (unit * p.dotc(&all)).re)
     })();
-    let coefficient = coefficient.filter(|c: &f64| c.is_finite());
+    let is_resonant = matches!(kind, Kind::Periodic(_))
+        && [3, 4].iter().any(|power| (multiplier.powi(*power) - 1.0).norm() < RESONANT);
+    let coefficient = coefficient.filter(|c: &f64| c.is_finite() && !is_resonant);
     Some(NormalForm { direction, coefficient, is_symmetric: false })
 }
 

@@ -82,25 +82,32 @@ fn chords(
     (inside(&s) && inside(&r)).then_some((s, r))
 }
 
-/// The crossing near two numbers, by Newton's method with slopes from points beside.
+/// A point of a manifold in the plane, and its derivative by the number.
+pub(super) fn moving<M: MapFamily + ?Sized>(
+    manifold: &UnstableManifold<'_, M>,
+    t: f64,
+) -> Option<(Vector2<f64>, Vector2<f64>)> {
+    let (point, tangent) = manifold.tangent_at(t).ok()?;
+    Some((plane(&point)?, plane(&tangent)?))
+}
+
+/// The sine of the angle from one direction to another one.
+pub(super) fn sine(u: &Vector2<f64>, v: &Vector2<f64>) -> f64 {
+    u.perp(v) / (u.norm() * v.norm())
+}
+
+/// The crossing near two numbers, by Newton's method.
 fn solved<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
     (first, second): (&UnstableManifold<'_, A>, &UnstableManifold<'_, B>),
     start: [f64; 2],
     widths: [f64; 2],
 ) -> Option<ManifoldCrossing> {
-    /// Slopes are taken so far beside, as a part of the distance of points: their error only slows the steps.
-    const BESIDE: f64 = 1e-4;
-    let one = |t: f64| plane(&first.at(t).ok()?);
-    let two = |t: f64| plane(&second.at(t).ok()?);
     let [mut t, mut r] = start;
     let mut best: Option<ManifoldCrossing> = None;
     for _ in 0..MOST_STEPS {
-        let (x, y) = (one(t)?, two(r)?);
-        let h = [BESIDE * widths[0], BESIDE * widths[1]];
-        let u = (one(t + h[0])? - one(t - h[0])?) / (2.0 * h[0]);
-        let v = (two(r + h[1])? - two(r - h[1])?) / (2.0 * h[1]);
+        let ((x, u), (y, v)) = (moving(first, t)?, moving(second, r)?);
         let error = (x - y).norm();
-        let sine = (u.perp(&v) / (u.norm() * v.norm())).abs().min(1.0);
+        let sine = sine(&u, &v).abs().min(1.0);
         if best.as_ref().is_none_or(|best| error < best.error) {
             let (point, angle) = ([x[0], x[1]], pxfm::f_asin(sine));
             best = Some(ManifoldCrossing { point, numbers: [t, r], angle, error });

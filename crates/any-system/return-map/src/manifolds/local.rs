@@ -95,6 +95,20 @@ impl LocalCurve {
         self.terms.iter().map(|jet| horner(&jet.0, s)).collect()
     }
 
+    /// The curve x(s + r ε), of ε.
+    pub(super) fn moving(&self, s: f64, rate: f64) -> Vec<Jet<4>> {
+        let of = |jet: &Jet<4>| {
+            let [here, first, second, third] = jet.0;
+            Jet([
+                horner(&[here, first, second, third], s),
+                horner(&[first, 2.0 * second, 3.0 * third], s) * rate,
+                horner(&[second, 3.0 * third], s) * rate * rate,
+                third * rate * rate * rate,
+            ])
+        };
+        self.terms.iter().map(of).collect()
+    }
+
     /// True if g maps x(s/μ) to x(s), on both sides, with the same pieces of the map.
     fn is_exact<M: MapFamily + ?Sized>(&self, map: &M, s: f64, error: f64) -> bool {
         [s, -s, 0.5 * s, -0.5 * s].into_iter().all(|s| {

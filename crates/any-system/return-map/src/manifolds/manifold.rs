@@ -3,7 +3,8 @@
 use super::local::LocalCurve;
 use crate::branches::BranchPoint;
 use crate::error::Error;
-use crate::families::{MapFamily, orbit_after};
+use crate::families::{MapFamily, curve_after, orbit_after};
+use equations::Jet;
 
 /// One side of the one-dimensional unstable manifold of a saddle of a map: a fixed or periodic point with one multiplier outside of the
 /// unit circle.
@@ -67,6 +68,30 @@ impl<'m, M: MapFamily + ?Sized> UnstableManifold<'m, M> {
     /// Those of the map.
     pub fn at(&self, t: f64) -> Result<Vec<f64>, Error> {
         Ok(self.image(t, self.images(t))?.0)
+    }
+
+    /// Γ(t) and Γ′(t).
+    ///
+    /// # Errors
+    /// Those of the map and of its derivatives.
+    pub fn tangent_at(&self, t: f64) -> Result<(Vec<f64>, Vec<f64>), Error> {
+        let images = self.images(t);
+        let s = self.start * pxfm::f_pow(self.local.multiplier, t - images as f64);
+        // The derivative of s μᵗ.
+        let rate = s * pxfm::f_log(self.local.multiplier);
+        let curve = (self.local.moving(s, rate), Jet::number(self.local.saddle.parameter));
+        let found = curve_after(self.map, curve, images * self.local.times)?;
+        Ok(found.iter().map(|jet| (jet.0[0], jet.0[1])).unzip())
+    }
+
+    /// ln |s| of Γ(t): unlike t it is smooth in the parameter, as it does not depend on the reach of the cubic.
+    pub(super) fn logarithm(&self, t: f64) -> f64 {
+        pxfm::f_log(self.start.abs()) + t * pxfm::f_log(self.local.multiplier)
+    }
+
+    /// The t of a logarithm.
+    pub(super) fn number(&self, logarithm: f64) -> f64 {
+        (logarithm - pxfm::f_log(self.start.abs())) / pxfm::f_log(self.local.multiplier)
     }
 
     /// How often g is applied on the way from the cubic to Γ(t).
