@@ -6,18 +6,30 @@
 
 #![allow(clippy::print_stdout)] // a program
 
-use example_systems::valve::turning_points;
-use hybrid_system::Error;
+use example_systems::valve::valve_equations;
+use return_map::{EquationReturns, Error, OrbitLength, Seeds, bifurcation_diagram};
+use std::ops::ControlFlow::Continue;
 
 fn main() -> Result<(), Error> {
+    let section = ("open", "turning point");
+    let valve = valve_equations();
+    let returns = EquationReturns::new(&valve, "flow", section, &["displacement", "pressure"])?;
+    let rates = [0.5, 1.0, 2.0, 4.0, 5.0, 6.0, 7.0, 7.5, 8.0, 9.0];
+    let seeds = [vec![1.0, 10.0]];
+    let length = OrbitLength { transient: 500, keep: 64 };
     println!("{:>4}  displacements at the last turning points", "q");
-    for flow_rate in [0.5, 1.0, 2.0, 4.0, 5.0, 6.0, 7.0, 7.5, 8.0, 9.0] {
-        let mut found = turning_points(flow_rate, 500, 64)?;
+    for column in
+        bifurcation_diagram(&returns, &rates, (&seeds, Seeds::Fresh), length, |_| Continue(()))
+    {
+        let mut found = Vec::new();
+        for orbit in column.orbits {
+            found.extend(orbit?.iter().map(|point| point[0]));
+        }
         found.sort_by(f64::total_cmp);
         found.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
         let shown: Vec<String> = found.iter().take(8).map(|y| format!("{y:.6}")).collect();
         let more = if found.len() > 8 { " …" } else { "" };
-        println!("{flow_rate:>4}  {}{more}", shown.join(" "));
+        println!("{:>4}  {}{more}", column.parameter, shown.join(" "));
     }
     Ok(())
 }
@@ -26,7 +38,7 @@ fn main() -> Result<(), Error> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use example_systems::valve::{Mode, Valve};
+    use example_systems::valve::{Mode, Valve, turning_points};
     use hybrid_system::{ArcEnd, Execution, HybridSystem};
     use nalgebra::Vector3;
 

@@ -3,6 +3,7 @@
 mod borders;
 mod branch_ends;
 mod branches;
+mod flows;
 mod known_answers;
 mod manifolds;
 mod orbits;

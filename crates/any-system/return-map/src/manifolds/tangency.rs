@@ -41,7 +41,8 @@ const EXACT: f64 = 1e-9;
 /// let bent = |x: f64| 1.0 + (x - 2.0) * (x - 2.0);
 /// let curve = family(2, move |x, _| Ok(vec![2.0 * x[0], 0.5 * (x[1] - bent(x[0])) + bent(2.0 * x[0])]));
 /// let line = family(2, |x, p| Ok(vec![2.0 * x[0], p + 0.5 * (x[1] - p)]));
-/// let one = |p: f64| UnstableManifold::new(&curve, 1, (&[0.0, 5.0], p), 1.0);
+/// // From (0, 5) downwards, and from (0, p) to the right.
+/// let one = |p: f64| UnstableManifold::new(&curve, 1, (&[0.0, 5.0], p), -1.0);
 /// let two = |p: f64| UnstableManifold::new(&line, 1, (&[0.0, p], p), 1.0);
 /// let (bend, flat, steps) = (one(1.01)?, two(1.01)?, ManifoldSteps::default());
 /// let curves = [bend.curve(&steps, |_| Continue(())), flat.curve(&steps, |_| Continue(()))];
