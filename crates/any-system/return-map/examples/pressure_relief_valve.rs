@@ -37,7 +37,6 @@ fn main() -> Result<(), Error> {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
-    use super::*;
     use example_systems::valve::{Mode, Valve, turning_points};
     use hybrid_system::{ArcEnd, Execution, HybridSystem};
     use nalgebra::Vector3;
