@@ -28,6 +28,7 @@
 //! | [`region_boxes`] | boxes with more than one basin, and entropies, in a region of any dimension |
 //! | [`uncertain_pairs`], [`uncertainty_exponent`] | final-state uncertainty in a region of any dimension |
 //! | [`Attractors`], [`Unmatched`] | attractors of maps and flows of several variables, found by recurrences and tested as traps |
+//! | [`KnownAttractors`] | attractors that the caller knows by points: basins by the distance from them, and the time to convergence |
 //! | [`FeatureAttractors`], [`FeatureGroups`] | the same by features of orbits, grouped by density or beside templates |
 //! | [`fractions_along`], [`FractionsAlong`], [`Fractions`] | fractions along a curve of parameters, refined where they change, with their jumps |
 //! | [`match_attractors`], [`Matching`] | which attractors at two parameters are the same |
@@ -104,6 +105,7 @@ mod hyperrectangle;
 mod image_fractions;
 mod interval;
 mod interval_basins;
+mod known_attractors;
 mod known_cells;
 mod label;
 mod least_squares;
@@ -160,6 +162,7 @@ pub use fractions_along::{
 pub use hyperrectangle::Hyperrectangle;
 pub use interval::{Interval, IntervalSet};
 pub use interval_basins::{IntervalBasins, LabelledInterval};
+pub use known_attractors::{KnownAttractors, KnownLimits};
 pub use label::Label;
 pub use ln_2_criterion::Ln2Criterion;
 pub use low_discrepancy::{low_discrepancy_fractions, stratified_fractions, stratified_points};

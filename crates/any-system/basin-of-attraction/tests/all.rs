@@ -5,6 +5,7 @@
 
 mod attractor_features;
 mod attractors;
+mod attractors_known;
 mod attractors_once;
 mod boundary_distance;
 mod boundary_shapes;
