@@ -2,9 +2,10 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
+use equations::{Formulas, Names};
 use return_map::{
-    BifurcationKind, Branch, BranchEnd, BranchSteps, CurveEnd, bifurcation_curve, doubled_branch,
-    family, follow_branch, pieces, scalar_family,
+    BifurcationKind, Branch, BranchEnd, BranchSteps, CurveEnd, FormulaMap, bifurcation_curve,
+    doubled_branch, family, follow_branch, follow_equilibria, pieces, scalar_family,
 };
 use std::f64::consts::PI;
 use std::ops::ControlFlow::Continue;
@@ -97,5 +98,77 @@ fn a_curve_of_circles_through_resonances() {
     for resonance in [PI / 2.0, 2.0 * PI / 3.0] {
         let circle = &of(resonance).bifurcations[0];
         assert_eq!((circle.kind, circle.coefficient), (BifurcationKind::NeimarkSacker, None));
+    }
+}
+
+/// Beside a pitchfork the bent branch has no fold.
+#[test]
+fn no_folds_beside_pitchforks() {
+    let names = Names::new(&["x"], &[("p", "0")]).unwrap();
+    let map = FormulaMap::new(&Formulas::from_text(names, &["p*x - x^3"]).unwrap(), "p").unwrap();
+    let steps = BranchSteps::default();
+    for k in 0..50 {
+        let p = 1.2 + 0.016 * f64::from(k);
+        let start = (&[(p - 1.0).sqrt()][..], p);
+        let branch = follow_branch(&map, 1, start, (0.5, 2.5), steps, |_| Continue(())).unwrap();
+        let folds = kinds(&branch).iter().filter(|found| found.0 == BifurcationKind::Fold).count();
+        let forks =
+            kinds(&branch).iter().filter(|found| found.0 == BifurcationKind::Pitchfork).count();
+        assert_eq!((folds, forks), (0, 1), "{p}: {:?}", kinds(&branch));
+    }
+}
+
+/// Two branches that pass each other at a small distance: each is followed to its fold, and no crossing is invented.
+#[test]
+fn branches_beside_others_are_not_left() {
+    for eps in [1e-4f64, 5e-5, 2e-5, 1e-5, 1e-6, 1e-7] {
+        let map = scalar_family(|x, p| x + 0.5 * (x * x - p * p + eps));
+        let start = (&[-(1.0 - eps).sqrt()][..], -1.0);
+        let steps = BranchSteps::default();
+        let branch = follow_branch(&map, 1, start, (-1.0, 1.3), steps, |_| Continue(())).unwrap();
+        let found = kinds(&branch);
+        assert_eq!(found.len(), 1, "{eps}: {found:?} {:?}", branch.ends);
+        assert_eq!(found[0].0, BifurcationKind::Fold);
+        assert!((found[0].1 + eps.sqrt()).abs() < 1e-9, "{eps}: {found:?}");
+        assert_eq!(branch.ends, [BranchEnd::Window, BranchEnd::Window]);
+    }
+    // An imperfect pitchfork.
+    for eps in [1e-4, 1e-5, 1e-6] {
+        let map = scalar_family(|x, p| x + p * x - x * x * x + eps);
+        let steps = BranchSteps::default();
+        let start = (&[1.3f64.sqrt()][..], 1.3);
+        let branch = follow_branch(&map, 1, start, (-1.0, 1.3), steps, |_| Continue(())).unwrap();
+        // The upper branch stays positive.
+        assert!(branch.points.iter().all(|at| at.point[0] > 0.0), "{eps}");
+        assert!(kinds(&branch).iter().all(|found| found.0 == BifurcationKind::Doubling));
+    }
+    // Two waves side by side.
+    for d in [0.01, 0.005, 0.003] {
+        let wave = |p: f64| 1.0 + 0.05 * (30.0 * p).sin();
+        let map = scalar_family(|x, p| x + 0.5 * ((x - wave(p)).powi(2) - d * d));
+        let steps = BranchSteps::default();
+        let start = (&[1.0 + d][..], 0.0);
+        let branch = follow_branch(&map, 1, start, (-2.0, 2.0), steps, |_| Continue(())).unwrap();
+        assert!(branch.bifurcations.is_empty(), "{d}: {:?}", kinds(&branch));
+        assert!(branch.points.iter().all(|at| at.point[0] > wave(at.parameter)), "{d}");
+        assert_eq!(branch.ends, [BranchEnd::Window, BranchEnd::Window]);
+    }
+}
+
+/// A slow cycle, and slow circles: the size of a frequency does not matter.
+#[test]
+fn slow_cycles_begin_too() {
+    for rate in [1.0, 1e-5, 1e-7] {
+        let field = family(2, move |x, mu| {
+            Ok(vec![rate * x[1], rate * (mu * x[1] - x[0] - x[0] * x[0] * x[1])])
+        });
+        let start = (&[0.0, 0.0][..], -0.5);
+        let steps = BranchSteps::default();
+        let branch =
+            follow_equilibria(&field, start, (-1.0, 1.0), steps, |_| Continue(())).unwrap();
+        let found = kinds(&branch);
+        assert_eq!(found.len(), 1, "{rate}: {found:?}");
+        assert_eq!(found[0].0, BifurcationKind::Hopf);
+        assert!(found[0].1.abs() < 1e-9);
     }
 }

@@ -8,6 +8,7 @@ use return_map::{
     ApproximateMap, Error, MapFamily, OrbitEnd, all_equilibria, all_periodic_points, family,
     map_pieces, pieces, scalar_family,
 };
+use std::f64::consts::PI;
 
 /// Points between two ends, at no special places.
 fn between((left, right): (f64, f64), count: usize) -> impl Iterator<Item = f64> {
@@ -276,10 +277,40 @@ fn derivatives_beside_a_singular_border_are_as_sure_as_they_say() {
         let exact = 1.0 - 4.0 / 3.0 * d.cbrt();
         assert!((found.0[1] - exact).abs() < 1e-6, "{d}: {found:?} {exact}");
     }
-    // A map that turns within 3·10⁻⁶: no distance has three digits.
-    let kinks = scalar_family(|x, _| (1e6 * x).sin().abs());
-    assert!(matches!(
-        kinks.pushed(&[Jet::moving(0.3, 1.0)], Jet::number(0.0)),
-        Err(Error::Differences { .. })
-    ));
+    // A kink has no derivative, though both sides of it cancel.
+    for kink in [|x: f64| 1.5 * x.abs(), |x: f64| x.abs().sqrt(), |x: f64| 1.0 - 1.5 * x.abs()] {
+        let map = scalar_family(move |x, _| kink(x));
+        let found = map.pushed(&[Jet::moving(0.0, 1.0)], Jet::number(0.0));
+        assert!(matches!(found, Err(Error::Differences { .. })), "{found:?}");
+    }
+}
+
+/// Features that are far smaller than a number, and numbers that are small or large themselves.
+#[test]
+fn derivatives_of_small_features() {
+    let slope = |map: &dyn MapFamily, x: f64| map.linearized(&[x], 0.0).unwrap().1[(0, 0)];
+    let close = |found: f64, exact: f64, error: f64, what: &str| {
+        assert!((found - exact).abs() <= error, "{what}: {found} {exact}");
+    };
+    for s in [1e-4, 1e-6, 1e-8] {
+        close(slope(&scalar_family(|x, _| s * (x / s).sin()), 0.0), 1.0, 1e-7, "sine");
+        close(slope(&scalar_family(|x, _| x / (1.0 + (x / s).powi(2))), 0.0), 1.0, 1e-7, "peak");
+        let ricker = scalar_family(|x, _| x * (2.5 * (1.0 - x / s)).exp());
+        close(slope(&ricker, s), -1.5, 1e-6, "Ricker");
+        let bump = scalar_family(|x, _| 0.5 * x + s * (-(x / s).powi(2)).exp());
+        close(slope(&bump, -0.5 * s), 0.5 + (-0.25f64).exp(), 1e-6, "bump");
+    }
+    for c in [1e5, 1e6, 1e8] {
+        let map = scalar_family(|x, _| x + 0.5 * (x - c).sin());
+        close(slope(&map, c), 1.5, 1e-9 * c.sqrt() + 1e-14 * c, "shifted");
+    }
+    for k in [128.0, 256.0, 1024.0] {
+        let map = scalar_family(|x, _| 0.5 * x + 0.1 / k * (2.0 * PI * k * x).sin());
+        close(slope(&map, 0.0), 0.5 + 0.2 * PI, 1e-8, "aliases");
+    }
+    let kink = scalar_family(|x, _| if x > 1e-4 { 0.6 * x - 1e-5 } else { 0.5 * x });
+    close(slope(&kink, 0.0), 0.5, 1e-9, "a kink beside");
+    // Values that do not change, and the top of a parabola.
+    assert_eq!(slope(&scalar_family(|_, _| 3.0), 0.3), 0.0);
+    close(slope(&scalar_family(|x, _| 3.9 * x * (1.0 - x)), 0.5), 0.0, 1e-12, "top");
 }

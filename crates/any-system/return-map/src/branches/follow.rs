@@ -232,8 +232,13 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
                 way.end = end;
                 return way;
             }
+            let Some(located) = between(&self.orbit, (&last, &next), leaves, itinerary) else {
+                reason = String::from("another branch passes beside it");
+                length *= 0.5;
+                continue;
+            };
             near = next_near;
-            way.located.extend(between(&self.orbit, (&last, &next), itinerary));
+            way.located.extend(located);
             let point = point_of(&self.orbit, &next, itinerary.to_vec());
             let stopped = (self.see)(&point).is_break();
             way.points.push(point);

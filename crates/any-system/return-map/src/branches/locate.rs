@@ -1,7 +1,7 @@
 //! The bifurcations between two points of a branch.
 
 use super::branch::{Bifurcation, BifurcationKind};
-use super::curve::{OnCurve, corrected};
+use super::curve::{Curve, OnCurve, corrected};
 use super::follow::{point_of, predicted};
 use super::normal_form::normal_form;
 use super::orbit::Orbit;
@@ -9,39 +9,81 @@ use super::tests::{TESTS, Test};
 use crate::families::MapFamily;
 use interval_arithmetic::bracketed_root;
 
-/// The bifurcations between two neighbouring points of a branch, in order.
+/// The bifurcations between two neighbouring points of a branch, in order; `None` if the step passes to another branch. `is_last` is true for
+/// a step to the end of the window: a bifurcation there belongs to it.
 pub(super) fn between<M: MapFamily + ?Sized>(
     orbit: &Orbit<'_, M>,
     (from, to): (&OnCurve, &OnCurve),
+    is_last: bool,
     itinerary: &[String],
-) -> Vec<Bifurcation> {
+) -> Option<Vec<Bifurcation>> {
     let length = (&to.at - &from.at).component_div(&orbit.scales).dot(&from.tangent);
-    let mut found: Vec<(f64, Bifurcation)> = Vec::new();
+    // Place, what is left of the test there, and the bifurcation.
+    let mut found: Vec<(f64, f64, Bifurcation)> = Vec::new();
     for test in TESTS {
         let [before, behind] = [from, to].map(|point| test.value(point, orbit));
         // Zero counts as a negative number, in each step: a zero at a point is found once, also at the first one.
-        if (before > 0.0) != (behind > 0.0)
-            && let Some((place, at)) = zero(orbit, ((from, before), (to, behind)), length, test)
-            && let Some(bifurcation) = bifurcation(orbit, test, &at, itinerary)
-        {
-            found.push((place, bifurcation));
+        let ends_there = is_last && behind.abs() <= AT_END * before.abs();
+        if (before > 0.0) == (behind > 0.0) && !ends_there {
+            continue;
+        }
+        let located = match ends_there {
+            true => Some((length, to.clone())),
+            false => zero(orbit, ((from, before), (to, behind)), length, test),
+        };
+        let is_crossing = test == Test::Cross && !ends_there;
+        let Some((place, at)) = located else {
+            if is_crossing {
+                return None;
+            }
+            continue;
+        };
+        if is_crossing && !is_solution(orbit, &at) {
+            return None;
+        }
+        let left = if is_crossing { 0.0 } else { test.value(&at, orbit).abs() };
+        let left = left / before.abs().max(behind.abs());
+        if let Some(bifurcation) = bifurcation(orbit, test, &at, itinerary) {
+            found.push((place, left, bifurcation));
         }
     }
-    // On the branch that bends at a pitchfork it turns there: that is no fold.
+    // On the branch that bends at a pitchfork it turns there: that is no fold. Beside a crossing a step may end on the other branch, and
+    // then the direction jumps: a fold is where it is zero.
     let crossings: Vec<f64> = found
         .iter()
-        .filter(|(_, located)| {
+        .filter(|(_, _, located)| {
             use BifurcationKind::{Pitchfork, Transcritical};
             matches!(located.kind, Pitchfork | Transcritical)
         })
-        .map(|(place, _)| *place)
+        .map(|(place, _, _)| *place)
         .collect();
-    found.retain(|(place, located)| {
+    found.retain(|(place, left, located)| {
         let is_near = |crossing: &f64| (crossing - place).abs() <= BESIDE * length;
-        located.kind != BifurcationKind::Fold || !crossings.iter().any(is_near)
+        let is_sure = crossings.is_empty() || *left <= ZERO && !crossings.iter().any(is_near);
+        located.kind != BifurcationKind::Fold || is_sure
     });
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    found.into_iter().map(|(_, located)| located).collect()
+    Some(found.into_iter().map(|(_, _, located)| located).collect())
+}
+
+/// A test that is so small at the end of the window, beside its value before, is zero there.
+const AT_END: f64 = 1e-12;
+
+/// A test is so small where it is located, beside its values at both ends of the step: a number that jumps is not.
+const ZERO: f64 = 1e-3;
+
+/// So far the equations may be off where branches cross, in units of the scales: a cubic finds that point. Of two branches that pass each
+/// other at a distance the point between is not on any. A larger number would take those for a crossing.
+const OFF: f64 = 1e-9;
+
+/// True if a crossing of branches is a point of the curve.
+fn is_solution<M: MapFamily + ?Sized>(orbit: &Orbit<'_, M>, at: &OnCurve) -> bool {
+    let Ok(values) = orbit.values(&at.at) else { return false };
+    let off = values
+        .iter()
+        .zip(orbit.scales.iter())
+        .fold(0.0, |off: f64, (value, scale)| off.max((value / scale).abs()));
+    off <= OFF + 100.0 * at.error
 }
 
 /// Where a test is zero between two points with their values, up to a length along the tangent.

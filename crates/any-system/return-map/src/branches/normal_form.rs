@@ -10,7 +10,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 /// A second-order coefficient that is so small beside the root of the third-order one, which has its unit, belongs to a symmetric map: by
 /// differences it has an error of 10⁻⁸.
-const SYMMETRIC: f64 = 1e-5;
+const SYMMETRIC: f64 = 1e-7;
 
 /// So near to 1 the third or fourth power of a multiplier is one: a strong resonance, in whose normal form more terms count. Beside it the
 /// coefficient is large as the inverse distance.

@@ -30,6 +30,9 @@ pub(super) const TESTS: [Test; 4] = [Test::Turn, Test::Cross, Test::Flip, Test::
 /// A smaller number would refuse those of integrated maps.
 const ON_CIRCLE: f64 = 1e-6;
 
+/// A pair is not real above this imaginary part, beside the largest of all values: a double real one is known to the root of its rounding.
+const NOT_REAL: f64 = 3e-8;
+
 impl Test {
     /// The number at a point of a branch.
     pub(super) fn value<M: ?Sized>(self, point: &OnCurve, orbit: &Orbit<'_, M>) -> f64 {
@@ -68,7 +71,14 @@ impl Test {
                     Kind::Periodic(_) => (|m| m.norm() - 1.0, BifurcationKind::NeimarkSacker),
                     Kind::Equilibrium => (|m| m.re, BifurcationKind::Hopf),
                 };
-                let is_on = |m: &Complex<f64>| m.im.abs() > ON_CIRCLE && off(m).abs() < ON_CIRCLE;
+                let largest = values.iter().fold(0.0, |largest: f64, m| largest.max(m.norm()));
+                let size = |m: &Complex<f64>| match of {
+                    Kind::Periodic(_) => 1.0,
+                    Kind::Equilibrium => m.norm(),
+                };
+                let is_on = |m: &Complex<f64>| {
+                    m.im.abs() > NOT_REAL * largest && off(m).abs() < ON_CIRCLE * size(m)
+                };
                 values.iter().any(is_on).then_some(found)
             }
         }

@@ -16,6 +16,10 @@ impl<F: Fn(&[f64], f64) -> Result<Image, Error> + Sync> MapFamily for Closure<F>
     }
 
     fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error> {
+        if point.len() != self.dimension {
+            let (what, expected, found) = ("a point of a map", self.dimension, point.len());
+            return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
+        }
         let image = (self.map)(point, parameter)?;
         let (expected, found) = (self.dimension, image.point.len());
         if expected != found {

@@ -6,22 +6,25 @@ use equations::{Jet, horner};
 
 /// The distance of the values of a difference, on the scale of the point. With seven values an error of order h⁶ is left in the
 /// first derivative, 2·10⁻¹³, as large as the rounding of the values over h. The third derivative has one of order h⁴. A smaller
-/// number would spread the noise of integrated maps.
-const REACH: f64 = 1.0 / 128.0;
+/// number would spread the noise of integrated maps. It is no simple fraction: a periodic term would have the same phase at all values.
+const REACH: f64 = 0.007_639_320_225;
 
-/// Where some value lies beyond a border of the map, or the first derivative is not sure, the distance is made so much shorter, at
-/// most so often.
+/// Where some value lies beyond a border of the map, or the derivatives are not sure, the distance is made so much shorter, at most so
+/// often: down to 10⁻¹⁰ of the point. So a map of small numbers, or of small features at large ones, has derivatives.
 const SHORTER: f64 = 1.0 / 8.0;
-const MOST_SHORTENINGS: usize = 4;
+const MOST_SHORTENINGS: usize = 9;
 
-/// Two derivatives, of which one has half the distance of the other, agree to this where neither the terms left out nor noise count.
+/// Derivatives at two distances, of which one is half of the other, agree to this where neither the terms left out nor noise count.
 /// A larger number would accept distances that are too long for the map, a smaller one would look in vain for better ones.
 const SURE: f64 = 1e-10;
 
-/// A first derivative that is less sure than this is refused: the map has none, or its noise hides it.
+/// With derivatives that agree to this a shorter distance that is worse ends the search: noise counts.
+const USEFUL: f64 = 1e-6;
+
+/// Derivatives that are less sure than this are refused: the map has none, or its noise hides them.
 const USELESS: f64 = 1e-3;
 
-/// Derivatives, and by how much a first one changes with the distance of the values, on the scale of the image.
+/// Derivatives, and by how much the first two change with the distance of the values, over the slope of the values.
 type Estimated = (Vec<Jet<4>>, f64);
 
 /// The image of a curve to third order, by differences.
@@ -52,16 +55,12 @@ pub(super) fn pushed<M: MapFamily + ?Sized>(
             .or_else(|| one_sided(&of, &here, h))
             .or_else(|| one_sided(&of, &here, -h));
         if let Some((jets, change)) = found {
-            // In units of s that move the point by its own size.
-            let change = change * unit;
-            let is_better = best.as_ref().is_none_or(|(_, before)| change < *before);
+            let before = best.as_ref().map_or(f64::INFINITY, |(_, before)| *before);
+            let is_better = change < before;
             if is_better {
                 best = Some((jets, change));
             }
-            // From here on shorter distances add noise.
-            if change <= SURE
-                || !is_better && best.as_ref().is_some_and(|(_, before)| *before < USELESS)
-            {
+            if change <= SURE || !is_better && before <= USEFUL {
                 break;
             }
         }
@@ -74,29 +73,69 @@ pub(super) fn pushed<M: MapFamily + ?Sized>(
     Err(Error::Differences { point, parameter: parameter.0[0], distance: h / SHORTER })
 }
 
-/// The largest change of a first derivative between two distances, over the size of the component.
-fn change(coarse: &[Jet<4>], fine: &[Jet<4>]) -> f64 {
-    let of = |(a, b): (&Jet<4>, &Jet<4>)| {
-        let size = a.0[0].abs().max(1.0).max(a.0[1].abs());
-        (a.0[1] - b.0[1]).abs() / size
+/// The largest change of the first two derivatives from one distance to half of it. `variation` is the largest difference of a value from that
+/// here, for each component, within the distance `reach`. A second derivative counts by what it does to the first one within h: at a
+/// kink, and at a feature that is narrower than all distances, it changes with the distance though the first derivative may not.
+fn change(
+    (coarse, fine): (&[Jet<4>], &[Jet<4>]),
+    variation: &[f64],
+    (reach, h): (f64, f64),
+) -> f64 {
+    let of = |((a, b), variation): ((&Jet<4>, &Jet<4>), &f64)| {
+        let size = (variation / reach.abs()).max(a.0[1].abs());
+        let noise = f64::EPSILON * a.0[0].abs() / h.abs();
+        let off = (a.0[1] - b.0[1]).abs().max((h * (a.0[2] - b.0[2])).abs());
+        // Values that do not differ but by rounding have no slope.
+        if off <= NOISE * noise { 0.0 } else { off / size }
     };
-    coarse.iter().zip(fine).map(of).fold(0.0, f64::max)
+    coarse.iter().zip(fine).zip(variation).map(of).fold(0.0, f64::max)
+}
+
+/// The place of a value that no difference uses, in units of h: between two of them, in no simple ratio to any.
+const ASIDE: f64 = 0.732_050_807_568_877_2;
+
+/// How far a value at s is from that which the derivatives let expect, over s and the slope of the values.
+fn off_expected(
+    (jets, found): (&[Jet<4>], &[f64]),
+    variation: &[f64],
+    (s, reach): (f64, f64),
+) -> f64 {
+    let of = |((jet, found), variation): ((&Jet<4>, &f64), &f64)| {
+        let size = (variation / reach.abs()).max(jet.0[1].abs());
+        let off = (horner(&jet.0, s) - found).abs();
+        if off <= NOISE * f64::EPSILON * found.abs() { 0.0 } else { off / (s.abs() * size) }
+    };
+    jets.iter().zip(found).zip(variation).map(of).fold(0.0, f64::max)
+}
+
+/// A change of derivatives of so many roundings of the values is none.
+const NOISE: f64 = 32.0;
+
+/// The largest difference of values from that here.
+fn variation<'v>(here: &[f64], values: impl Iterator<Item = &'v Vec<f64>>) -> Vec<f64> {
+    let mut largest = vec![0.0f64; here.len()];
+    for value in values {
+        for ((largest, x), here) in largest.iter_mut().zip(value).zip(here) {
+            *largest = largest.max((x - here).abs());
+        }
+    }
+    largest
 }
 
 /// The derivatives from values on one side, next to a border of the map.
 fn one_sided(of: &impl Fn(f64) -> Result<Image, Error>, here: &Image, h: f64) -> Option<Estimated> {
-    let coarse = seven_on_one_side(of, here, 0.5 * h)?;
-    let fine = seven_on_one_side(of, here, 0.25 * h)?;
-    let change = change(&coarse, &fine);
+    let (coarse, variation) = seven_on_one_side(of, here, 0.5 * h)?;
+    let (fine, _) = seven_on_one_side(of, here, 0.25 * h)?;
+    let change = change((&coarse, &fine), &variation, (3.0 * h, 0.5 * h));
     Some((coarse, change))
 }
 
-/// The derivatives from seven values on one side, at multiples of h.
+/// The derivatives from seven values on one side, at multiples of h, and the largest difference of a value.
 fn seven_on_one_side(
     of: &impl Fn(f64) -> Result<Image, Error>,
     here: &Image,
     h: f64,
-) -> Option<Vec<Jet<4>>> {
+) -> Option<(Vec<Jet<4>>, Vec<f64>)> {
     let mut values = vec![here.point.clone()];
     for k in 1..=6 {
         let image = of(f64::from(k) * h).ok().filter(|image| image.itinerary == here.itinerary)?;
@@ -115,7 +154,8 @@ fn seven_on_one_side(
         let third = d[3] - 1.5 * d[4] + 1.75 * d[5] - 1.875 * d[6];
         Jet([here.point[axis], first / h, second / (2.0 * h * h), third / (6.0 * h * h * h)])
     };
-    Some((0..here.point.len()).map(of_component).collect())
+    let jets = (0..here.point.len()).map(of_component).collect();
+    Some((jets, variation(&here.point, values.iter())))
 }
 
 /// The derivatives from values on both sides; `None` if one of them is missing, or is on another piece of the map.
@@ -131,8 +171,14 @@ fn difference(
     }
     let coarse = seven_on_both_sides(&here.point, &pairs[..3], h);
     let fine = seven_on_both_sides(&here.point, &pairs[1..], 0.5 * h);
-    let change = change(&coarse, &fine);
-    Some((coarse, change))
+    let variation = variation(&here.point, pairs.iter().flatten());
+    let change = change((&coarse, &fine), &variation, (4.0 * h, h));
+    // A term whose period divides the distance is seen at no pair: another one is asked.
+    let sides = [ASIDE, -ASIDE].map(|j| (j * h, value(j * h)));
+    let off = sides.into_iter().try_fold(0.0, |off: f64, (s, found)| {
+        Some(off.max(off_expected((&fine, &found?.point), &variation, (s, 4.0 * h))))
+    })?;
+    Some((coarse, change.max(off)))
 }
 
 /// The derivatives from the value and the pairs of values at ±4h, ±2h and ±h.
