@@ -166,7 +166,7 @@ fn homoclinic_points() {
         let stable = UnstableManifold::new(&back, 1, (&saddle, a), side).unwrap();
         let curves =
             [unstable.curve(&steps, |_| Continue(())), stable.curve(&steps, |_| Continue(()))];
-        let crossings = manifold_crossings((&unstable, &curves[0]), (&stable, &curves[1]));
+        let crossings = manifold_crossings((&unstable, &curves[0]), (&stable, &curves[1])).unwrap();
         for crossing in &crossings {
             let [t, r] = crossing.numbers;
             let on = [unstable.at(t).unwrap(), stable.at(r).unwrap()];
@@ -202,7 +202,7 @@ fn homoclinic_tangencies() {
     let region = vec![(-2.0, 2.0); 2];
     let steps = ManifoldSteps { length: 20.0, region, ..ManifoldSteps::default() };
     let curves = [unstable.curve(&steps, |_| Continue(())), stable.curve(&steps, |_| Continue(()))];
-    let crossings = manifold_crossings((&unstable, &curves[0]), (&stable, &curves[1]));
+    let crossings = manifold_crossings((&unstable, &curves[0]), (&stable, &curves[1])).unwrap();
     let near: Vec<_> = crossings.iter().filter(|crossing| crossing.angle < 0.2).collect();
     assert_eq!(near.len(), 2, "{crossings:?}");
     let found = near
@@ -245,4 +245,62 @@ fn manifolds_are_cut_at_discontinuities() {
     let curve = manifold.curve(&steps, |_| Continue(()));
     assert!(matches!(curve.end, ManifoldEnd::NoImage(_)));
     assert!((curve.points.last().unwrap()[0] - 2.0).abs() < 1e-9);
+}
+
+/// Curves that touch to third order at one parameter have one crossing before and behind it: no tangency. Nor have curves that are one.
+#[test]
+fn what_is_no_tangency_is_refused() {
+    let bent = |x: f64| (x - 2.0).powi(3);
+    let curve = family(2, move |x: &[f64], _| {
+        Ok(vec![2.0 * x[0], 0.5 * (x[1] - bent(x[0])) + bent(2.0 * x[0])])
+    });
+    let line = family(2, |x: &[f64], p| Ok(vec![2.0 * x[0], p + 0.5 * (x[1] - p)]));
+    let one = |p: f64| UnstableManifold::new(&curve, 1, (&[0.0, -8.0], p), 1.0);
+    let two = |p: f64| UnstableManifold::new(&line, 1, (&[0.0, p], p), 1.0);
+    let (bend, flat) = (one(0.01).unwrap(), two(0.01).unwrap());
+    let steps = ManifoldSteps { length: 12.0, ..ManifoldSteps::default() };
+    let curves = [bend.curve(&steps, |_| Continue(())), flat.curve(&steps, |_| Continue(()))];
+    let crossings = manifold_crossings((&bend, &curves[0]), (&flat, &curves[1])).unwrap();
+    assert_eq!(crossings.len(), 1, "{crossings:?}");
+    let found = manifold_tangency(one, two, (&crossings[0], 0.01), (-0.5, 0.5));
+    assert!(matches!(found, Err(Error::NoTangency { .. })), "{found:?}");
+    let far = ManifoldCrossing { numbers: [1.0, 1.0], ..crossings[0].clone() };
+    let found = manifold_tangency(two, two, (&far, 0.01), (-0.5, 0.5));
+    assert!(matches!(found, Err(Error::NoTangency { .. })), "{found:?}");
+}
+
+/// The first points are as near to each other as all are, and manifolds of other dimensions do not cross.
+#[test]
+fn a_curve_begins_at_its_saddle() {
+    for c in [0.0, 10.0, 100.0] {
+        let curve = family(2, move |x: &[f64], _| {
+            let u = x[0] - c;
+            let w = x[1] - c - 0.1 * (u - 2.0);
+            Ok(vec![c + 2.0 * u, c + 0.5 * w + 0.1 * (2.0 * u - 2.0)])
+        });
+        let line = family(2, move |x: &[f64], p| {
+            Ok(vec![c + 2.0 * (x[0] - c), c + p + 0.5 * (x[1] - c - p)])
+        });
+        let one = UnstableManifold::new(&curve, 1, (&[c, c - 0.2], 0.0), 1.0).unwrap();
+        let two = UnstableManifold::new(&line, 1, (&[c, c], 0.0), 1.0).unwrap();
+        let steps = ManifoldSteps { length: 5.0, ..ManifoldSteps::default() };
+        let curves = [one.curve(&steps, |_| Continue(())), two.curve(&steps, |_| Continue(()))];
+        for curve in &curves {
+            let near = |pair: &[Vec<f64>]| {
+                (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]) <= steps.longest
+            };
+            assert!(curve.points.windows(2).all(near), "{c}");
+        }
+        let found = manifold_crossings((&one, &curves[0]), (&two, &curves[1])).unwrap();
+        assert_eq!(found.len(), 1, "{c}: {found:?}");
+        assert!((found[0].point[0] - c - 2.0).abs() < 1e-9 * (1.0 + c));
+        assert!(one.at(f64::NAN).is_err());
+        let none = ManifoldSteps { length: f64::NAN, ..ManifoldSteps::default() };
+        let none = one.curve(&none, |_| Continue(()));
+        assert!(matches!(none.end, ManifoldEnd::NoImage(_)));
+    }
+    let space = family(3, |x: &[f64], _| Ok(vec![2.0 * x[0], 0.5 * x[1], 0.5 * x[2]]));
+    let one = UnstableManifold::new(&space, 1, (&[0.0; 3], 0.0), 1.0).unwrap();
+    let curve = one.curve(&ManifoldSteps::default(), |_| Continue(()));
+    assert!(manifold_crossings((&one, &curve), (&one, &curve)).is_err());
 }

@@ -2,6 +2,7 @@
 
 use super::curve::{ManifoldCurve, distance};
 use super::manifold::UnstableManifold;
+use crate::error::Error;
 use crate::families::MapFamily;
 use nalgebra::{Matrix2, Vector2};
 
@@ -28,22 +29,31 @@ const EXACT: f64 = 1e-11;
 /// for on both manifolds. Two crossings between neighbouring points of a curve may be missed.
 ///
 /// The saddles themselves are no crossings: they are at the ends.
+///
+/// # Errors
+/// [`hybrid_system::Error::Dimension`] for manifolds that are not in the plane.
 pub fn manifold_crossings<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
     (first, curve): (&UnstableManifold<'_, A>, &ManifoldCurve),
     (second, other): (&UnstableManifold<'_, B>, &ManifoldCurve),
-) -> Vec<ManifoldCrossing> {
+) -> Result<Vec<ManifoldCrossing>, Error> {
+    for found in [first.saddle().point.len(), second.saddle().point.len()] {
+        if found != 2 {
+            let (what, expected) = ("a saddle whose manifolds may cross", 2);
+            return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
+        }
+    }
     let mut found: Vec<ManifoldCrossing> = Vec::new();
     let is_cut = |curve: &ManifoldCurve, k: usize| curve.cuts.iter().any(|cut| cut.after == k);
     for k in 1..curve.points.len().saturating_sub(1) {
         let (Some(a), Some(b)) = (plane(&curve.points[k]), plane(&curve.points[k + 1])) else {
-            return found;
+            return Ok(found);
         };
         if is_cut(curve, k) {
             continue;
         }
         for j in 1..other.points.len().saturating_sub(1) {
             let (Some(c), Some(d)) = (plane(&other.points[j]), plane(&other.points[j + 1])) else {
-                return found;
+                return Ok(found);
             };
             let Some((s, r)) = chords((a, b), (c, d)).filter(|_| !is_cut(other, j)) else {
                 continue;
@@ -63,7 +73,7 @@ pub fn manifold_crossings<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
             found.extend(crossing.filter(|new| !is_known(new)));
         }
     }
-    found
+    Ok(found)
 }
 
 fn plane(point: &[f64]) -> Option<Vector2<f64>> {

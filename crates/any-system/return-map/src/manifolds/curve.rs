@@ -68,11 +68,12 @@ pub enum ManifoldEnd {
     PointLimit,
     /// It was stopped.
     Stopped,
-    /// The next point has no image, by this error.
+    /// The next point has no image, by this error, or the steps are none: lengths must be positive and finite, and a region must have a
+    /// side for each coordinate.
     NoImage(Error),
 }
 
-/// Points of the first step away from the saddle: the cubic from it to Γ(0) is short.
+/// The longest step of t.
 const FIRST: f64 = 0.25;
 
 /// The shortest distance of points, as a part of the longest, below which angles do not count: a fold is sharper than any step.
@@ -82,6 +83,29 @@ const SHARPEST: f64 = 1e-3;
 const AWAY: f64 = 0.25;
 
 impl ManifoldSteps {
+    fn check(&self, dimension: usize) -> Result<(), Error> {
+        let lengths = [
+            ("the length of a manifold", self.length),
+            ("the longest distance of points", self.longest),
+            ("the angle of a manifold", self.angle),
+        ];
+        for (what, value) in lengths {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Error::BadBranch { what, value });
+            }
+        }
+        if let Some((low, _)) = self.region.iter().find(|(low, high)| !(low < high)) {
+            let what = "the left end of a side of a region, beside its right end,";
+            return Err(Error::BadBranch { what, value: *low });
+        }
+        let (expected, found) = (dimension, self.region.len());
+        if found != 0 && found != expected {
+            let what = "a region";
+            return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
+        }
+        Ok(())
+    }
+
     /// How far a point is from the region: the largest distance of a coordinate.
     fn away(&self, point: &[f64]) -> f64 {
         let of = |(x, (low, high)): (&f64, &(f64, f64))| (low - x).max(x - high);
@@ -106,13 +130,19 @@ impl<M: MapFamily + ?Sized> UnstableManifold<'_, M> {
             length: 0.0,
             end: ManifoldEnd::PointLimit,
         };
+        if let Err(error) = steps.check(self.saddle().point.len()) {
+            curve.end = ManifoldEnd::NoImage(error);
+            return curve;
+        }
+        // The first chord is short, also where the cubic reaches far.
+        let first = self.number_at(SHARPEST * steps.longest).min(0.0);
         let (mut t, mut step) = (f64::NEG_INFINITY, FIRST);
         while curve.points.len() < steps.points {
             if curve.length >= steps.length {
                 curve.end = ManifoldEnd::Length;
                 break;
             }
-            let next = if t == f64::NEG_INFINITY { 0.0 } else { t + step };
+            let next = if t == f64::NEG_INFINITY { first } else { t + step };
             let images = self.images(next);
             let is_shortest = step <= NEIGHBOURS * next.abs().max(1.0);
             let (point, pieces) = match self.image(next, images) {

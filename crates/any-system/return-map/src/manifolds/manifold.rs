@@ -65,8 +65,9 @@ impl<'m, M: MapFamily + ?Sized> UnstableManifold<'m, M> {
     /// Γ(t).
     ///
     /// # Errors
-    /// Those of the map.
+    /// Those of the map; [`Error::BadBranch`] for a t that is not finite.
     pub fn at(&self, t: f64) -> Result<Vec<f64>, Error> {
+        self.check(t)?;
         Ok(self.image(t, self.images(t))?.0)
     }
 
@@ -75,6 +76,7 @@ impl<'m, M: MapFamily + ?Sized> UnstableManifold<'m, M> {
     /// # Errors
     /// Those of the map and of its derivatives.
     pub fn tangent_at(&self, t: f64) -> Result<(Vec<f64>, Vec<f64>), Error> {
+        self.check(t)?;
         let images = self.images(t);
         let s = self.start * pxfm::f_pow(self.local.multiplier, t - images as f64);
         // The derivative of s μᵗ.
@@ -82,6 +84,11 @@ impl<'m, M: MapFamily + ?Sized> UnstableManifold<'m, M> {
         let curve = (self.local.moving(s, rate), Jet::number(self.local.saddle.parameter));
         let found = curve_after(self.map, curve, images * self.local.times)?;
         Ok(found.iter().map(|jet| (jet.0[0], jet.0[1])).unzip())
+    }
+
+    /// The t of the point of the cubic that is so far from the saddle along the eigenvector.
+    pub(super) fn number_at(&self, s: f64) -> f64 {
+        self.number(pxfm::f_log(s))
     }
 
     /// ln |s| of Γ(t): unlike t it is smooth in the parameter, as it does not depend on the reach of the cubic.
@@ -92,6 +99,15 @@ impl<'m, M: MapFamily + ?Sized> UnstableManifold<'m, M> {
     /// The t of a logarithm.
     pub(super) fn number(&self, logarithm: f64) -> f64 {
         (logarithm - pxfm::f_log(self.start.abs())) / pxfm::f_log(self.local.multiplier)
+    }
+
+    fn check(&self, t: f64) -> Result<(), Error> {
+        match t.is_finite() {
+            true => Ok(()),
+            false => {
+                Err(Error::BadBranch { what: "the number of a point of a manifold", value: t })
+            }
+        }
     }
 
     /// How often g is applied on the way from the cubic to Γ(t).

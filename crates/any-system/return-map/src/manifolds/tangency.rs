@@ -28,7 +28,7 @@ const BESIDE: f64 = 1e-6;
 /// A step that does not make the values smaller is halved, at most so often.
 const MOST_HALVINGS: usize = 12;
 
-/// Both curves meet at a tangency as exactly as this, on the scale of the point, and in the sine of the angle.
+/// Both curves meet at a tangency as exactly as this, on the scale of the point; and so small is the sine of the angle.
 const EXACT: f64 = 1e-9;
 
 /// The tangency of two manifolds in a window of parameters, from a crossing at a small angle that was found at the parameter
@@ -46,7 +46,7 @@ const EXACT: f64 = 1e-9;
 /// let two = |p: f64| UnstableManifold::new(&line, 1, (&[0.0, p], p), 1.0);
 /// let (bend, flat, steps) = (one(1.01)?, two(1.01)?, ManifoldSteps::default());
 /// let curves = [bend.curve(&steps, |_| Continue(())), flat.curve(&steps, |_| Continue(()))];
-/// let crossings = manifold_crossings((&bend, &curves[0]), (&flat, &curves[1]));
+/// let crossings = manifold_crossings((&bend, &curves[0]), (&flat, &curves[1]))?;
 /// assert_eq!(crossings.len(), 2);
 /// let found = manifold_tangency(one, two, (&crossings[0], 1.01), (0.9, 1.1))?;
 /// assert!((found.parameter - 1.0).abs() < 1e-10);
@@ -81,7 +81,8 @@ pub fn manifold_tangency<'m, A: MapFamily + ?Sized + 'm, B: MapFamily + ?Sized +
     let mut error = f64::INFINITY;
     for _ in 0..MOST_STEPS {
         let Some(here) = own else { break };
-        let Some(step) = newton_step(&values, &at, &here, &units) else { break };
+        let step = slopes(&values, &at, &units).and_then(|slopes| slopes.lu().solve(&-here));
+        let Some(step) = step else { break };
         let mut part = 1.0;
         let mut next = None;
         for _ in 0..MOST_HALVINGS {
@@ -102,22 +103,43 @@ pub fn manifold_tangency<'m, A: MapFamily + ?Sized + 'm, B: MapFamily + ?Sized +
     let numbers = [one.number(at[0]), second(at[2])?.number(at[1])];
     let point = one.at(numbers[0])?;
     let size = point.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
-    let residual = own.map_or(f64::NAN, |own| own.norm());
+    let off = own.unwrap_or(Vector3::repeat(f64::NAN));
+    let residual = off.norm();
+    // Behind the next image of a point, or the one before, it is another tangency, or the saddle.
+    let is_near = (numbers[0] - t).abs() <= 1.0 && (numbers[1] - r).abs() <= 1.0;
+    let is_exact = off.xy().norm() <= EXACT * size && off[2].abs() <= EXACT;
+    let unfolds = slopes(&values, &at, &units).is_some_and(|slopes| unfolds(&slopes));
+    let is_known = error <= KNOWN * (right - left);
     match &point[..] {
-        &[x, y] if residual <= EXACT * size => {
+        &[x, y] if is_near && is_exact && unfolds && is_known => {
             Ok(ManifoldTangency { point: [x, y], parameter: at[2], numbers, error })
         }
         _ => Err(Error::NoTangency { parameter: at[2], residual }),
     }
 }
 
-/// The step of Newton's method, with slopes by differences.
-fn newton_step(
+/// The last step of the parameter is at most this part of the window.
+const KNOWN: f64 = 1e-6;
+
+/// A volume of the three directions of the slopes, each of length 1, below which they are in a plane: the touch is one of higher order, or at all parameters.
+const FLAT: f64 = 1e-6;
+
+/// True if two crossings are born or vanish where the curves touch: the curves are bent differently there, and move against each other.
+fn unfolds(slopes: &Matrix3<f64>) -> bool {
+    let mut unit = *slopes;
+    for mut column in unit.column_iter_mut() {
+        let length = column.norm();
+        column /= length;
+    }
+    unit.determinant().abs() > FLAT
+}
+
+/// The slopes of the values by differences.
+fn slopes(
     values: &impl Fn(&Vector3<f64>) -> Option<Vector3<f64>>,
     at: &Vector3<f64>,
-    here: &Vector3<f64>,
     units: &Vector3<f64>,
-) -> Option<Vector3<f64>> {
+) -> Option<Matrix3<f64>> {
     let mut slopes = Matrix3::zeros();
     for axis in 0..3 {
         let beside = |side: f64| {
@@ -127,5 +149,5 @@ fn newton_step(
         };
         slopes.set_column(axis, &((beside(1.0)? - beside(-1.0)?) / (2.0 * units[axis])));
     }
-    slopes.lu().solve(&-here)
+    Some(slopes)
 }

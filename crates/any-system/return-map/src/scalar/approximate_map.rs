@@ -150,7 +150,7 @@ impl ApproximateMap {
     }
 
     /// This map, and another one behind it. The pieces are cut where the image is on a border of the other map. The error adds that of both
-    /// maps, the first times the largest slope of the second.
+    /// maps, the first times a bound on the slopes of the second.
     ///
     /// # Errors
     /// As [`new`](Self::new) and [`map_pieces`](super::map_pieces); [`Error::BadWindow`] without a piece.
@@ -185,15 +185,9 @@ impl ApproximateMap {
         Ok(made)
     }
 
-    /// The largest size of a slope at the ends and the middle of a cell.
+    /// No slope is larger.
     fn steepest(&self) -> f64 {
-        let of = |cell: &Cell| {
-            let at = [cell.left, 0.5 * (cell.left + cell.right), cell.right];
-            at.map(|x| cell.pushed(&Jet::<2>::moving(x, 1.0)).0[1].abs())
-                .into_iter()
-                .fold(0.0, f64::max)
-        };
-        self.0.cells.iter().map(of).fold(0.0, f64::max)
+        self.0.cells.iter().map(Cell::steepest).fold(0.0, f64::max)
     }
 }
 

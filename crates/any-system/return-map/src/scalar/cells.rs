@@ -54,6 +54,13 @@ impl Cell {
         self.clenshaw(&inside, Jet::number)
     }
 
+    /// A bound on the slope: that of the polynomial of Chebyshev Tₙ is at most n².
+    pub(super) fn steepest(&self) -> f64 {
+        let terms = self.coefficients.iter().enumerate();
+        let sum: f64 = terms.map(|(n, term)| (n * n) as f64 * term.abs()).sum();
+        2.0 * sum / (self.right - self.left)
+    }
+
     /// The polynomial through the function at the Chebyshev points of the second kind, without the last terms that are below `small`.
     fn new(values: &[f64], (left, right): (f64, f64), small: f64) -> Cell {
         let n = values.len() - 1;
@@ -90,7 +97,7 @@ impl Cell {
 /// Polynomials that are as near to a function as the tolerance, on cells from left to right, and the largest difference at
 /// any test.
 ///
-/// Each cell is tested halfway between the points of its polynomial. A cell of a few roundings is not halved: the function jumps
+/// Each cell is tested halfway between the points of its polynomial, and at one more point. A cell of a few roundings is not halved: the function jumps
 /// there, or has noise.
 pub(super) fn cells(
     function: &impl Fn(f64) -> Result<f64, Error>,
@@ -114,9 +121,14 @@ pub(super) fn cells(
             (0..=DEGREE).map(|k| function(at(k as f64))).collect::<Result<_, _>>()?;
         let cell = Cell::new(&values, (left, right), LEFT_OUT * tolerance);
         let mut off = 0f64;
-        for k in 0..DEGREE {
-            let x = at(k as f64 + 0.5);
-            off = off.max((cell.value(x) - function(x)?).abs());
+        // The last one is in no simple ratio to the others: a term that vanishes at all of them is seen.
+        for place in (0..DEGREE).map(|k| k as f64 + 0.5).chain([0.381_966 * DEGREE as f64]) {
+            let x = at(place);
+            let here = (cell.value(x) - function(x)?).abs();
+            if here.is_nan() {
+                return Err(Error::NoImage { point: vec![x], parameter: f64::NAN });
+            }
+            off = off.max(here);
         }
         let middle = left + 0.5 * (right - left);
         let narrow = right - left <= NARROWEST * left.abs().max(right.abs());
