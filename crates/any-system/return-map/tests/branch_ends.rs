@@ -4,8 +4,9 @@
 
 use equations::{Formulas, Names};
 use return_map::{
-    BifurcationKind, Branch, BranchEnd, BranchSteps, CurveEnd, FormulaMap, bifurcation_curve,
-    doubled_branch, family, follow_branch, follow_equilibria, pieces, scalar_family,
+    BifurcationKind, Branch, BranchEnd, BranchSteps, CurveEnd, FormulaMap, MapFamily,
+    bifurcation_curve, continue_branch, doubled_branch, family, follow_branch, follow_equilibria,
+    pieces, scalar_family,
 };
 use std::f64::consts::PI;
 use std::ops::ControlFlow::Continue;
@@ -170,5 +171,31 @@ fn slow_cycles_begin_too() {
         assert_eq!(found.len(), 1, "{rate}: {found:?}");
         assert_eq!(found[0].0, BifurcationKind::Hopf);
         assert!(found[0].1.abs() < 1e-9);
+    }
+}
+
+/// A family whose maps change their dimension, seeds of another one, and a window that is none.
+#[test]
+fn wrong_dimensions_are_errors() {
+    let steps = BranchSteps::default();
+    let henon = |b: f64| {
+        family(if b > 0.4 { 3 } else { 2 }, move |x: &[f64], a| {
+            let mut next = vec![1.0 - a * x[0] * x[0] + x[1], b * x[0]];
+            next.extend(x.iter().skip(2));
+            Ok(next)
+        })
+    };
+    let start = (&[0.9, 0.3][..], 0.2);
+    let branch = follow_branch(&henon(0.3), 1, start, (0.0, 1.0), steps, |_| Continue(())).unwrap();
+    let windows = ((0.0, 2.0), (0.0, 0.6));
+    let doubling = (&branch.bifurcations[0], 0.3);
+    let curve = bifurcation_curve(&henon, 1, doubling, windows, steps, |_| Continue(())).unwrap();
+    assert!(curve.ends.iter().any(|end| matches!(end, CurveEnd::Lost { .. })), "{:?}", curve.ends);
+    let swap = family(2, |x, _| Ok(vec![x[1], x[0]]));
+    assert!(swap.image(&[0.1], 0.0).is_err());
+    assert!(scalar_family(|x, _| x).image(&[0.1, f64::NAN], 0.0).is_err());
+    for window in [(1.0, 0.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
+        let again = continue_branch(&henon(0.3), branch.clone(), window, steps, |_| Continue(()));
+        assert!(again.is_err(), "{window:?}");
     }
 }

@@ -41,6 +41,9 @@ pub fn continue_branch<M: MapFamily + ?Sized>(
             Kind::Periodic(period)
         }
     };
+    if !(window.0 < window.1 && (window.1 - window.0).is_finite()) {
+        return Err(Error::BadBranch { what: "the left end of a window", value: window.0 });
+    }
     let Branch { period, mut points, mut bifurcations, mut ends } = branch;
     for end in [0, 1] {
         let goes_on = matches!(
