@@ -15,6 +15,9 @@ use crate::unmatched::{Unmatched, UnmatchedReason};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// More tests of an attractor than this take hours, and would find openings of a hundred-thousandth of the neighbourhood.
+pub(crate) const MOST_TESTS: usize = 1_000_000;
+
 /// How orbits are made into features, and features into groups.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeatureLimits {
@@ -61,8 +64,6 @@ impl FeatureLimits {
         const LONGEST: usize = 10_000_000;
         /// An orbit that comes to no group is followed through the whole budget: some minutes with so many steps.
         const MOST_STEPS: usize = 1_000_000_000;
-        /// More tests than this take hours, and would find openings of a hundred-thousandth of the neighbourhood.
-        const MOST_TESTS: usize = 1_000_000;
         let counts = [("a stretch", self.stretch), ("a number of stretches", self.agree)];
         for (name, value) in counts {
             if value == 0 {

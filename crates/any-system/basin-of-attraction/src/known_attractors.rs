@@ -1,5 +1,7 @@
 //! Attractors that the caller knows by points, and basins by the distance from them.
 
+use crate::attractor_features::MOST_TESTS;
+use crate::boundary_between::distance;
 use crate::error::Error;
 use crate::label::Label;
 use crate::split_mix::SplitMix64;
@@ -138,8 +140,6 @@ impl KnownAttractors {
             }
         }
         let all = points.values().map(Vec::len).sum();
-        /// More tests than this take hours.
-        const MOST_TESTS: usize = 1_000_000;
         for (samples, most, remedy) in [
             (all, MOST_POINTS, "take fewer points of each attractor, and a larger distance"),
             (limits.tests, MOST_TESTS, "hundreds find all but small openings"),
@@ -287,8 +287,4 @@ fn no_trap(distance: f64) -> Error {
     let remedy = ", and so small that orbits from there come back: from this one some do not, so that the points may be none of an \
                   attractor, or too few";
     Error::BadSearch { name, value: distance, remedy }
-}
-
-fn distance(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }

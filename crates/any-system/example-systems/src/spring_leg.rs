@@ -7,6 +7,7 @@
 //! A. Seyfarth, H. Geyer, M. Günther, R. Blickhan, *A movement criterion for running*, J. Biomech. 35 (2002).
 
 use hybrid_system::{Equations, Expression};
+use return_map::EquationReturns;
 
 /// Height of the apex of the periodic run, in metres.
 pub const APEX: f64 = 0.940_267_144;
@@ -42,4 +43,14 @@ fn radians(degrees: Expression<'_>) -> Expression<'_> {
 /// The start at the apex of the periodic run, with the energy of 5 m/s at 1 m.
 pub fn apex() -> [f64; 4] {
     [0.0, APEX, (25.0 + 2.0 * 9.81 * (1.0 - APEX)).sqrt(), 0.0]
+}
+
+/// The map from one apex to the next, over the angle of attack, with the energy of 5 m/s at 1 m. Its coordinate is the height.
+///
+/// # Errors
+/// None for these equations.
+pub fn apexes() -> Result<EquationReturns, return_map::Error> {
+    EquationReturns::new(&spring_leg(), "attack", ("flight", "apex"), &["h"])?
+        .starting_text(&["0", "h", "sqrt(25 + 2*gravity*(1 - h))", "0"])?
+        .coordinates_text(&["height"])
 }

@@ -7,7 +7,7 @@
 
 use criterion::{Criterion, Throughput};
 use example_systems::{
-    spring_leg::spring_leg,
+    spring_leg::apexes,
     valve::{turning_points, valve_equations},
 };
 use hybrid_system::Tolerances;
@@ -18,20 +18,11 @@ use return_map::{
 };
 use std::ops::ControlFlow::Continue;
 
-/// The map from one apex to the next, over the angle of attack, as in the documentation of the crate.
-fn apexes() -> EquationReturns {
-    EquationReturns::new(&spring_leg(), "attack", ("flight", "apex"), &["h"])
-        .unwrap()
-        .starting_text(&["0", "h", "sqrt(25 + 2*gravity*(1 - h))", "0"])
-        .unwrap()
-        .coordinates_text(&["height"])
-        .unwrap()
-}
-
 /// The runs from 67.5° to 69°.
 fn branch() -> Branch {
     let steps = BranchSteps { first: 1e-3, longest: 1e-3, ..BranchSteps::default() };
-    follow_branch(&apexes(), 1, (&[0.94], 68.0), (67.5, 69.0), steps, |_| Continue(())).unwrap()
+    follow_branch(&apexes().unwrap(), 1, (&[0.94], 68.0), (67.5, 69.0), steps, |_| Continue(()))
+        .unwrap()
 }
 
 fn branches(criterion: &mut Criterion) {
@@ -43,7 +34,7 @@ fn branches(criterion: &mut Criterion) {
 }
 
 fn polynomials(criterion: &mut Criterion) {
-    let flow = apexes();
+    let flow = apexes().unwrap();
     let pieces = map_pieces(&flow, 68.0, (0.93, 1.0), 50).unwrap();
     let fast = ApproximateMap::new(&flow, &pieces, 1e-9).unwrap();
     let mut group = criterion.benchmark_group("an image of the spring leg's map");

@@ -13,10 +13,6 @@ from scipy.integrate import solve_ivp
 MASS, STIFFNESS, LEG, GRAVITY = 80.0, 2e4, 1.0, 9.81
 
 
-def flight(_, y):
-    return [y[2], y[3], 0.0, -GRAVITY]
-
-
 def stance(_, y):
     length = np.hypot(y[0], y[1])
     push = STIFFNESS / MASS * (LEG / length - 1.0)

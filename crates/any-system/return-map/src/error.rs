@@ -163,3 +163,15 @@ pub enum Error {
         most: usize,
     },
 }
+
+/// Refuses something whose number of components is another one than that of the map.
+pub(crate) fn check_dimension(
+    what: &'static str,
+    expected: usize,
+    found: usize,
+) -> Result<(), Error> {
+    match expected == found {
+        true => Ok(()),
+        false => Err(hybrid_system::Error::Dimension { what, expected, found }.into()),
+    }
+}

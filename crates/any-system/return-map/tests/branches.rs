@@ -2,8 +2,9 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-use crate::sections::{apexes, strobe};
+use crate::sections::strobe;
 use equations::{Formulas, Names};
+use example_systems::spring_leg::apexes;
 use return_map::{
     BifurcationKind, Border, Branch, BranchEnd, BranchSteps, Error, FormulaMap, MapFamily, cascade,
     doubled_branch, family, follow_branch, follow_equilibria, pieces, scalar_family,
@@ -268,7 +269,7 @@ fn a_cycle_begins_at_an_equilibrium() {
 /// The spring leg at 5 m/s over its angle of attack: stable between a fold and a doubling, or the end of its flights.
 #[test]
 fn the_spring_leg_over_its_angle_of_attack() {
-    let apex = apexes().tolerances(hybrid_system::Tolerances::both(1e-11));
+    let apex = apexes().unwrap().tolerances(hybrid_system::Tolerances::both(1e-11));
     let steps = BranchSteps { first: 0.05, longest: 0.15, ..BranchSteps::default() };
     let start = (&[example_systems::spring_leg::APEX][..], 68.0);
     let branch = follow_branch(&apex, 1, start, (66.2, 68.95), steps, |_| Continue(())).unwrap();

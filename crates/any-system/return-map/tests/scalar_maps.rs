@@ -2,8 +2,8 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-use crate::sections::apexes;
 use equations::{Formulas, Jet, Names};
+use example_systems::spring_leg::apexes;
 use return_map::{
     ApproximateMap, Error, MapFamily, OrbitEnd, all_equilibria, all_periodic_points, family,
     map_pieces, pieces, scalar_family,
@@ -127,7 +127,7 @@ fn many_pieces_and_gaps() {
 /// The spring leg's apex map: its smooth piece, its approximation, and a thousand runs by it.
 #[test]
 fn a_return_map_by_polynomials() {
-    let apex = apexes();
+    let apex = apexes().unwrap();
     let found = map_pieces(&apex, 68.0, (0.8, 1.4), 25).unwrap();
     let legs: Vec<&str> = found.pieces.iter().map(|piece| piece.itinerary[0].as_str()).collect();
     assert!(legs.contains(&"flight: touchdown"), "{found:?}");

@@ -4,7 +4,7 @@ use super::branch::{Branch, BranchEnd, BranchPoint};
 use super::curve::{OnCurve, corrected};
 use super::follow::{BranchSteps, Follower};
 use super::orbit::{Kind, Orbit};
-use super::start::{check, check_period, scales};
+use super::start::{check, check_period, check_window, scales};
 use crate::error::Error;
 use crate::families::MapFamily;
 use nalgebra::DVector;
@@ -41,9 +41,7 @@ pub fn continue_branch<M: MapFamily + ?Sized>(
             Kind::Periodic(period)
         }
     };
-    if !(window.0 < window.1 && (window.1 - window.0).is_finite()) {
-        return Err(Error::BadBranch { what: "the left end of a window", value: window.0 });
-    }
+    check_window(window)?;
     let Branch { period, mut points, mut bifurcations, mut ends } = branch;
     for end in [0, 1] {
         let goes_on = matches!(

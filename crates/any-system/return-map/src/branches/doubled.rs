@@ -5,7 +5,7 @@ use super::curve::{Curve, OnCurve, corrected};
 use super::follow::{BranchSteps, Follower, follow_branch, point_of, predicted};
 use super::orbit::{Kind, Orbit};
 use super::start::{check_period, scales};
-use crate::error::Error;
+use crate::error::{Error, check_dimension};
 use crate::families::MapFamily;
 use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
@@ -31,11 +31,7 @@ pub fn doubled_branch<M: MapFamily + ?Sized>(
     }
     check_period(period.saturating_mul(2))?;
     let at = &doubling.at;
-    if doubling.direction.len() != at.point.len() {
-        let (expected, found) = (at.point.len(), doubling.direction.len());
-        let what = "the direction of a doubling";
-        return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
-    }
+    check_dimension("the direction of a doubling", at.point.len(), doubling.direction.len())?;
     super::start::check(map, (&at.point, at.parameter), window, steps)?;
     let scales = scales(&at.point, &[window]);
     let orbit = Orbit { map, kind: Kind::Periodic(2 * period), scales };

@@ -41,8 +41,9 @@ pub(super) const LONGER: f64 = 1.5;
 /// The branch of points of period `period` through a point near `start` at the parameter `parameter`, in the window of parameters, in
 /// both directions.
 ///
-/// `see` receives each point as it is found; if it breaks, the branch ends there in this direction, and is followed in the other one. An end of the window is met exactly. The step adapts to
-/// the curve, and never passes to other pieces of the map: there the branch ends with the reason.
+/// `see` receives each point as it is found; if it breaks, the branch ends there in this direction, and is followed in the other one.
+/// An end of the window is met exactly. The step adapts to the curve, and never passes to other pieces of the map: there the branch
+/// ends with the reason.
 ///
 /// ```
 /// use return_map::{BifurcationKind, BranchSteps, follow_branch, scalar_family};

@@ -9,8 +9,8 @@ use super::tests::{TESTS, Test};
 use crate::families::MapFamily;
 use interval_arithmetic::bracketed_root;
 
-/// The bifurcations between two neighbouring points of a branch, in order; `None` if the step passes to another branch. `is_last` is true for
-/// a step to the end of the window: a bifurcation there belongs to it.
+/// The bifurcations between two neighbouring points of a branch, in order; `None` if the step passes to another branch.
+/// `is_last` is true for a step to the end of the window: a bifurcation there belongs to it.
 pub(super) fn between<M: MapFamily + ?Sized>(
     orbit: &Orbit<'_, M>,
     (from, to): (&OnCurve, &OnCurve),
@@ -18,8 +18,8 @@ pub(super) fn between<M: MapFamily + ?Sized>(
     itinerary: &[String],
 ) -> Option<Vec<Bifurcation>> {
     let length = (&to.at - &from.at).component_div(&orbit.scales).dot(&from.tangent);
-    // Place, what is left of the test there, and the bifurcation.
-    let mut found: Vec<(f64, f64, Bifurcation)> = Vec::new();
+    // The place, whether the direction of the branch jumps there, and the bifurcation.
+    let mut found: Vec<(f64, bool, Bifurcation)> = Vec::new();
     for test in TESTS {
         let [before, behind] = [from, to].map(|point| test.value(point, orbit));
         // Zero counts as a negative number, in each step: a zero at a point is found once, also at the first one.
@@ -32,19 +32,14 @@ pub(super) fn between<M: MapFamily + ?Sized>(
             false => zero(orbit, ((from, before), (to, behind)), length, test),
         };
         let is_crossing = test == Test::Cross && !ends_there;
-        let Some((place, at)) = located else {
-            if is_crossing {
-                return None;
-            }
-            continue;
-        };
-        if is_crossing && !is_solution(orbit, &at) {
+        if is_crossing && !located.as_ref().is_some_and(|(_, at)| is_solution(orbit, at)) {
             return None;
         }
-        let left = if is_crossing { 0.0 } else { test.value(&at, orbit).abs() };
-        let left = left / before.abs().max(behind.abs());
+        let Some((place, at)) = located else { continue };
+        let small = ZERO * before.abs().max(behind.abs());
+        let jumps = test == Test::Turn && !(test.value(&at, orbit).abs() <= small);
         if let Some(bifurcation) = bifurcation(orbit, test, &at, itinerary) {
-            found.push((place, left, bifurcation));
+            found.push((place, jumps, bifurcation));
         }
     }
     // On the branch that bends at a pitchfork it turns there: that is no fold. Beside a crossing a step may end on the other branch, and
@@ -57,9 +52,9 @@ pub(super) fn between<M: MapFamily + ?Sized>(
         })
         .map(|(place, _, _)| *place)
         .collect();
-    found.retain(|(place, left, located)| {
+    found.retain(|(place, jumps, located)| {
         let is_near = |crossing: &f64| (crossing - place).abs() <= BESIDE * length;
-        let is_sure = crossings.is_empty() || *left <= ZERO && !crossings.iter().any(is_near);
+        let is_sure = crossings.is_empty() || !jumps && !crossings.iter().any(is_near);
         located.kind != BifurcationKind::Fold || is_sure
     });
     found.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,7 +1,7 @@
 //! The equations of a periodic point, and what its orbit shows.
 
 use super::curve::Curve;
-use crate::error::Error;
+use crate::error::{Error, check_dimension};
 use crate::families::{MapFamily, curve_after, orbit_after, point_after};
 use equations::Jet;
 use nalgebra::{Complex, DMatrix, DVector, Schur};
@@ -75,15 +75,6 @@ impl<M: MapFamily + ?Sized> Orbit<'_, M> {
     }
 }
 
-/// Refuses a map whose images have another number of components than its points.
-fn same_dimension(expected: usize, found: usize) -> Result<(), Error> {
-    let what = "the image of a point";
-    match expected == found {
-        true => Ok(()),
-        false => Err(hybrid_system::Error::Dimension { what, expected, found }.into()),
-    }
-}
-
 /// The point and the parameter.
 pub(super) fn split(at: &DVector<f64>) -> (Vec<f64>, f64) {
     let mut point: Vec<f64> = at.iter().copied().collect();
@@ -95,7 +86,7 @@ impl<M: MapFamily + ?Sized> Curve for Orbit<'_, M> {
     fn values(&self, at: &DVector<f64>) -> Result<DVector<f64>, Error> {
         let (start, parameter) = split(at);
         let point = point_after(self.map, (&start, parameter), self.times())?;
-        same_dimension(start.len(), point.len())?;
+        check_dimension("the image of a point", start.len(), point.len())?;
         let shift = self.kind.at_fold();
         let off = point.iter().zip(&start).map(|(f, x)| f - shift * x);
         Ok(DVector::from_iterator(start.len(), off))
@@ -108,8 +99,8 @@ impl<M: MapFamily + ?Sized> Curve for Orbit<'_, M> {
         slopes.fill_diagonal(1.0);
         for _ in 0..self.times() {
             let (image, own) = self.map.linearized(&point, parameter)?;
-            same_dimension(dimension, own.nrows())?;
-            same_dimension(dimension + 1, own.ncols())?;
+            check_dimension("the image of a point", dimension, own.nrows())?;
+            check_dimension("the derivatives of an image", dimension + 1, own.ncols())?;
             slopes = own.columns(0, dimension) * slopes;
             slopes.column_mut(dimension).add_assign(&own.column(dimension));
             point = image.point;

@@ -61,24 +61,40 @@ pub(crate) fn check_period(period: usize) -> Result<(), Error> {
     }
 }
 
+/// An error for a window that is empty or not finite.
+pub(crate) fn check_window((left, right): (f64, f64)) -> Result<(), Error> {
+    match left < right && (right - left).is_finite() {
+        true => Ok(()),
+        false => Err(Error::BadBranch {
+            what: "the width of the window of a branch",
+            value: right - left,
+        }),
+    }
+}
+
+/// An error for a parameter outside of a window.
+pub(crate) fn check_inside(parameter: f64, (left, right): (f64, f64)) -> Result<(), Error> {
+    match left <= parameter && parameter <= right {
+        true => Ok(()),
+        false => {
+            Err(Error::BadBranch { what: "a parameter outside of the window", value: parameter })
+        }
+    }
+}
+
 pub(super) fn check<M: MapFamily + ?Sized>(
     map: &M,
     (start, parameter): (&[f64], f64),
-    (left, right): (f64, f64),
+    window: (f64, f64),
     steps: BranchSteps,
 ) -> Result<(), Error> {
-    let bad = |what: &'static str, value: f64| Err(Error::BadBranch { what, value });
     let (expected, found) = (map.dimension(), start.len());
     if expected != found || found == 0 {
         let what = "the start of a branch";
         return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
     }
-    if !(left < right && (right - left).is_finite()) {
-        return bad("the width of the window of a branch", right - left);
-    }
-    if !(left <= parameter && parameter <= right) {
-        return bad("a parameter outside of the window", parameter);
-    }
+    check_window(window)?;
+    check_inside(parameter, window)?;
     let BranchSteps { first, longest, shortest, .. } = steps;
     for (what, value) in [
         ("the first step of a branch", first),
@@ -86,7 +102,7 @@ pub(super) fn check<M: MapFamily + ?Sized>(
         ("the shortest step of a branch", shortest),
     ] {
         if !(value > 0.0 && value.is_finite()) {
-            return bad(what, value);
+            return Err(Error::BadBranch { what, value });
         }
     }
     Ok(())

@@ -1,7 +1,7 @@
 //! Maps by functions of numbers.
 
 use super::family::{Image, MapFamily};
-use crate::error::Error;
+use crate::error::{Error, check_dimension};
 
 /// A map by a closure, whose derivatives are differences.
 #[derive(Debug, Clone, Copy)]
@@ -16,16 +16,9 @@ impl<F: Fn(&[f64], f64) -> Result<Image, Error> + Sync> MapFamily for Closure<F>
     }
 
     fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error> {
-        if point.len() != self.dimension {
-            let (what, expected, found) = ("a point of a map", self.dimension, point.len());
-            return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
-        }
+        check_dimension("a point of a map", self.dimension, point.len())?;
         let image = (self.map)(point, parameter)?;
-        let (expected, found) = (self.dimension, image.point.len());
-        if expected != found {
-            let what = "the image of a point";
-            return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
-        }
+        check_dimension("the image of a point", self.dimension, image.point.len())?;
         match image.point.iter().all(|x| x.is_finite()) {
             true => Ok(image),
             false => Err(Error::NoImage { point: point.to_vec(), parameter }),

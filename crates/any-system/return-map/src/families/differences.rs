@@ -73,64 +73,55 @@ pub(super) fn pushed<M: MapFamily + ?Sized>(
     Err(Error::Differences { point, parameter: parameter.0[0], distance: h / SHORTER })
 }
 
-/// The largest change of the first two derivatives from one distance to half of it. `variation` is the largest difference of a value from that
-/// here, for each component, within the distance `reach`. A second derivative counts by what it does to the first one within h: at a
-/// kink, and at a feature that is narrower than all distances, it changes with the distance though the first derivative may not.
-fn change(
-    (coarse, fine): (&[Jet<4>], &[Jet<4>]),
-    variation: &[f64],
-    (reach, h): (f64, f64),
-) -> f64 {
-    let of = |((a, b), variation): ((&Jet<4>, &Jet<4>), &f64)| {
-        let size = (variation / reach.abs()).max(a.0[1].abs());
+/// A change of derivatives of so many roundings of the values is none.
+const NOISE: f64 = 32.0;
+
+/// The largest change of the first two derivatives from a distance h to half of it, over the slope of the values. A second derivative counts by
+/// what it does to the first one within h: at a kink, and at a feature that is narrower than all distances, it changes with the distance
+/// though the first derivative may not.
+fn change(coarse: &[Jet<4>], fine: &[Jet<4>], slopes: &[f64], h: f64) -> f64 {
+    let of = |((a, b), slope): ((&Jet<4>, &Jet<4>), &f64)| {
         let noise = f64::EPSILON * a.0[0].abs() / h.abs();
         let off = (a.0[1] - b.0[1]).abs().max((h * (a.0[2] - b.0[2])).abs());
         // Values that do not differ but by rounding have no slope.
-        if off <= NOISE * noise { 0.0 } else { off / size }
+        if off <= NOISE * noise { 0.0 } else { off / slope.max(a.0[1].abs()) }
     };
-    coarse.iter().zip(fine).zip(variation).map(of).fold(0.0, f64::max)
+    coarse.iter().zip(fine).zip(slopes).map(of).fold(0.0, f64::max)
 }
 
 /// The place of a value that no difference uses, in units of h: between two of them, in no simple ratio to any.
 const ASIDE: f64 = 0.732_050_807_568_877_2;
 
 /// How far a value at s is from that which the derivatives let expect, over s and the slope of the values.
-fn off_expected(
-    (jets, found): (&[Jet<4>], &[f64]),
-    variation: &[f64],
-    (s, reach): (f64, f64),
-) -> f64 {
-    let of = |((jet, found), variation): ((&Jet<4>, &f64), &f64)| {
-        let size = (variation / reach.abs()).max(jet.0[1].abs());
+fn off_expected(jets: &[Jet<4>], found: &[f64], slopes: &[f64], s: f64) -> f64 {
+    let of = |((jet, found), slope): ((&Jet<4>, &f64), &f64)| {
         let off = (horner(&jet.0, s) - found).abs();
-        if off <= NOISE * f64::EPSILON * found.abs() { 0.0 } else { off / (s.abs() * size) }
+        let noise = f64::EPSILON * found.abs();
+        if off <= NOISE * noise { 0.0 } else { off / (s.abs() * slope.max(jet.0[1].abs())) }
     };
-    jets.iter().zip(found).zip(variation).map(of).fold(0.0, f64::max)
+    jets.iter().zip(found).zip(slopes).map(of).fold(0.0, f64::max)
 }
 
-/// A change of derivatives of so many roundings of the values is none.
-const NOISE: f64 = 32.0;
-
-/// The largest difference of values from that here.
-fn variation<'v>(here: &[f64], values: impl Iterator<Item = &'v Vec<f64>>) -> Vec<f64> {
+/// The slope of the values, for each component: the largest difference from that here, over the distance `reach` of the farthest.
+fn steepest<'v>(here: &[f64], values: impl Iterator<Item = &'v Vec<f64>>, reach: f64) -> Vec<f64> {
     let mut largest = vec![0.0f64; here.len()];
     for value in values {
         for ((largest, x), here) in largest.iter_mut().zip(value).zip(here) {
             *largest = largest.max((x - here).abs());
         }
     }
-    largest
+    largest.iter().map(|largest| largest / reach.abs()).collect()
 }
 
 /// The derivatives from values on one side, next to a border of the map.
 fn one_sided(of: &impl Fn(f64) -> Result<Image, Error>, here: &Image, h: f64) -> Option<Estimated> {
-    let (coarse, variation) = seven_on_one_side(of, here, 0.5 * h)?;
+    let (coarse, slopes) = seven_on_one_side(of, here, 0.5 * h)?;
     let (fine, _) = seven_on_one_side(of, here, 0.25 * h)?;
-    let change = change((&coarse, &fine), &variation, (3.0 * h, 0.5 * h));
+    let change = change(&coarse, &fine, &slopes, 0.5 * h);
     Some((coarse, change))
 }
 
-/// The derivatives from seven values on one side, at multiples of h, and the largest difference of a value.
+/// The derivatives from seven values on one side, at multiples of h, and the slopes of the values.
 fn seven_on_one_side(
     of: &impl Fn(f64) -> Result<Image, Error>,
     here: &Image,
@@ -155,7 +146,7 @@ fn seven_on_one_side(
         Jet([here.point[axis], first / h, second / (2.0 * h * h), third / (6.0 * h * h * h)])
     };
     let jets = (0..here.point.len()).map(of_component).collect();
-    Some((jets, variation(&here.point, values.iter())))
+    Some((jets, steepest(&here.point, values.iter(), 6.0 * h)))
 }
 
 /// The derivatives from values on both sides; `None` if one of them is missing, or is on another piece of the map.
@@ -171,12 +162,12 @@ fn difference(
     }
     let coarse = seven_on_both_sides(&here.point, &pairs[..3], h);
     let fine = seven_on_both_sides(&here.point, &pairs[1..], 0.5 * h);
-    let variation = variation(&here.point, pairs.iter().flatten());
-    let change = change((&coarse, &fine), &variation, (4.0 * h, h));
+    let slopes = steepest(&here.point, pairs.iter().flatten(), 4.0 * h);
+    let change = change(&coarse, &fine, &slopes, h);
     // A term whose period divides the distance is seen at no pair: another one is asked.
     let sides = [ASIDE, -ASIDE].map(|j| (j * h, value(j * h)));
     let off = sides.into_iter().try_fold(0.0, |off: f64, (s, found)| {
-        Some(off.max(off_expected((&fine, &found?.point), &variation, (s, 4.0 * h))))
+        Some(off.max(off_expected(&fine, &found?.point, &slopes, s)))
     })?;
     Some((coarse, change.max(off)))
 }

@@ -3,7 +3,7 @@
 use super::equation_returns::{EquationReturns, ReturnModel};
 use super::family::Image;
 use super::return_arcs::{ReturnArcs, elapsed, itinerary, least_certain};
-use crate::error::Error;
+use crate::error::{Error, check_dimension};
 use equations::{Jet, Series};
 use hybrid_system::{Along, Execution, Limits, Stop};
 use nalgebra::DVector;
@@ -69,11 +69,8 @@ impl EquationReturns {
         coordinates: &[Jet<T>],
         parameter: Jet<T>,
     ) -> Result<(Vec<Jet<T>>, Jet<T>), Error> {
-        let (expected, found) = (self.section.states.len(), coordinates.len());
-        if expected != found {
-            let what = "the coordinates of a section";
-            return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
-        }
+        let what = "the coordinates of a section";
+        check_dimension(what, self.section.states.len(), coordinates.len())?;
         match &self.start {
             Some(start) => {
                 let begin = Jet::number(START);

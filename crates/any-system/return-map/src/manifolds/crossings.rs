@@ -2,7 +2,7 @@
 
 use super::curve::{ManifoldCurve, distance};
 use super::manifold::UnstableManifold;
-use crate::error::Error;
+use crate::error::{Error, check_dimension};
 use crate::families::MapFamily;
 use nalgebra::{Matrix2, Vector2};
 
@@ -36,11 +36,8 @@ pub fn manifold_crossings<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
     (first, curve): (&UnstableManifold<'_, A>, &ManifoldCurve),
     (second, other): (&UnstableManifold<'_, B>, &ManifoldCurve),
 ) -> Result<Vec<ManifoldCrossing>, Error> {
-    for found in [first.saddle().point.len(), second.saddle().point.len()] {
-        if found != 2 {
-            let (what, expected) = ("a saddle whose manifolds may cross", 2);
-            return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
-        }
+    for saddle in [first.saddle(), second.saddle()] {
+        check_dimension("a saddle whose manifolds may cross", 2, saddle.point.len())?;
     }
     let mut found: Vec<ManifoldCrossing> = Vec::new();
     let is_cut = |curve: &ManifoldCurve, k: usize| curve.cuts.iter().any(|cut| cut.after == k);

@@ -1,7 +1,7 @@
 //! Points along a manifold.
 
 use super::manifold::UnstableManifold;
-use crate::error::Error;
+use crate::error::{Error, check_dimension};
 use crate::families::{MapFamily, first_difference};
 use std::ops::ControlFlow;
 
@@ -98,12 +98,10 @@ impl ManifoldSteps {
             let what = "the left end of a side of a region, beside its right end,";
             return Err(Error::BadBranch { what, value: *low });
         }
-        let (expected, found) = (dimension, self.region.len());
-        if found != 0 && found != expected {
-            let what = "a region";
-            return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
+        match self.region.len() {
+            0 => Ok(()),
+            sides => check_dimension("a region", dimension, sides),
         }
-        Ok(())
     }
 
     /// How far a point is from the region: the largest distance of a coordinate.
@@ -135,7 +133,7 @@ impl<M: MapFamily + ?Sized> UnstableManifold<'_, M> {
             return curve;
         }
         // The first chord is short, also where the cubic reaches far.
-        let first = self.number_at(SHARPEST * steps.longest).min(0.0);
+        let first = self.number(pxfm::f_log(SHARPEST * steps.longest)).min(0.0);
         let (mut t, mut step) = (f64::NEG_INFINITY, FIRST);
         while curve.points.len() < steps.points {
             if curve.length >= steps.length {

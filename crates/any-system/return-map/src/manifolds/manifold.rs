@@ -78,17 +78,12 @@ impl<'m, M: MapFamily + ?Sized> UnstableManifold<'m, M> {
     pub fn tangent_at(&self, t: f64) -> Result<(Vec<f64>, Vec<f64>), Error> {
         self.check(t)?;
         let images = self.images(t);
-        let s = self.start * pxfm::f_pow(self.local.multiplier, t - images as f64);
+        let s = self.on_cubic(t, images);
         // The derivative of s μᵗ.
         let rate = s * pxfm::f_log(self.local.multiplier);
         let curve = (self.local.moving(s, rate), Jet::number(self.local.saddle.parameter));
         let found = curve_after(self.map, curve, images * self.local.times)?;
         Ok(found.iter().map(|jet| (jet.0[0], jet.0[1])).unzip())
-    }
-
-    /// The t of the point of the cubic that is so far from the saddle along the eigenvector.
-    pub(super) fn number_at(&self, s: f64) -> f64 {
-        self.number(pxfm::f_log(s))
     }
 
     /// ln |s| of Γ(t): unlike t it is smooth in the parameter, as it does not depend on the reach of the cubic.
@@ -110,6 +105,11 @@ impl<'m, M: MapFamily + ?Sized> UnstableManifold<'m, M> {
         }
     }
 
+    /// The s of the point of the cubic that this number of images of g leads to Γ(t).
+    fn on_cubic(&self, t: f64, images: usize) -> f64 {
+        self.start * pxfm::f_pow(self.local.multiplier, t - images as f64)
+    }
+
     /// How often g is applied on the way from the cubic to Γ(t).
     pub(super) fn images(&self, t: f64) -> usize {
         t.ceil().clamp(0.0, MOST_IMAGES) as usize
@@ -117,7 +117,7 @@ impl<'m, M: MapFamily + ?Sized> UnstableManifold<'m, M> {
 
     /// Γ(t) by this number of images of g, with the pieces of the map on the way.
     pub(super) fn image(&self, t: f64, images: usize) -> Result<(Vec<f64>, Vec<String>), Error> {
-        let s = self.start * pxfm::f_pow(self.local.multiplier, t - images as f64);
+        let s = self.on_cubic(t, images);
         let start = (&self.local.at(s)[..], self.local.saddle.parameter);
         orbit_after(self.map, start, images * self.local.times)
     }

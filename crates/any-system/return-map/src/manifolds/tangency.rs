@@ -2,6 +2,7 @@
 
 use super::crossings::{ManifoldCrossing, moving, sine};
 use super::manifold::UnstableManifold;
+use crate::branches::{check_inside, check_window};
 use crate::error::Error;
 use crate::families::MapFamily;
 use nalgebra::{Matrix3, Vector3};
@@ -22,11 +23,12 @@ pub struct ManifoldTangency {
 /// Newton steps. From a crossing at a small angle some ten are enough.
 const MOST_STEPS: usize = 60;
 
-/// The distance of a difference: in the logarithms of the distances from the saddles, and in the parameter, in parts of the window. Its error only slows the steps.
+/// The distance of a difference: in the logarithms of the distances from the saddles, and in the parameter, in parts of the window. Its
+/// error only slows the steps.
 const BESIDE: f64 = 1e-6;
 
 /// A step that does not make the values smaller is halved, at most so often.
-const MOST_HALVINGS: usize = 12;
+const MOST_HALVINGS: i32 = 12;
 
 /// Both curves meet at a tangency as exactly as this, on the scale of the point; and so small is the sine of the angle.
 const EXACT: f64 = 1e-9;
@@ -62,13 +64,11 @@ pub fn manifold_tangency<'m, A: MapFamily + ?Sized + 'm, B: MapFamily + ?Sized +
     (crossing, parameter): (&ManifoldCrossing, f64),
     window: (f64, f64),
 ) -> Result<ManifoldTangency, Error> {
+    check_window(window)?;
+    check_inside(parameter, window)?;
     let (left, right) = window;
-    let is_in = |p: f64| left <= p && p <= right;
-    if !(is_in(parameter) && left < right && (right - left).is_finite()) {
-        return Err(Error::BadBranch { what: "the window of a tangency", value: parameter });
-    }
     let [t, r] = crossing.numbers;
-    let mut at =
+    let start =
         Vector3::new(first(parameter)?.logarithm(t), second(parameter)?.logarithm(r), parameter);
     // The distance of both points, and the sine of the angle of both curves there.
     let values = |at: &Vector3<f64>| -> Option<Vector3<f64>> {
@@ -77,34 +77,11 @@ pub fn manifold_tangency<'m, A: MapFamily + ?Sized + 'm, B: MapFamily + ?Sized +
         Some(Vector3::new(x[0] - y[0], x[1] - y[1], sine(&u, &v)))
     };
     let units = Vector3::new(1.0, 1.0, right - left) * BESIDE;
-    let mut own = values(&at);
-    let mut error = f64::INFINITY;
-    for _ in 0..MOST_STEPS {
-        let Some(here) = own else { break };
-        let step = slopes(&values, &at, &units).and_then(|slopes| slopes.lu().solve(&-here));
-        let Some(step) = step else { break };
-        let mut part = 1.0;
-        let mut next = None;
-        for _ in 0..MOST_HALVINGS {
-            let tried = at + step * part;
-            let found = values(&tried).filter(|_| is_in(tried[2]));
-            if let Some(found) = found.filter(|found| found.norm() < here.norm()) {
-                next = Some((tried, found));
-                break;
-            }
-            part *= 0.5;
-        }
-        // It ends where rounding lets the values become no smaller.
-        error = error.min(step[2].abs());
-        let Some((tried, found)) = next else { break };
-        (at, own) = (tried, Some(found));
-    }
+    let (at, off, error) = newton(&values, start, &units, window);
     let one = first(at[2])?;
     let numbers = [one.number(at[0]), second(at[2])?.number(at[1])];
     let point = one.at(numbers[0])?;
     let size = point.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
-    let off = own.unwrap_or(Vector3::repeat(f64::NAN));
-    let residual = off.norm();
     // Behind the next image of a point, or the one before, it is another tangency, or the saddle.
     let is_near = (numbers[0] - t).abs() <= 1.0 && (numbers[1] - r).abs() <= 1.0;
     let is_exact = off.xy().norm() <= EXACT * size && off[2].abs() <= EXACT;
@@ -114,14 +91,15 @@ pub fn manifold_tangency<'m, A: MapFamily + ?Sized + 'm, B: MapFamily + ?Sized +
         &[x, y] if is_near && is_exact && unfolds && is_known => {
             Ok(ManifoldTangency { point: [x, y], parameter: at[2], numbers, error })
         }
-        _ => Err(Error::NoTangency { parameter: at[2], residual }),
+        _ => Err(Error::NoTangency { parameter: at[2], residual: off.norm() }),
     }
 }
 
 /// The last step of the parameter is at most this part of the window.
 const KNOWN: f64 = 1e-6;
 
-/// A volume of the three directions of the slopes, each of length 1, below which they are in a plane: the touch is one of higher order, or at all parameters.
+/// A volume of the three directions of the slopes, each of length 1, below which they are in a plane: the touch is one of higher order,
+/// or at all parameters.
 const FLAT: f64 = 1e-6;
 
 /// True if two crossings are born or vanish where the curves touch: the curves are bent differently there, and move against each other.
@@ -132,6 +110,33 @@ fn unfolds(slopes: &Matrix3<f64>) -> bool {
         column /= length;
     }
     unit.determinant().abs() > FLAT
+}
+
+/// Damped steps of Newton's method, inside the window of the last unknown: the unknowns, the values there, which are NaN if the start has
+/// none, and the shortest step of the last unknown.
+fn newton(
+    values: &impl Fn(&Vector3<f64>) -> Option<Vector3<f64>>,
+    start: Vector3<f64>,
+    units: &Vector3<f64>,
+    (left, right): (f64, f64),
+) -> (Vector3<f64>, Vector3<f64>, f64) {
+    let (mut at, mut error) = (start, f64::INFINITY);
+    let Some(mut own) = values(&at) else { return (at, Vector3::repeat(f64::NAN), error) };
+    for _ in 0..MOST_STEPS {
+        let step = slopes(values, &at, units).and_then(|slopes| slopes.lu().solve(&-own));
+        let Some(step) = step else { break };
+        error = error.min(step[2].abs());
+        let parts = (0..MOST_HALVINGS).map(|halving| 0.5f64.powi(halving));
+        let mut tries = parts.filter_map(|part| {
+            let tried = at + step * part;
+            let found = values(&tried).filter(|_| left <= tried[2] && tried[2] <= right)?;
+            (found.norm() < own.norm()).then_some((tried, found))
+        });
+        // It ends where rounding lets the values become no smaller.
+        let Some(next) = tries.next() else { break };
+        (at, own) = next;
+    }
+    (at, own, error)
 }
 
 /// The slopes of the values by differences.

@@ -1,6 +1,6 @@
 //! Lyapunov exponents of maps.
 
-use crate::error::Error;
+use crate::error::{Error, check_dimension};
 use crate::families::{MapFamily, point_after};
 use nalgebra::DMatrix;
 
@@ -58,11 +58,7 @@ pub fn lyapunov_exponents<M: MapFamily + ?Sized>(
     steps: usize,
 ) -> Result<LyapunovExponents, Error> {
     let dimension = map.dimension();
-    let (expected, found) = (dimension, start.len());
-    if expected != found {
-        let what = "the start of an orbit";
-        return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
-    }
+    check_dimension("the start of an orbit", dimension, start.len())?;
     let mut point = point_after(map, (start, parameter), transient)?;
     let per_batch = steps.div_ceil(BATCHES).max(1);
     let mut frame = DMatrix::<f64>::identity(dimension, dimension);

@@ -97,8 +97,8 @@ impl Cell {
 /// Polynomials that are as near to a function as the tolerance, on cells from left to right, and the largest difference at
 /// any test.
 ///
-/// Each cell is tested halfway between the points of its polynomial, and at one more point. A cell of a few roundings is not halved: the function jumps
-/// there, or has noise.
+/// Each cell is tested halfway between the points of its polynomial, and at one more point. A cell of a few roundings is not halved: the
+/// function jumps there, or has noise.
 pub(super) fn cells(
     function: &impl Fn(f64) -> Result<f64, Error>,
     (left, right): (f64, f64),

@@ -2,7 +2,7 @@
 
 use super::extrema::{Extremum, extrema};
 use super::samples::samples_of;
-use crate::error::Error;
+use crate::error::{Error, check_dimension};
 use crate::families::{Image, MapFamily};
 use crate::orbits::{OrbitEnd, end_of};
 
@@ -105,11 +105,7 @@ pub(super) fn pieces_between<M: MapFamily + ?Sized>(
     parameter: f64,
     samples: &[f64],
 ) -> Result<MapPieces, Error> {
-    let (expected, found) = (map.dimension(), 1);
-    if expected != found {
-        let what = "a map of one variable";
-        return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
-    }
+    check_dimension("a map of one variable", map.dimension(), 1)?;
     let of = |x: f64| map.image(&[x], parameter).map_err(end_of);
     let mut points: Vec<(f64, Found)> = Vec::with_capacity(samples.len());
     for &x in samples {
