@@ -50,7 +50,7 @@ pub enum Error {
     /// A window that is empty or not finite, or a number of samples that is too small or too large.
     #[error(
         "cannot search [{left}, {right}] with {samples} samples: the ends must be finite, the left one smaller, and \
-         the samples from 3 to ten million"
+         the samples from 3 to {most}"
     )]
     BadWindow {
         /// Left end.
@@ -59,14 +59,21 @@ pub enum Error {
         right: f64,
         /// The requested number of samples.
         samples: usize,
+        /// The most samples.
+        most: usize,
     },
     /// Newton's method found no periodic point.
     #[error(
-        "no periodic point found: the residual is {residual} after {steps} Newton steps. The period must be at least \
-         1, and the start close to the point"
+        "no periodic point found near {point:?}{at}: the largest component of f(x) − x is {residual} there, after {steps} Newton steps. \
+         Begin closer to the point",
+        at = parameter.map_or(String::new(), |parameter| format!(" at the parameter {parameter}"))
     )]
     NoPeriodicPoint {
-        /// The largest component of |fᵖ(x) − x|; NaN for a period of 0.
+        /// Where the search has begun, or has got stuck.
+        point: Vec<f64>,
+        /// The parameter, of a map that has one.
+        parameter: Option<f64>,
+        /// The largest component of |fᵖ(x) − x| at this point.
         residual: f64,
         /// Newton steps taken.
         steps: usize,
@@ -146,32 +153,34 @@ pub enum Error {
         /// The largest size of a multiplier.
         multiplier: f64,
     },
-    /// A window, a step or a start from which no branch can be followed.
-    #[error("no branch can be followed: {what} cannot be {value}")]
-    BadBranch {
+    /// A search of another kind than the one that it begins with: the curve of a bifurcation, say, with a border.
+    #[error("{needed} is needed, and not {found}")]
+    OtherStart {
+        /// What is needed.
+        needed: &'static str,
+        /// What was given.
+        found: String,
+    },
+    /// The work was stopped by its [watcher](crate::watched).
+    #[error("stopped after {images} images of the map")]
+    Stopped {
+        /// How many images were computed.
+        images: usize,
+    },
+    /// A window, a step, a number of something that cannot be used.
+    #[error("{what} cannot be {value}")]
+    BadArgument {
         /// What is wrong.
         what: &'static str,
         /// Its value.
         value: f64,
     },
-    /// A period that is too long for a search.
-    #[error("cannot search a point of period {period}: the period must be at most {most}")]
+    /// A period of no point, or one that is too long for a search.
+    #[error("cannot search a point of period {period}: the period must be from 1 to {most}")]
     BadPeriod {
         /// The requested period.
         period: usize,
         /// The longest period that is searched.
         most: usize,
     },
-}
-
-/// Refuses something whose number of components is another one than that of the map.
-pub(crate) fn check_dimension(
-    what: &'static str,
-    expected: usize,
-    found: usize,
-) -> Result<(), Error> {
-    match expected == found {
-        true => Ok(()),
-        false => Err(hybrid_system::Error::Dimension { what, expected, found }.into()),
-    }
 }

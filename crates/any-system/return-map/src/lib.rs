@@ -98,18 +98,21 @@
 //! [`BranchEnd::Border`] with the surface, and [`border_curve`] follows this end in a second parameter. For [`EquationReturns`] surfaces
 //! that are touched and left again within one step are found, too. The example `bifurcation_diagram` goes from equations to a picture.
 //!
-//! Derivatives of `FormulaMap` and `EquationReturns` are exact. Those of closures are differences of order six, which have some twelve
-//! digits of the first derivative of a smooth map with values to rounding, and are refused below three.
+//! Derivatives of `FormulaMap` and `EquationReturns` are exact to the tolerance of the motion. Those of closures are differences of order six, which have some twelve
+//! digits of the first derivative of a smooth map with values to rounding, and are refused below three. Each multiplier has an estimate of
+//! its error ([`BranchPoint::multiplier_errors`]): near a fold of multipliers, and for orbits that stay long beside an unstable equilibrium, it is
+//! large.
 //!
 //! # Not here
-//! - Errors of multipliers. Those of an orbit that stays long beside an unstable equilibrium lose digits.
 //! - Manifolds of more than one dimension, invariant circles and tori; cycles of flows without a section.
 //! - Proofs in more than one variable.
 
 mod branches;
+mod checks;
 mod error;
 mod families;
 mod manifolds;
+mod multipliers;
 mod orbits;
 mod periodic_point;
 mod return_map;
@@ -123,8 +126,8 @@ pub use branches::{
 };
 pub use error::Error;
 pub use families::{
-    Border, BorderSite, Clearance, Closure, EquationReturns, FormulaMap, Image, MapFamily, family,
-    pieces, scalar_family,
+    Border, BorderSite, Clearance, Closure, EquationReturns, FormulaMap, Image, Linearized,
+    MapFamily, Pushed, family, pieces, scalar_family,
 };
 pub use manifolds::{
     ManifoldCrossing, ManifoldCurve, ManifoldCut, ManifoldEnd, ManifoldSteps, ManifoldTangency,

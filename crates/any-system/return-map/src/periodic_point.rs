@@ -1,6 +1,10 @@
 //! Periodic points in any dimension, by Newton's method.
 
+use crate::checks::check_period;
 use crate::error::Error;
+use crate::families::{Image, Linearized, differences};
+use crate::multipliers::Uncertain;
+use equations::Jet;
 use nalgebra::{Complex, DMatrix, DVector, SMatrix, SVector};
 
 /// A point that a map f takes back to itself after `period` steps.
@@ -15,6 +19,9 @@ pub struct PeriodicPoint<const K: usize> {
     /// The multipliers: the eigenvalues of the derivative of fᵖ at x. If all lie inside the unit circle, the point
     /// attracts.
     pub multipliers: Vec<Complex<f64>>,
+    /// How far each multiplier may be from the exact one: an estimate, to first order, from what changes with the distance of differences,
+    /// and from the rounding of products.
+    pub multiplier_errors: Vec<f64>,
     /// Newton steps taken.
     pub steps: usize,
 }
@@ -27,11 +34,6 @@ const NEWTON_STEPS: usize = 50;
 /// lower the residual, the direction is wrong, or the residual is the noise of the map.
 const HALVINGS: usize = 30;
 
-/// The longest period. The error of fᵖ grows with p, and every Newton step evaluates f some p times: a million
-/// steps of a return map take a minute. A period far above this is a mistake, and the search would not end in a
-/// usable time.
-pub(crate) const LONGEST_PERIOD: usize = 1_000_000;
-
 /// A Newton step that no longer lowers the residual is attributed to noise of the map if it is at most this,
 /// relative to the point. The noise of an integrated return map is of the order of its flow's tolerance, far above
 /// an ulp: at tolerances up to 10⁻¹² it is below this with a margin of 100. A smaller value would refuse the periodic
@@ -40,8 +42,7 @@ const NOISE: f64 = 1e-10;
 
 /// A point of period `period` of `map`, by damped Newton steps from `start`.
 ///
-/// Derivatives are central differences. For a map of machine precision the multipliers have errors of some 10⁻⁹.
-/// They are meaningless if the map is not differentiable at the point.
+/// The multipliers are those of differences of order six, with an estimate of their errors: some 10⁻¹² for a smooth map to rounding.
 ///
 /// ```
 /// use nalgebra::Vector2;
@@ -54,9 +55,9 @@ const NOISE: f64 = 1e-10;
 /// ```
 ///
 /// # Errors
-/// [`Error::NoPeriodicPoint`] for a period of 0, for a singular derivative, and if the steps end before the residual
+/// [`Error::NoPeriodicPoint`] for a singular derivative, and if the steps end before the residual
 /// is of the size of rounding, or of the noise of the map (Newton steps under 10⁻¹⁰). [`Error::BadPeriod`] for a period
-/// above a million. Errors of the map.
+/// of 0 or above a million. [`Error::Differences`] if the map is not smooth at the orbit. Errors of the map.
 pub fn periodic_point<const K: usize>(
     map: impl Fn(&SVector<f64, K>) -> Result<SVector<f64, K>, Error>,
     start: &SVector<f64, K>,
@@ -64,7 +65,19 @@ pub fn periodic_point<const K: usize>(
 ) -> Result<PeriodicPoint<K>, Error> {
     let image = |x: &SVector<f64, K>| map(x);
     let slope = |x: &SVector<f64, K>| derivative(|x| iterate(&map, x, period), x);
-    newton(image, slope, start, period)
+    let number = |x: &[f64], _: f64| {
+        Ok(Image::of_number(map(&SVector::from_column_slice(x))?.as_slice().to_vec(), None))
+    };
+    let sure = |x: &SVector<f64, K>| {
+        let pushed = |curve: &[Jet<4>], parameter| differences(&number, curve, parameter);
+        let found =
+            Linearized::along_axes(number(x.as_slice(), 0.0)?, (x.as_slice(), 0.0), pushed)?;
+        // The map has no parameter, whose column is the last one.
+        let [matrix, errors] = [found.slopes, found.errors].map(|all| all.remove_column(K));
+        let own = Uncertain { matrix, errors };
+        Ok((SVector::from_column_slice(&found.image.point), own))
+    };
+    newton(image, slope, sure, start, period)
 }
 
 /// A point of period `period`, for a map that gives its derivative together with the image, as
@@ -72,7 +85,7 @@ pub fn periodic_point<const K: usize>(
 /// derivative.
 ///
 /// # Errors
-/// As [`periodic_point`].
+/// As [`periodic_point`], but for [`Error::Differences`].
 pub fn periodic_point_with_derivative<const K: usize>(
     map: impl Fn(&SVector<f64, K>) -> Result<(SVector<f64, K>, SMatrix<f64, K, K>), Error>,
     start: &SVector<f64, K>,
@@ -88,7 +101,13 @@ pub fn periodic_point_with_derivative<const K: usize>(
         }
         Ok(whole)
     };
-    newton(image, slope, start, period)
+    let sure = |x: &SVector<f64, K>| {
+        let (image, slope) = map(x)?;
+        let matrix = DMatrix::from_column_slice(K, K, slope.as_slice());
+        let errors = matrix.abs() * f64::EPSILON;
+        Ok((image, Uncertain { matrix, errors }))
+    };
+    newton(image, slope, sure, start, period)
 }
 
 /// fᵖ(x).
@@ -100,21 +119,24 @@ fn iterate<const K: usize>(
     (0..period).try_fold(*x, |x, _| map(&x))
 }
 
-/// Damped Newton steps on fᵖ(x) − x, given f and the derivative `whole` of fᵖ.
+/// The image of a point, and the derivative of the map.
+type ImageAndSlope<const K: usize> = (SVector<f64, K>, Uncertain);
+
+/// Damped Newton steps on fᵖ(x) − x, given f, the derivative `whole` of fᵖ that leads there, and the derivative `sure` of f from which
+/// the multipliers follow.
 fn newton<const K: usize>(
     map: impl Fn(&SVector<f64, K>) -> Result<SVector<f64, K>, Error>,
     whole: impl Fn(&SVector<f64, K>) -> Result<SMatrix<f64, K, K>, Error>,
+    sure: impl Fn(&SVector<f64, K>) -> Result<ImageAndSlope<K>, Error>,
     start: &SVector<f64, K>,
     period: usize,
 ) -> Result<PeriodicPoint<K>, Error> {
-    if period > LONGEST_PERIOD {
-        return Err(Error::BadPeriod { period, most: LONGEST_PERIOD });
-    }
+    check_period(period)?;
     let displacement = |x: &SVector<f64, K>| Ok::<_, Error>(iterate(&map, x, period)? - x);
-    let none = |residual: f64, steps: usize| Error::NoPeriodicPoint { residual, steps };
-    if period == 0 {
-        return Err(none(f64::NAN, 0));
-    }
+    let none = |x: &SVector<f64, K>, residual: f64, steps: usize| {
+        let point = x.iter().copied().collect();
+        Error::NoPeriodicPoint { point, parameter: None, residual, steps }
+    };
     let (mut x, mut rest) = (*start, displacement(start)?);
     // True if no part of a step lowers the residual, and the step is small enough to be noise.
     let mut stuck = false;
@@ -132,20 +154,26 @@ fn newton<const K: usize>(
         // step must be tiny too, unless the residual is exactly zero or no steps are left.
         if stuck || rest.amax() <= rounding && (tiny || rest.amax() == 0.0 || steps == NEWTON_STEPS)
         {
-            if !whole.iter().all(|entry| entry.is_finite()) {
-                return Err(none(rest.amax(), steps));
+            let (mut at, mut product) = sure(&x)?;
+            for _ in 1..period {
+                let (image, own) = sure(&at)?;
+                (at, product) = (image, product.after(&own));
             }
-            let multipliers =
-                DMatrix::from_column_slice(K, K, whole.as_slice()).complex_eigenvalues();
+            let (multipliers, multiplier_errors) = product.eigenvalues();
+            if multipliers.len() < K {
+                return Err(none(&x, rest.amax(), steps));
+            }
+            let residual = rest.amax();
             return Ok(PeriodicPoint {
                 location: x,
                 period,
-                residual: rest.amax(),
-                multipliers: multipliers.iter().copied().collect(),
+                residual,
+                multipliers,
+                multiplier_errors,
                 steps,
             });
         }
-        let Some(mut step) = step else { return Err(none(rest.amax(), steps)) };
+        let Some(mut step) = step else { return Err(none(&x, rest.amax(), steps)) };
         let size = rest.amax();
         let whole_step = step.amax();
         let mut halvings = 0;
@@ -163,14 +191,14 @@ fn newton<const K: usize>(
                 // No part of the step lowers the residual. If the full step is tiny, the residual is the noise of the
                 // map.
                 if !(whole_step <= NOISE * (1.0 + x.amax())) {
-                    return Err(none(size, steps));
+                    return Err(none(&x, size, steps));
                 }
                 stuck = true;
                 break;
             }
         }
     }
-    Err(none(rest.amax(), NEWTON_STEPS))
+    Err(none(&x, rest.amax(), NEWTON_STEPS))
 }
 
 /// The solution of slope · step = rest; `None` for a singular matrix.
@@ -184,7 +212,7 @@ fn solve<const K: usize>(
     Some(SVector::from_column_slice(solution.as_slice()))
 }
 
-/// The derivative of f at x by central differences.
+/// The derivative of f at x by central differences: good enough for Newton's steps.
 fn derivative<const K: usize>(
     f: impl Fn(&SVector<f64, K>) -> Result<SVector<f64, K>, Error>,
     x: &SVector<f64, K>,

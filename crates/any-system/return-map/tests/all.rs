@@ -6,6 +6,7 @@ mod branches;
 mod flows;
 mod known_answers;
 mod manifolds;
+mod multiplier_errors;
 mod orbits;
 mod scalar_maps;
 mod scalar_tools;

@@ -219,5 +219,5 @@ fn ends_that_are_no_borders_are_refused() {
     let steps = BranchSteps::default();
     let none =
         border_curve(&|_| &map, 1, (&BranchEnd::Window, 0.5), windows, steps, |_| Continue(()));
-    assert!(matches!(none, Err(Error::BadBranch { .. })));
+    assert!(matches!(none, Err(Error::OtherStart { .. })));
 }

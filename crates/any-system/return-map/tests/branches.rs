@@ -168,17 +168,21 @@ fn what_cannot_be_followed_is_an_error() {
         ((&[0.6], 2.5), (0.5, f64::INFINITY), 1, steps),
         ((&[0.6], 5.0), (0.5, 3.5), 1, steps),
         ((&[0.6], f64::NAN), (0.5, 3.5), 1, steps),
-        ((&[0.6], 2.5), (0.5, 3.5), 0, steps),
         ((&[0.6], 2.5), (0.5, 3.5), 1, BranchSteps { first: 0.0, ..steps }),
     ] {
-        assert!(matches!(follow(start, window, period, steps), Err(Error::BadBranch { .. })));
+        assert!(matches!(follow(start, window, period, steps), Err(Error::BadArgument { .. })));
     }
+    let none = follow((&[0.6], 2.5), (0.5, 3.5), 0, steps);
+    assert!(matches!(none, Err(Error::BadPeriod { period: 0, .. })));
     assert!(follow((&[], 2.5), (0.5, 3.5), 1, steps).is_err());
     assert!(follow((&[f64::NAN], 2.5), (0.5, 3.5), 1, steps).is_err());
     // No fixed point at all.
     let shift = scalar_family(|x, p| x + 1.0 + 0.0 * p);
     let none = follow_branch(&shift, 1, (&[0.0], 0.5), (0.0, 1.0), steps, |_| Continue(()));
-    assert!(matches!(none, Err(Error::NoPeriodicPoint { .. })), "{none:?}");
+    let Err(Error::NoPeriodicPoint { point, parameter, residual, .. }) = none else {
+        panic!("{none:?}")
+    };
+    assert_eq!((&point[..], parameter, residual), (&[0.0][..], Some(0.5), 1.0));
     // A domain that ends: what was found stays.
     let root = family(1, |x, p| match p > -0.3 {
         true => Ok(vec![0.5 * x[0] + p]),

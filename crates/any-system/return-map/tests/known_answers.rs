@@ -90,7 +90,7 @@ fn the_derivative_is_infinite_at_a_grazing() {
         let image = strobe.image(&[x, v], forcing).unwrap();
         assert_eq!(image.itinerary, ["free: stop", "free: strobe"]);
         let curve = [Jet::moving(x, 1.0), Jet::moving(v, 0.0)];
-        let moved = strobe.pushed(&curve, Jet::number(forcing)).unwrap();
+        let moved = strobe.pushed(&curve, Jet::number(forcing)).unwrap().curve;
         moved[0].0[1].hypot(moved[1].0[1])
     };
     let [near, nearer, nearest] = [1e-4, 1e-6, 1e-7].map(largest);

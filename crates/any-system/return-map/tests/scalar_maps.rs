@@ -273,7 +273,7 @@ fn derivatives_beside_a_singular_border_are_as_sure_as_they_say() {
         Ok((vec![d - d.abs().powf(4.0 / 3.0)], d > 0.0))
     });
     for d in [1e-1, 1e-2, 1e-3] {
-        let found = map.pushed(&[Jet::moving(d, 1.0)], Jet::number(0.0)).unwrap()[0];
+        let found = map.pushed(&[Jet::moving(d, 1.0)], Jet::number(0.0)).unwrap().curve[0];
         let exact = 1.0 - 4.0 / 3.0 * d.cbrt();
         assert!((found.0[1] - exact).abs() < 1e-6, "{d}: {found:?} {exact}");
     }
@@ -288,7 +288,7 @@ fn derivatives_beside_a_singular_border_are_as_sure_as_they_say() {
 /// Features that are far smaller than a number, and numbers that are small or large themselves.
 #[test]
 fn derivatives_of_small_features() {
-    let slope = |map: &dyn MapFamily, x: f64| map.linearized(&[x], 0.0).unwrap().1[(0, 0)];
+    let slope = |map: &dyn MapFamily, x: f64| map.linearized(&[x], 0.0).unwrap().slopes[(0, 0)];
     let close = |found: f64, exact: f64, error: f64, what: &str| {
         assert!((found - exact).abs() <= error, "{what}: {found} {exact}");
     };

@@ -79,6 +79,9 @@ pub struct ExecutionJet<const T: usize> {
     pub state: Vec<Jet<T>>,
     /// The time since the start of the first arc, which does not move.
     pub time: Jet<T>,
+    /// The largest coefficient of ε of a component on the way: at the start and at the end of each arc, before its event. Beside the one at
+    /// the start it says how far neighbours part, and by how much the error of the motion may have grown.
+    pub largest: f64,
 }
 
 impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
@@ -118,10 +121,12 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         direction: &Along,
     ) -> Result<ExecutionJet<T>, Error> {
         let Some(first) = arcs.first() else {
-            return Ok(ExecutionJet { state: Vec::new(), time: Jet::zero() });
+            return Ok(ExecutionJet { state: Vec::new(), time: Jet::zero(), largest: 0.0 });
         };
         let mut state = self.start_jet(&first.start, direction)?;
         let mut time = Jet::zero();
+        let states = first.start.dimension();
+        let mut largest = largest_change(&state[..states]);
         // The event before, if it changed the state.
         let mut last: Option<&Event<Label, Label, X>> = None;
         for arc in arcs {
@@ -129,7 +134,12 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
             // The derivative is that of this execution: the values are its own.
             put_values(&mut state, &arc.start);
             (state, time) = match &arc.end {
-                ArcEnd::Event(event) => self.after_event(program, (arc, event), &state, &time)?,
+                ArcEnd::Event(event) => {
+                    let Moved { before, after } =
+                        self.after_event(program, (arc, event), &state, &time)?;
+                    largest = largest.max(largest_change(&before[..states]));
+                    after
+                }
                 ArcEnd::TimeLimit { .. } => {
                     let moves = time.0.iter().skip(1).any(|term| *term != 0.0);
                     let at_once = arc.duration <= SAME_INSTANT * (arc.time + arc.duration).abs();
@@ -148,8 +158,9 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
             };
             last = arc.event().filter(|event| changes(arc, event));
         }
-        state.truncate(first.start.dimension());
-        Ok(ExecutionJet { state, time })
+        state.truncate(states);
+        largest = largest.max(largest_change(&state));
+        Ok(ExecutionJet { state, time, largest })
     }
 
     /// The state at the start of an execution, and the parameters behind it.
@@ -204,7 +215,7 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         (arc, event): (&Arc<Label, Label, X>, &Event<Label, Label, X>),
         start: &[Jet<T>],
         time: &Jet<T>,
-    ) -> Result<(Vec<Jet<T>>, Jet<T>), Error> {
+    ) -> Result<Moved<T>, Error> {
         if event.kind == EventKind::Clock {
             return self.after_tick(program, (arc, event), start, time);
         }
@@ -212,7 +223,9 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         let at_once = event.kind == EventKind::AtStart
             || event.kind == EventKind::Crossing && arc.duration <= SAME_INSTANT * event.time.abs();
         match (event.kind, place) {
-            _ if at_once && !changes(arc, event) => return Ok((start.to_vec(), *time)),
+            _ if at_once && !changes(arc, event) => {
+                return Ok(Moved { before: start.to_vec(), after: (start.to_vec(), *time) });
+            }
             _ if at_once && arc.jump > 0 => return Err(corner(event)),
             (EventKind::Touch, _) => {
                 return Err(Error::GrazingSensitivity { time: event.time, rate: 0.0 });
@@ -235,7 +248,8 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
             return Err(Error::GrazingSensitivity { time: event.time, rate });
         }
         let ended = Jet::sum(time, &Jet::number(arc.duration));
-        after_jump(&program.guards[place], &motion, (&ended, &zero(guard)))
+        let after = after_jump(&program.guards[place], &motion, (&ended, &zero(guard)))?;
+        Ok(Moved { before: state, after })
     }
 
     /// State and time after a tick of a clock.
@@ -245,7 +259,7 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         (arc, event): (&Arc<Label, Label, X>, &Event<Label, Label, X>),
         start: &[Jet<T>],
         time: &Jet<T>,
-    ) -> Result<(Vec<Jet<T>>, Jet<T>), Error> {
+    ) -> Result<Moved<T>, Error> {
         let clock = program.clocks.iter().find(|(clock, _)| clock.surface == event.surface);
         let Some((clock, times)) = clock else {
             return Err(Error::NoSensitivity { time: arc.time });
@@ -259,8 +273,21 @@ impl<X: StateVector, P> Model<Label, Label, X, TaylorMotion, P> {
         let mut since = Jet::difference(&tick, time);
         put_value(&mut since, 0.0);
         let ended = Jet::sum(time, &Jet::number(arc.duration));
-        after_jump(clock, &motion, (&ended, &since))
+        let after = after_jump(clock, &motion, (&ended, &since))?;
+        Ok(Moved { before: flown, after })
     }
+}
+
+/// The state at the end of an arc, before its event, and state and time after it.
+struct Moved<const T: usize> {
+    before: Vec<Jet<T>>,
+    after: (Vec<Jet<T>>, Jet<T>),
+}
+
+/// The largest first derivative of some components.
+fn largest_change<const T: usize>(state: &[Jet<T>]) -> f64 {
+    let change = |jet: &Jet<T>| jet.0.get(1).map_or(0.0, |term| term.abs());
+    state.iter().map(change).fold(0.0, f64::max)
 }
 
 /// The time of a tick: first + k·period, or one of a list.

@@ -3,13 +3,15 @@
 use super::branch::{Bifurcation, BifurcationKind};
 use super::curve::{Curve, OnCurve};
 use super::follow::BranchSteps;
-use super::orbit::{Kind, Orbit, eigenvalues};
+use super::orbit::{Kind, Orbit};
 use super::tests::Test;
 use super::two_parameters::{
     BifurcationCurve, BifurcationCurvePoint, Condition, CurveEnd, Windows, followed,
 };
+use crate::checks::check_period;
 use crate::error::Error;
 use crate::families::MapFamily;
+use crate::multipliers::{Uncertain, eigenvalues};
 use nalgebra::DVector;
 use std::ops::ControlFlow;
 
@@ -30,9 +32,9 @@ impl<M: MapFamily, F: Fn(f64) -> M> Condition for Smooth<'_, F> {
         let scales = DVector::from_element(last, 1.0);
         let orbit = Orbit { map: &map, kind: Kind::Periodic(self.period), scales };
         let at = at.rows(0, last).into_owned();
-        let slopes = orbit.slopes(&at)?;
+        let Uncertain { matrix: slopes, errors } = orbit.slopes(&at)?;
         let tangent = DVector::zeros(last);
-        let point = OnCurve { at, tangent, slopes, error: 0.0, steps: 0 };
+        let point = OnCurve { at, tangent, slopes, errors, error: 0.0, steps: 0 };
         let test = self.test.value(&point, &orbit);
         Ok(orbit.values(&point.at)?.push(test))
     }
@@ -52,7 +54,7 @@ impl<M: MapFamily, F: Fn(f64) -> M> Condition for Smooth<'_, F> {
             Err(error) => return lost(error),
         }
         let slopes = match orbit.slopes(&at) {
-            Ok(slopes) => slopes,
+            Ok(slopes) => slopes.matrix,
             Err(error) => return lost(error),
         };
         let multipliers = eigenvalues(&orbit.derivative(&slopes));
@@ -85,7 +87,7 @@ impl<M: MapFamily, F: Fn(f64) -> M> Condition for Smooth<'_, F> {
 /// ```
 ///
 /// # Errors
-/// [`Error::BadBranch`] for a bifurcation of another kind, and for windows that are empty or do not contain the start;
+/// [`Error::OtherStart`] for a bifurcation of another kind; [`Error::BadArgument`] for windows that are empty or do not contain the start;
 /// [`Error::NoPeriodicPoint`] if the curve is not found at the start.
 pub fn bifurcation_curve<M: MapFamily, F: Fn(f64) -> M>(
     family: &F,
@@ -95,14 +97,14 @@ pub fn bifurcation_curve<M: MapFamily, F: Fn(f64) -> M>(
     steps: BranchSteps,
     see: impl FnMut(&BifurcationCurvePoint) -> ControlFlow<()>,
 ) -> Result<BifurcationCurve, Error> {
-    super::start::check_period(period)?;
+    check_period(period)?;
     let test = match start.kind {
         BifurcationKind::Fold => Test::Meet,
         BifurcationKind::Doubling => Test::Flip,
         BifurcationKind::NeimarkSacker => Test::Circle,
         _ => {
-            let what = "a bifurcation that is no fold, doubling or Neimark–Sacker bifurcation";
-            return Err(Error::BadBranch { what, value: f64::NAN });
+            let needed = "a fold, a doubling or a Neimark–Sacker bifurcation";
+            return Err(Error::OtherStart { needed, found: format!("{:?}", start.kind) });
         }
     };
     let itinerary = start.at.itinerary.clone();

@@ -5,7 +5,9 @@ use super::curve::OnCurve;
 use super::follow::{Follower, point_of, predicted};
 use super::orbit::{Kind, Orbit, split};
 use crate::error::Error;
-use crate::families::{Border, BorderSite, Clearance, Image, MapFamily, first_difference};
+use crate::families::{
+    Border, BorderSite, Clearance, Image, Linearized, MapFamily, first_difference,
+};
 use equations::Jet;
 use nalgebra::{DMatrix, DVector};
 use std::ops::{AddAssign, ControlFlow};
@@ -58,7 +60,7 @@ impl<M: MapFamily + ?Sized> Orbit<'_, M> {
                 let Ok(here) = self.map.image(&point, parameter.value()) else { return all };
                 let Ok(pushed) = self.map.pushed(&curve, parameter) else { return all };
                 before += here.itinerary.len();
-                curve = pushed;
+                curve = pushed.curve;
             }
         }
         all
@@ -307,7 +309,7 @@ impl OrbitBorder {
         slopes.fill_diagonal(1.0);
         let mut number = DMatrix::zeros(1, n);
         for (image, map) in self.maps(orbit.map)?.iter().enumerate() {
-            let (found, own) = map.linearized(&point, parameter)?;
+            let Linearized { image: found, slopes: own, .. } = map.linearized(&point, parameter)?;
             slopes = own.columns(0, n - 1) * slopes;
             slopes.column_mut(n - 1).add_assign(&own.column(n - 1));
             point = found.point;

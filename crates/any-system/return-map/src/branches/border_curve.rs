@@ -7,6 +7,7 @@ use super::orbit::{Kind, Orbit};
 use super::two_parameters::{
     BifurcationCurve, BifurcationCurvePoint, Condition, CurveEnd, Windows, followed,
 };
+use crate::checks::check_period;
 use crate::error::Error;
 use crate::families::MapFamily;
 use nalgebra::DVector;
@@ -70,7 +71,7 @@ impl<M: MapFamily, F: Fn(f64) -> M> Condition for OnBorder<'_, F> {
 /// ```
 ///
 /// # Errors
-/// [`Error::BadBranch`] for an end that is no border, and for windows that are empty or do not contain the start;
+/// [`Error::OtherStart`] for an end that is no border; [`Error::BadArgument`] for windows that are empty or do not contain the start;
 /// [`Error::BorderNotFollowed`] for a border that is no grazing or corner, or not known to be one; [`Error::NoPeriodicPoint`] if the curve
 /// is not found at the start.
 pub fn border_curve<M: MapFamily, F: Fn(f64) -> M>(
@@ -81,10 +82,10 @@ pub fn border_curve<M: MapFamily, F: Fn(f64) -> M>(
     steps: BranchSteps,
     see: impl FnMut(&BifurcationCurvePoint) -> ControlFlow<()>,
 ) -> Result<BifurcationCurve, Error> {
-    super::start::check_period(period)?;
+    check_period(period)?;
     let BranchEnd::Border { border, at, beyond, place } = end else {
-        let what = "the end of a branch that is no border";
-        return Err(Error::BadBranch { what, value: f64::NAN });
+        let needed = "the end of a branch at a border";
+        return Err(Error::OtherStart { needed, found: format!("{end:?}") });
     };
     let map = family(second);
     let scales = DVector::from_element(at.point.len() + 1, 1.0);

@@ -27,6 +27,9 @@ pub struct BranchPoint {
     pub parameter: f64,
     /// The multipliers: the eigenvalues of the derivative of fⁿ. For an equilibrium the eigenvalues of the derivative of the field.
     pub multipliers: Vec<Complex<f64>>,
+    /// How far each multiplier may be from the exact one: an estimate, to first order, from the [errors](crate::Linearized::errors) of the
+    /// derivatives.
+    pub multiplier_errors: Vec<f64>,
     /// True if the point attracts: all multipliers are inside the unit circle, all eigenvalues of a field left of the imaginary axis.
     pub is_stable: bool,
     /// The pieces of the map that the orbit meets.

@@ -1,6 +1,7 @@
 //! A curve of solutions of m − 1 equations in m unknowns, by predictor and corrector.
 
 use crate::error::Error;
+use crate::multipliers::Uncertain;
 use nalgebra::{DMatrix, DVector};
 
 /// The equations of a curve.
@@ -8,7 +9,7 @@ pub(super) trait Curve {
     /// The m − 1 values that are zero on the curve.
     fn values(&self, at: &DVector<f64>) -> Result<DVector<f64>, Error>;
     /// Their derivatives, m − 1 rows of m.
-    fn slopes(&self, at: &DVector<f64>) -> Result<DMatrix<f64>, Error>;
+    fn slopes(&self, at: &DVector<f64>) -> Result<Uncertain, Error>;
     /// The sizes of the unknowns: lengths along the curve are in these units.
     fn scales(&self) -> &DVector<f64>;
 }
@@ -22,6 +23,8 @@ pub(super) struct OnCurve {
     pub(super) tangent: DVector<f64>,
     /// The derivatives of the equations, in units of the scales.
     pub(super) slopes: DMatrix<f64>,
+    /// How far these may be off.
+    pub(super) errors: DMatrix<f64>,
     /// The length of the last Newton step: how far the point is known.
     pub(super) error: f64,
     /// The number of Newton steps.
@@ -46,7 +49,7 @@ impl OnCurve {
 }
 
 /// Newton steps of a corrector. From a good prediction it takes three or four; more mean that the step is too long.
-const MOST_NEWTON_STEPS: usize = 12;
+pub(super) const MOST_NEWTON_STEPS: usize = 12;
 
 /// A Newton step of this length ends the corrector: some hundred roundings.
 const ROUNDING: f64 = 1e-14;
@@ -56,10 +59,12 @@ const ROUNDING: f64 = 1e-14;
 const NOISE: f64 = 1e-8;
 
 /// The slopes of a curve, in units of the scales.
-fn scaled_slopes(curve: &impl Curve, at: &DVector<f64>) -> Result<DMatrix<f64>, Error> {
+fn scaled_slopes(curve: &impl Curve, at: &DVector<f64>) -> Result<Uncertain, Error> {
     let mut slopes = curve.slopes(at)?;
-    for (mut column, scale) in slopes.column_iter_mut().zip(curve.scales().iter()) {
-        column *= *scale;
+    for matrix in [&mut slopes.matrix, &mut slopes.errors] {
+        for (mut column, scale) in matrix.column_iter_mut().zip(curve.scales().iter()) {
+            column *= *scale;
+        }
     }
     Ok(slopes)
 }
@@ -90,7 +95,7 @@ pub(super) fn corrected(
     let mut at = predicted.clone();
     let mut before = f64::INFINITY;
     for steps in 1..=MOST_NEWTON_STEPS {
-        let slopes = scaled_slopes(curve, &at)?;
+        let slopes = scaled_slopes(curve, &at)?.matrix;
         let values = curve.values(&at)?;
         let off = (&at - predicted).component_div(curve.scales()).dot(along);
         let side = -values.push(off);
@@ -103,9 +108,9 @@ pub(super) fn corrected(
         let size = 1.0 + at.component_div(curve.scales()).amax();
         let is_noise = length <= NOISE && length > 0.5 * before;
         if length <= ROUNDING * size || is_noise {
-            let slopes = scaled_slopes(curve, &at)?;
+            let Uncertain { matrix: slopes, errors } = scaled_slopes(curve, &at)?;
             let Some(tangent) = tangent(&slopes, along) else { return Ok(None) };
-            return Ok(Some(OnCurve { at, tangent, slopes, error: length, steps }));
+            return Ok(Some(OnCurve { at, tangent, slopes, errors, error: length, steps }));
         }
         before = length;
     }

@@ -4,8 +4,9 @@ use super::branch::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint
 use super::curve::{Curve, OnCurve, corrected};
 use super::follow::{BranchSteps, Follower, follow_branch, point_of, predicted};
 use super::orbit::{Kind, Orbit};
-use super::start::{check_period, scales};
-use crate::error::{Error, check_dimension};
+use super::start::{none_near, scales};
+use crate::checks::{check_dimension, check_period};
+use crate::error::Error;
 use crate::families::MapFamily;
 use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
@@ -14,7 +15,7 @@ use std::ops::ControlFlow;
 /// their other points. Its first point is the first step from the doubling.
 ///
 /// # Errors
-/// [`Error::BadBranch`] if the bifurcation is no doubling, or outside of the window; [`Error::NoPeriodicPoint`] if no point is found
+/// [`Error::OtherStart`] if the bifurcation is no doubling; [`Error::BadArgument`] if it is outside of the window; [`Error::NoPeriodicPoint`] if no point is found
 /// beside it.
 pub fn doubled_branch<M: MapFamily + ?Sized>(
     map: &M,
@@ -24,10 +25,8 @@ pub fn doubled_branch<M: MapFamily + ?Sized>(
     mut see: impl FnMut(&BranchPoint) -> ControlFlow<()>,
 ) -> Result<Branch, Error> {
     if doubling.kind != BifurcationKind::Doubling || doubling.direction.is_empty() {
-        return Err(Error::BadBranch {
-            what: "a bifurcation that is no doubling",
-            value: f64::NAN,
-        });
+        let (needed, found) = ("a doubling with its direction", format!("{:?}", doubling.kind));
+        return Err(Error::OtherStart { needed, found });
     }
     check_period(period.saturating_mul(2))?;
     let at = &doubling.at;
@@ -41,7 +40,8 @@ pub fn doubled_branch<M: MapFamily + ?Sized>(
     tangent /= tangent.norm();
     let start = DVector::from_column_slice(&at.point).push(at.parameter);
     let slopes = DMatrix::zeros(start.len() - 1, start.len());
-    let root = OnCurve { at: start, tangent, slopes, error: at.error, steps: 0 };
+    let errors = slopes.clone();
+    let root = OnCurve { at: start, tangent, slopes, errors, error: at.error, steps: 0 };
     let mut length = steps.first;
     while length >= steps.shortest {
         let predicted = predicted(&orbit.scales, &root, length);
@@ -72,7 +72,7 @@ pub fn doubled_branch<M: MapFamily + ?Sized>(
         }
         length *= 0.5;
     }
-    Err(Error::NoPeriodicPoint { residual: f64::NAN, steps: 0 })
+    Err(none_near(&orbit, &root.at))
 }
 
 /// A cascade of doublings: the branch through a point, the branch of twice the period behind its first doubling, and so on, up to

@@ -3,8 +3,9 @@
 use super::branch::{Branch, BranchEnd, BranchPoint};
 use super::curve::{OnCurve, STRAIGHT, corrected, tangent};
 use super::locate::between;
-use super::orbit::{Kind, Orbit, eigenvalues, split};
-use super::start::{check, check_period, scales, solved};
+use super::orbit::{Kind, Orbit, split};
+use super::start::{check, scales, solved};
+use crate::checks::check_period;
 use crate::error::Error;
 use crate::families::MapFamily;
 use nalgebra::DVector;
@@ -58,7 +59,7 @@ pub(super) const LONGER: f64 = 1.5;
 /// ```
 ///
 /// # Errors
-/// [`Error::BadBranch`] for a window that is empty or does not contain the parameter, and for steps that are not positive;
+/// [`Error::BadArgument`] for a window that is empty or does not contain the parameter, and for steps that are not positive;
 /// [`Error::NoPeriodicPoint`] if there is no point near the start; errors of the map there. An error further on ends the branch, whose
 /// points stay.
 pub fn follow_branch<M: MapFamily + ?Sized>(
@@ -309,7 +310,8 @@ pub(super) fn point_of<M: MapFamily + ?Sized>(
     itinerary: Vec<String>,
 ) -> BranchPoint {
     let (point, parameter) = split(&found.at);
-    let multipliers = eigenvalues(&orbit.derivative(&found.slopes));
+    let (multipliers, multiplier_errors) = orbit.uncertain_derivative(found).eigenvalues();
     let is_stable = orbit.kind.is_stable(&multipliers);
-    BranchPoint { point, parameter, multipliers, is_stable, itinerary, error: found.error }
+    let error = found.error;
+    BranchPoint { point, parameter, multipliers, multiplier_errors, is_stable, itinerary, error }
 }

@@ -145,6 +145,9 @@ fn crossing<M: MapFamily + ?Sized>(
     let mut found = points[1].clone();
     found.at *= 0.0;
     found.slopes *= 0.0;
+    for point in &points {
+        found.errors = found.errors.sup(&point.errors);
+    }
     for (weight, point) in weights(zero).iter().zip(&points) {
         found.at += &point.at * *weight;
         found.slopes += &point.slopes * *weight;

@@ -28,6 +28,5 @@ pub use branch::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint};
 pub use continued::continue_branch;
 pub use doubled::{cascade, doubled_branch};
 pub use follow::{BranchSteps, follow_branch, follow_equilibria};
-pub(crate) use normal_form::null_vector;
-pub(crate) use start::{check_inside, check_period, check_window, size_of, solve_periodic};
+pub(crate) use start::{size_of, solve_periodic};
 pub use two_parameters::{BifurcationCurve, BifurcationCurvePoint, CurveEnd};

@@ -4,8 +4,9 @@
 
 use super::branch::BifurcationKind;
 use super::curve::OnCurve;
-use super::orbit::{Kind, Orbit, eigenvalues};
+use super::orbit::{Kind, Orbit};
 use crate::families::MapFamily;
+use crate::multipliers::{complex_null_vector, eigenvalues, null_vector};
 use nalgebra::{Complex, DMatrix, DVector};
 
 /// A second-order coefficient that is so small beside the root of the third-order one, which has its unit, belongs to a symmetric map: by
@@ -59,13 +60,6 @@ impl<M: MapFamily + ?Sized> Forms<'_, M> {
         let cube = |w: &Vector| Some(self.powers(w)?[1].clone() * 6.0);
         Some((cube(&(u + v))? - cube(&(u - v))?) / 6.0 - cube(v)? / 3.0)
     }
-}
-
-/// The vector that a matrix maps nearest to zero, of length 1.
-pub(crate) fn null_vector(matrix: &DMatrix<f64>) -> Option<Vector> {
-    let svd = matrix.clone().try_svd(false, true, f64::EPSILON, 10_000)?;
-    let smallest = svd.singular_values.imin();
-    Some(svd.v_t?.row(smallest).transpose())
 }
 
 pub(super) fn normal_form<M: MapFamily + ?Sized>(
@@ -189,11 +183,4 @@ fn circle_form<M: MapFamily + ?Sized>(
         && [3, 4].iter().any(|power| (multiplier.powi(*power) - 1.0).norm() < RESONANT);
     let coefficient = coefficient.filter(|c: &f64| c.is_finite() && !is_resonant);
     Some(NormalForm { direction, coefficient, is_symmetric: false })
-}
-
-/// The complex vector that a matrix maps nearest to zero, of length 1.
-fn complex_null_vector(matrix: &DMatrix<Complex<f64>>) -> Option<ComplexVector> {
-    let svd = matrix.clone().try_svd(false, true, f64::EPSILON, 10_000)?;
-    let smallest = svd.singular_values.imin();
-    Some(svd.v_t?.row(smallest).adjoint())
 }

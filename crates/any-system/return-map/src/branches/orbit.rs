@@ -1,11 +1,12 @@
 //! The equations of a periodic point, and what its orbit shows.
 
-use super::curve::Curve;
-use crate::error::{Error, check_dimension};
+use super::curve::{Curve, OnCurve};
+use crate::checks::check_dimension;
+use crate::error::Error;
 use crate::families::{MapFamily, curve_after, orbit_after, point_after};
+use crate::multipliers::Uncertain;
 use equations::Jet;
-use nalgebra::{Complex, DMatrix, DVector, Schur};
-use std::ops::AddAssign;
+use nalgebra::{Complex, DMatrix, DVector};
 
 /// What the points of a branch are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,7 +45,7 @@ pub(super) struct Orbit<'m, M: ?Sized> {
 }
 
 /// A curve of points and parameters: the components, and the parameter.
-pub(super) type Pushed = (Vec<Jet<4>>, Jet<4>);
+pub(super) type PointCurve = (Vec<Jet<4>>, Jet<4>);
 
 impl<M: MapFamily + ?Sized> Orbit<'_, M> {
     /// How often the map is applied.
@@ -56,12 +57,12 @@ impl<M: MapFamily + ?Sized> Orbit<'_, M> {
     }
 
     /// The image of a curve under fⁿ, or under the field, to third order.
-    pub(super) fn pushed(&self, curve: Pushed) -> Result<Vec<Jet<4>>, Error> {
+    pub(super) fn pushed(&self, curve: PointCurve) -> Result<Vec<Jet<4>>, Error> {
         curve_after(self.map, curve, self.times())
     }
 
     /// The straight line through a point in a direction, of the point and the parameter.
-    pub(super) fn line(&self, at: &DVector<f64>, direction: &DVector<f64>) -> Pushed {
+    pub(super) fn line(&self, at: &DVector<f64>, direction: &DVector<f64>) -> PointCurve {
         let mut jets: Vec<Jet<4>> =
             at.iter().zip(direction.iter()).map(|(x, v)| Jet::moving(*x, *v)).collect();
         let parameter = jets.pop().unwrap_or(Jet::moving(f64::NAN, 0.0));
@@ -92,23 +93,30 @@ impl<M: MapFamily + ?Sized> Curve for Orbit<'_, M> {
         Ok(DVector::from_iterator(start.len(), off))
     }
 
-    fn slopes(&self, at: &DVector<f64>) -> Result<DMatrix<f64>, Error> {
+    fn slopes(&self, at: &DVector<f64>) -> Result<Uncertain, Error> {
         let (mut point, parameter) = split(at);
         let dimension = point.len();
-        let mut slopes = DMatrix::zeros(dimension, dimension + 1);
-        slopes.fill_diagonal(1.0);
+        // One row more, in which the parameter stays what it is.
+        let square = dimension + 1;
+        let mut whole = Uncertain {
+            matrix: DMatrix::identity(square, square),
+            errors: DMatrix::zeros(square, square),
+        };
         for _ in 0..self.times() {
-            let (image, own) = self.map.linearized(&point, parameter)?;
-            check_dimension("the image of a point", dimension, own.nrows())?;
-            check_dimension("the derivatives of an image", dimension + 1, own.ncols())?;
-            slopes = own.columns(0, dimension) * slopes;
-            slopes.column_mut(dimension).add_assign(&own.column(dimension));
-            point = image.point;
+            let own = self.map.linearized(&point, parameter)?;
+            check_dimension("the image of a point", dimension, own.slopes.nrows())?;
+            check_dimension("the derivatives of an image", square, own.slopes.ncols())?;
+            let mut matrix = own.slopes.insert_row(dimension, 0.0);
+            matrix[(dimension, dimension)] = 1.0;
+            let own_errors = own.errors.insert_row(dimension, 0.0);
+            whole = whole.after(&Uncertain { matrix, errors: own_errors });
+            point = own.image.point;
         }
         for axis in 0..dimension {
-            slopes[(axis, axis)] -= self.kind.at_fold();
+            whole.matrix[(axis, axis)] -= self.kind.at_fold();
         }
-        Ok(slopes)
+        let [matrix, errors] = [whole.matrix, whole.errors].map(|all| all.remove_row(dimension));
+        Ok(Uncertain { matrix, errors })
     }
 
     fn scales(&self) -> &DVector<f64> {
@@ -124,28 +132,13 @@ impl<M: ?Sized> Orbit<'_, M> {
             slopes[(row, axis)] / self.scales[axis] + self.kind.at_fold() * f64::from(row == axis)
         })
     }
-}
 
-/// Sweeps of the method for eigenvalues, for each of them. A few are usual; LAPACK stops at as many.
-const MOST_SWEEPS: usize = 30;
-
-/// The eigenvalues of a matrix; none if it has an entry that is not finite, or if they are not found.
-///
-/// The shifts of the method do not converge for some matrices with much symmetry, such as that of a cyclic shift. In other coordinates
-/// these have none.
-pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
-    if !matrix.iter().all(|entry| entry.is_finite()) {
-        return Vec::new();
+    /// The same, with its errors.
+    pub(super) fn uncertain_derivative(&self, of: &OnCurve) -> Uncertain {
+        let dimension = of.slopes.nrows();
+        let errors = DMatrix::from_fn(dimension, dimension, |row, axis| {
+            of.errors[(row, axis)] / self.scales[axis]
+        });
+        Uncertain { matrix: self.derivative(&of.slopes), errors }
     }
-    let n = matrix.nrows();
-    let found = |matrix: DMatrix<f64>| Schur::try_new(matrix, f64::EPSILON, MOST_SWEEPS * (n + 1));
-    let schur = found(matrix.clone()).or_else(|| {
-        // A reflection in a direction without symmetry.
-        let mut normal =
-            DVector::from_fn(n, |k, _| (0.618_033_988_75 * (k + 1) as f64).fract() + 0.1);
-        normal /= normal.norm();
-        let reflection = DMatrix::identity(n, n) - &normal * normal.transpose() * 2.0;
-        found(&reflection * matrix * &reflection)
-    });
-    schur.map_or(Vec::new(), |schur| schur.complex_eigenvalues().iter().copied().collect())
 }

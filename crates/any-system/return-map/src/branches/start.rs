@@ -1,12 +1,12 @@
 //! Where a branch starts: the point of it near a given one, and what is refused.
 
 use super::branch::BranchPoint;
-use super::curve::{OnCurve, corrected};
+use super::curve::{Curve, MOST_NEWTON_STEPS, OnCurve, corrected};
 use super::follow::{BranchSteps, point_of};
-use super::orbit::{Kind, Orbit};
+use super::orbit::{Kind, Orbit, split};
+use crate::checks::{check_dimension, check_inside, check_period, check_positive, check_window};
 use crate::error::Error;
 use crate::families::MapFamily;
-use crate::periodic_point::LONGEST_PERIOD;
 use nalgebra::{DMatrix, DVector};
 
 /// The point of a branch near a start, at a parameter.
@@ -17,8 +17,15 @@ pub(super) fn solved<M: MapFamily + ?Sized>(
     let at = DVector::from_column_slice(start).push(parameter);
     let mut along = DVector::zeros(at.len());
     along[start.len()] = 1.0;
-    let none = || Error::NoPeriodicPoint { residual: f64::NAN, steps: 0 };
-    corrected(orbit, &at, &along)?.ok_or_else(none)
+    corrected(orbit, &at, &along)?.ok_or_else(|| none_near(orbit, &at))
+}
+
+/// The error of a search by Newton's method that began at a point and a parameter.
+pub(super) fn none_near(curve: &impl Curve, at: &DVector<f64>) -> Error {
+    let (point, parameter) = split(at);
+    let residual = curve.values(at).map_or(f64::NAN, |values| values.amax());
+    let (parameter, steps) = (Some(parameter), MOST_NEWTON_STEPS);
+    Error::NoPeriodicPoint { point, parameter, residual, steps }
 }
 
 /// The periodic point near a start, and the derivative of fⁿ there.
@@ -52,47 +59,13 @@ pub(crate) fn size_of<'n>(numbers: impl IntoIterator<Item = &'n f64>) -> f64 {
     if size > 0.0 { size } else { 1.0 }
 }
 
-/// An error for a period that is not positive, or too long to be iterated.
-pub(crate) fn check_period(period: usize) -> Result<(), Error> {
-    match period {
-        0 => Err(Error::BadBranch { what: "the period of a branch", value: 0.0 }),
-        period if period > LONGEST_PERIOD => Err(Error::BadPeriod { period, most: LONGEST_PERIOD }),
-        _ => Ok(()),
-    }
-}
-
-/// An error for a window that is empty or not finite.
-pub(crate) fn check_window((left, right): (f64, f64)) -> Result<(), Error> {
-    match left < right && (right - left).is_finite() {
-        true => Ok(()),
-        false => Err(Error::BadBranch {
-            what: "the width of the window of a branch",
-            value: right - left,
-        }),
-    }
-}
-
-/// An error for a parameter outside of a window.
-pub(crate) fn check_inside(parameter: f64, (left, right): (f64, f64)) -> Result<(), Error> {
-    match left <= parameter && parameter <= right {
-        true => Ok(()),
-        false => {
-            Err(Error::BadBranch { what: "a parameter outside of the window", value: parameter })
-        }
-    }
-}
-
 pub(super) fn check<M: MapFamily + ?Sized>(
     map: &M,
     (start, parameter): (&[f64], f64),
     window: (f64, f64),
     steps: BranchSteps,
 ) -> Result<(), Error> {
-    let (expected, found) = (map.dimension(), start.len());
-    if expected != found || found == 0 {
-        let what = "the start of a branch";
-        return Err(hybrid_system::Error::Dimension { what, expected, found }.into());
-    }
+    check_dimension("the start of a branch", map.dimension().max(1), start.len())?;
     check_window(window)?;
     check_inside(parameter, window)?;
     let BranchSteps { first, longest, shortest, .. } = steps;
@@ -101,9 +74,7 @@ pub(super) fn check<M: MapFamily + ?Sized>(
         ("the longest step of a branch", longest),
         ("the shortest step of a branch", shortest),
     ] {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(Error::BadBranch { what, value });
-        }
+        check_positive(what, value)?;
     }
     Ok(())
 }

@@ -2,7 +2,8 @@
 
 use super::branch::BifurcationKind;
 use super::curve::{OnCurve, bordered};
-use super::orbit::{Kind, Orbit, eigenvalues};
+use super::orbit::{Kind, Orbit};
+use crate::multipliers::eigenvalues;
 use nalgebra::{Complex, DMatrix};
 
 /// How far a critical multiplier may be from its value: a double one is known to the root of its rounding, and one of an orbit of a long

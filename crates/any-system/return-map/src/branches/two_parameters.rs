@@ -1,11 +1,12 @@
 //! Curves of periodic points with a condition, in two parameters.
 
 use super::branch::BranchPoint;
-use super::curve::{Curve, OnCurve, STRAIGHT, corrected};
+use super::curve::{Curve, MOST_NEWTON_STEPS, OnCurve, STRAIGHT, corrected};
 use super::follow::{BranchSteps, LONGER};
 use super::start::{check, scales};
 use crate::error::Error;
 use crate::families::MapFamily;
+use crate::multipliers::Uncertain;
 use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
 
@@ -80,7 +81,7 @@ impl<C: Condition> Curve for ConditionCurve<'_, C> {
     }
 
     /// By central differences of order four.
-    fn slopes(&self, at: &DVector<f64>) -> Result<DMatrix<f64>, Error> {
+    fn slopes(&self, at: &DVector<f64>) -> Result<Uncertain, Error> {
         let mut slopes = DMatrix::zeros(at.len() - 1, at.len());
         for axis in 0..at.len() {
             let h = REACH * self.scales[axis];
@@ -93,7 +94,9 @@ impl<C: Condition> Curve for ConditionCurve<'_, C> {
             let far = value(2.0)? - value(-2.0)?;
             slopes.set_column(axis, &((near * 8.0 - far) / (12.0 * h)));
         }
-        Ok(slopes)
+        // Its points have no multipliers: nothing asks for the errors.
+        let errors = DMatrix::zeros(slopes.nrows(), slopes.ncols());
+        Ok(Uncertain { matrix: slopes, errors })
     }
 
     fn scales(&self) -> &DVector<f64> {
@@ -124,7 +127,12 @@ pub(super) fn followed<M: MapFamily>(
             first = corrected(&curve, &at, &along)?;
         }
     }
-    let first = first.ok_or(Error::NoPeriodicPoint { residual: f64::NAN, steps: 0 })?;
+    let first = first.ok_or_else(|| Error::NoPeriodicPoint {
+        point: start.point.clone(),
+        parameter: Some(start.parameter),
+        residual: condition.values(&at).map_or(f64::NAN, |values| values.amax()),
+        steps: MOST_NEWTON_STEPS,
+    })?;
     let point = point_of(&first);
     if see(&point).is_break() {
         return Ok(BifurcationCurve {

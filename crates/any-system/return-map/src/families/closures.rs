@@ -1,7 +1,8 @@
 //! Maps by functions of numbers.
 
 use super::family::{Image, MapFamily};
-use crate::error::{Error, check_dimension};
+use crate::checks::check_dimension;
+use crate::error::Error;
 
 /// A map by a closure, whose derivatives are differences.
 #[derive(Debug, Clone, Copy)]

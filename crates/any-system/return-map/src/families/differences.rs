@@ -1,6 +1,7 @@
 //! Derivatives of a map along a curve, by differences.
 
-use super::family::{Image, MapFamily};
+use super::derivatives::Pushed;
+use super::family::Image;
 use crate::error::Error;
 use equations::{Jet, horner};
 
@@ -24,15 +25,28 @@ const USEFUL: f64 = 1e-6;
 /// Derivatives that are less sure than this are refused: the map has none, or its noise hides them.
 const USELESS: f64 = 1e-3;
 
-/// Derivatives, and by how much the first two change with the distance of the values, over the slope of the values.
-type Estimated = (Vec<Jet<4>>, f64);
+/// Derivatives, by how much the first two change with the distance of the values, over the slope of the values, and this slope.
+struct Estimated {
+    jets: Vec<Jet<4>>,
+    change: f64,
+    slopes: Vec<f64>,
+}
 
-/// The image of a curve to third order, by differences.
-pub(super) fn pushed<M: MapFamily + ?Sized>(
-    map: &M,
+impl Estimated {
+    fn pushed(self) -> Pushed {
+        let largest = |(jet, slope): (&Jet<4>, &f64)| slope.max(jet.0[1].abs());
+        let of = |pair| (self.change + f64::EPSILON / REACH) * largest(pair);
+        let errors = self.jets.iter().zip(&self.slopes).map(of).collect();
+        Pushed { curve: self.jets, errors }
+    }
+}
+
+/// The image of a curve to third order, by differences of images of points.
+pub(crate) fn differences(
+    image: &impl Fn(&[f64], f64) -> Result<Image, Error>,
     curve: &[Jet<4>],
     parameter: Jet<4>,
-) -> Result<Vec<Jet<4>>, Error> {
+) -> Result<Pushed, Error> {
     let jets = || curve.iter().chain([&parameter]);
     // In this unit of s no term of a component moves it by more than its own size, or 1.
     let unit = jets().fold(f64::INFINITY, |unit: f64, jet| {
@@ -42,11 +56,11 @@ pub(super) fn pushed<M: MapFamily + ?Sized>(
     });
     let of = |s: f64| -> Result<Image, Error> {
         let point: Vec<f64> = curve.iter().map(|jet| horner(&jet.0, s)).collect();
-        map.image(&point, horner(&parameter.0, s))
+        image(&point, horner(&parameter.0, s))
     };
     let here = of(0.0)?;
     if unit == f64::INFINITY {
-        return Ok(here.point.into_iter().map(|value| Jet([value, 0.0, 0.0, 0.0])).collect());
+        return Ok(Pushed::exact(here.point.into_iter().map(Jet::number).collect()));
     }
     let mut h = REACH * unit;
     let mut best: Option<Estimated> = None;
@@ -54,11 +68,12 @@ pub(super) fn pushed<M: MapFamily + ?Sized>(
         let found = difference(&of, &here, h)
             .or_else(|| one_sided(&of, &here, h))
             .or_else(|| one_sided(&of, &here, -h));
-        if let Some((jets, change)) = found {
-            let before = best.as_ref().map_or(f64::INFINITY, |(_, before)| *before);
+        if let Some(found) = found {
+            let change = found.change;
+            let before = best.as_ref().map_or(f64::INFINITY, |best| best.change);
             let is_better = change < before;
             if is_better {
-                best = Some((jets, change));
+                best = Some(found);
             }
             if change <= SURE || !is_better && before <= USEFUL {
                 break;
@@ -66,8 +81,8 @@ pub(super) fn pushed<M: MapFamily + ?Sized>(
         }
         h *= SHORTER;
     }
-    if let Some((jets, _)) = best.filter(|(_, change)| *change < USELESS) {
-        return Ok(jets);
+    if let Some(best) = best.filter(|best| best.change < USELESS) {
+        return Ok(best.pushed());
     }
     let point: Vec<f64> = curve.iter().map(|jet| jet.0[0]).collect();
     Err(Error::Differences { point, parameter: parameter.0[0], distance: h / SHORTER })
@@ -118,7 +133,7 @@ fn one_sided(of: &impl Fn(f64) -> Result<Image, Error>, here: &Image, h: f64) ->
     let (coarse, slopes) = seven_on_one_side(of, here, 0.5 * h)?;
     let (fine, _) = seven_on_one_side(of, here, 0.25 * h)?;
     let change = change(&coarse, &fine, &slopes, 0.5 * h);
-    Some((coarse, change))
+    Some(Estimated { jets: coarse, change, slopes })
 }
 
 /// The derivatives from seven values on one side, at multiples of h, and the slopes of the values.
@@ -169,7 +184,7 @@ fn difference(
     let off = sides.into_iter().try_fold(0.0, |off: f64, (s, found)| {
         Some(off.max(off_expected(&fine, &found?.point, &slopes, s)))
     })?;
-    Some((coarse, change.max(off)))
+    Some(Estimated { jets: coarse, change: change.max(off), slopes })
 }
 
 /// The derivatives from the value and the pairs of values at ±4h, ±2h and ±h.

@@ -1,13 +1,13 @@
 //! The returns of equations as a family of maps.
 
 use super::border::{BorderSite, Clearance};
-use super::differences;
+use super::derivatives::{Linearized, Pushed, third_order};
+use super::differences::differences;
 use super::equation_returns::EquationReturns;
 use super::equation_ways::Way;
 use super::family::{Image, MapFamily};
 use crate::error::Error;
 use equations::Jet;
-use nalgebra::DMatrix;
 use std::ops::ControlFlow;
 
 impl MapFamily for EquationReturns {
@@ -43,40 +43,17 @@ impl MapFamily for EquationReturns {
         Ok(())
     }
 
-    fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
+    fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Pushed, Error> {
         let point: Vec<f64> = curve.iter().map(Jet::value).collect();
-        let way = self.way(&point, parameter.value())?;
-        match self.pushed_along(&way, curve, parameter) {
-            Err(Error::Execution(hybrid_system::Error::NoSensitivity { .. })) => {
-                differences::pushed(self, curve, parameter)
-            }
-            found => found,
-        }
+        self.derivatives(&self.way(&point, parameter.value())?, curve, parameter)
     }
 
     /// The execution is computed once, and each derivative by a polynomial of degree one.
-    fn linearized(&self, point: &[f64], parameter: f64) -> Result<(Image, DMatrix<f64>), Error> {
+    fn linearized(&self, point: &[f64], parameter: f64) -> Result<Linearized, Error> {
         let way = self.way(point, parameter)?;
         let image = self.image_after(&way, parameter)?;
-        let mut slopes = DMatrix::zeros(point.len(), point.len() + 1);
-        for axis in 0..=point.len() {
-            let along = |(k, x): (usize, &f64)| Jet::moving(*x, f64::from(k == axis));
-            let curve: Vec<Jet<2>> = point.iter().enumerate().map(along).collect();
-            let moving = Jet::moving(parameter, f64::from(axis == point.len()));
-            let pushed = match self.pushed_along(&way, &curve, moving) {
-                Err(Error::Execution(hybrid_system::Error::NoSensitivity { .. })) => {
-                    let further = |jet: &Jet<2>| Jet([jet.0[0], jet.0[1], 0.0, 0.0]);
-                    let curve: Vec<Jet<4>> = curve.iter().map(further).collect();
-                    let pushed = differences::pushed(self, &curve, further(&moving))?;
-                    pushed.iter().map(|jet| Jet([jet.0[0], jet.0[1]])).collect()
-                }
-                found => found?,
-            };
-            for (row, jet) in pushed.iter().enumerate() {
-                slopes[(row, axis)] = jet.0[1];
-            }
-        }
-        Ok((image, slopes))
+        let pushed = |curve: &[Jet<2>], moving| self.derivatives(&way, curve, moving);
+        Linearized::along_axes(image, (point, parameter), pushed)
     }
 
     fn clearances(
@@ -103,5 +80,29 @@ impl MapFamily for EquationReturns {
         border: Option<&BorderSite>,
     ) -> Result<Box<dyn MapFamily + '_>, Error> {
         Ok(Box::new(self.passages(itinerary, border)?))
+    }
+}
+
+impl EquationReturns {
+    /// The image of a curve along a return from its first point: exact to the tolerance of each arc; by differences where an execution has no
+    /// derivatives, as through a Zeno limit.
+    fn derivatives<const T: usize>(
+        &self,
+        way: &Way,
+        curve: &[Jet<T>],
+        parameter: Jet<T>,
+    ) -> Result<Pushed, Error> {
+        match self.pushed_along(way, curve, parameter) {
+            Err(Error::Execution(hybrid_system::Error::NoSensitivity { .. })) => {
+                let image = |point: &[f64], parameter| self.image(point, parameter);
+                let curve: Vec<Jet<4>> = curve.iter().map(third_order).collect();
+                differences(&image, &curve, third_order(&parameter))
+            }
+            found => {
+                let (curve, growth) = found?;
+                let tolerance = self.tolerances.relative.max(f64::EPSILON);
+                Ok(Pushed::within(curve, tolerance * way.arcs.len() as f64 * growth))
+            }
+        }
     }
 }

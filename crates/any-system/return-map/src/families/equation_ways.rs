@@ -3,7 +3,8 @@
 use super::equation_returns::{EquationReturns, ReturnModel};
 use super::family::Image;
 use super::return_arcs::{ReturnArcs, elapsed, itinerary, least_certain};
-use crate::error::{Error, check_dimension};
+use crate::checks::check_dimension;
+use crate::error::Error;
 use equations::{Jet, Series};
 use hybrid_system::{Along, Execution, Limits, Stop};
 use nalgebra::DVector;
@@ -201,13 +202,14 @@ impl EquationReturns {
         Ok(Image { point, itinerary: itinerary(arcs), time: elapsed(arcs), certainty })
     }
 
-    /// The image of a curve at the end of the arcs from its first point.
+    /// The image of a curve at the end of the arcs from its first point; and the error of its derivative over that of the motion. The error
+    /// of the motion grows as neighbours part on the way, and moves the derivative by as much of its largest value on the way.
     pub(super) fn pushed_along<const T: usize>(
         &self,
         way: &Way,
         curve: &[Jet<T>],
         parameter: Jet<T>,
-    ) -> Result<Vec<Jet<T>>, Error> {
+    ) -> Result<(Vec<Jet<T>>, f64), Error> {
         let (mut start, begin) = self.start(curve, parameter)?;
         if way.arcs.first().is_some_and(|arc| arc.start.len() > start.len()) {
             start.push(begin);
@@ -218,6 +220,13 @@ impl EquationReturns {
         let mut time = begin;
         time.0.iter_mut().zip(back.time.0).skip(1).for_each(|(own, more)| *own += more);
         time.0[0] += elapsed(&way.arcs);
-        self.image_of((&back.state, time), parameter)
+        let image = self.image_of((&back.state, time), parameter)?;
+        let [first, last, own] = [&start, &back.state, &image].map(|state| {
+            state.iter().fold(0.0, |most: f64, jet| most.max(jet.0.get(1).map_or(0.0, |x| x.abs())))
+        });
+        // A start that does not move says nothing of neighbours, and an image that does not nothing of the coordinates.
+        let ratio = |above: f64, below: f64| if below > 0.0 { above / below } else { 1.0 };
+        let parted = ratio(back.largest, first).max(1.0);
+        Ok((image, parted * back.largest * ratio(own, last)))
     }
 }

@@ -1,11 +1,11 @@
 //! Maps that depend on a parameter.
 
 use super::border::{Border, BorderSite, Clearance};
-use super::differences::pushed;
+use super::derivatives::{Linearized, Pushed};
+use super::differences::differences;
 use crate::error::Error;
 use equations::Jet;
 use hybrid_system::Certainty;
-use nalgebra::DMatrix;
 use std::ops::ControlFlow;
 
 /// The image of a point.
@@ -79,8 +79,8 @@ pub trait MapFamily: Sync {
     ///
     /// # Errors
     /// Those of the map. [`Error::Differences`] if it has several pieces there, or no derivative.
-    fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
-        pushed(self, curve, parameter)
+    fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Pushed, Error> {
+        differences(&|point: &[f64], parameter| self.image(point, parameter), curve, parameter)
     }
 
     /// The image, and its derivatives by the components of the point and, in the last column, by the parameter.
@@ -89,18 +89,10 @@ pub trait MapFamily: Sync {
     ///
     /// # Errors
     /// Those of the map and of its derivatives.
-    fn linearized(&self, point: &[f64], parameter: f64) -> Result<(Image, DMatrix<f64>), Error> {
+    fn linearized(&self, point: &[f64], parameter: f64) -> Result<Linearized, Error> {
         let image = self.image(point, parameter)?;
-        let mut slopes = DMatrix::zeros(image.point.len(), point.len() + 1);
-        for axis in 0..=point.len() {
-            let along = |(k, x): (usize, &f64)| Jet::moving(*x, f64::from(k == axis));
-            let curve: Vec<Jet<4>> = point.iter().enumerate().map(along).collect();
-            let parameter = Jet::moving(parameter, f64::from(axis == point.len()));
-            for (row, jet) in self.pushed(&curve, parameter)?.iter().enumerate() {
-                slopes[(row, axis)] = jet.0[1];
-            }
-        }
-        Ok((image, slopes))
+        let pushed = |curve: &[Jet<4>], parameter| self.pushed(curve, parameter);
+        Linearized::along_axes(image, (point, parameter), pushed)
     }
 
     /// How near the orbits of a curve of starts come to the surfaces that they do not meet. On a branch a surface that is touched and
@@ -166,10 +158,10 @@ impl<T: MapFamily + ?Sized> MapFamily for &T {
     ) -> Result<(), Error> {
         (**self).orbit(start, parameter, images, see)
     }
-    fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
+    fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Pushed, Error> {
         (**self).pushed(curve, parameter)
     }
-    fn linearized(&self, point: &[f64], parameter: f64) -> Result<(Image, DMatrix<f64>), Error> {
+    fn linearized(&self, point: &[f64], parameter: f64) -> Result<Linearized, Error> {
         (**self).linearized(point, parameter)
     }
     fn clearances(

@@ -1,5 +1,6 @@
 //! Maps by formulas: their derivatives are exact.
 
+use super::derivatives::Pushed;
 use super::family::{Image, MapFamily};
 use crate::error::Error;
 use equations::{Formulas, Jet, JetSeries};
@@ -86,7 +87,7 @@ impl MapFamily for FormulaMap {
         Ok(Image::of_number(image.into_iter().map(|jet| jet.0[0]).collect(), None))
     }
 
-    fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
-        self.values(curve, parameter)
+    fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Pushed, Error> {
+        Ok(Pushed::exact(self.values(curve, parameter)?))
     }
 }

@@ -39,7 +39,7 @@ pub(crate) fn curve_after<M: MapFamily + ?Sized>(
     images: usize,
 ) -> Result<Vec<Jet<4>>, Error> {
     for _ in 0..images {
-        curve = map.pushed(&curve, parameter)?;
+        curve = map.pushed(&curve, parameter)?.curve;
     }
     Ok(curve)
 }

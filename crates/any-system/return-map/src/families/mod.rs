@@ -7,6 +7,7 @@
 
 mod border;
 mod closures;
+mod derivatives;
 mod differences;
 mod equation_borders;
 mod equation_family;
@@ -20,6 +21,8 @@ mod return_arcs;
 
 pub use border::{Border, BorderSite, Clearance};
 pub use closures::{Closure, family, pieces, scalar_family};
+pub use derivatives::{Linearized, Pushed};
+pub(crate) use differences::differences;
 pub use equation_returns::EquationReturns;
 pub use family::{Image, MapFamily};
 pub use formula_map::FormulaMap;

@@ -2,7 +2,8 @@
 
 use super::curve::{ManifoldCurve, distance};
 use super::manifold::UnstableManifold;
-use crate::error::{Error, check_dimension};
+use crate::checks::check_dimension;
+use crate::error::Error;
 use crate::families::MapFamily;
 use nalgebra::{Matrix2, Vector2};
 

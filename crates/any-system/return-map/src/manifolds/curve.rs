@@ -1,7 +1,8 @@
 //! Points along a manifold.
 
 use super::manifold::UnstableManifold;
-use crate::error::{Error, check_dimension};
+use crate::checks::{check_dimension, check_positive};
+use crate::error::Error;
 use crate::families::{MapFamily, first_difference};
 use std::ops::ControlFlow;
 
@@ -90,13 +91,11 @@ impl ManifoldSteps {
             ("the angle of a manifold", self.angle),
         ];
         for (what, value) in lengths {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(Error::BadBranch { what, value });
-            }
+            check_positive(what, value)?;
         }
         if let Some((low, _)) = self.region.iter().find(|(low, high)| !(low < high)) {
             let what = "the left end of a side of a region, beside its right end,";
-            return Err(Error::BadBranch { what, value: *low });
+            return Err(Error::BadArgument { what, value: *low });
         }
         match self.region.len() {
             0 => Ok(()),

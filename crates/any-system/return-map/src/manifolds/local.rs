@@ -1,8 +1,9 @@
 //! The unstable curve of a saddle, next to it: a cubic.
 
-use crate::branches::{BranchPoint, null_vector, size_of, solve_periodic};
+use crate::branches::{BranchPoint, size_of, solve_periodic};
 use crate::error::Error;
 use crate::families::{MapFamily, curve_after, orbit_after};
+use crate::multipliers::null_vector;
 use equations::{Jet, horner};
 use nalgebra::{DMatrix, DVector};
 

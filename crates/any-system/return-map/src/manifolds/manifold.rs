@@ -45,7 +45,7 @@ impl<'m, M: MapFamily + ?Sized> UnstableManifold<'m, M> {
         side: f64,
     ) -> Result<UnstableManifold<'m, M>, Error> {
         if !(side != 0.0 && side.is_finite()) {
-            return Err(Error::BadBranch { what: "the side of a manifold", value: side });
+            return Err(Error::BadArgument { what: "the side of a manifold", value: side });
         }
         let local = LocalCurve::new(map, period, start)?;
         let start = local.reach * side.signum();
@@ -65,7 +65,7 @@ impl<'m, M: MapFamily + ?Sized> UnstableManifold<'m, M> {
     /// Γ(t).
     ///
     /// # Errors
-    /// Those of the map; [`Error::BadBranch`] for a t that is not finite.
+    /// Those of the map; [`Error::BadArgument`] for a t that is not finite.
     pub fn at(&self, t: f64) -> Result<Vec<f64>, Error> {
         self.check(t)?;
         Ok(self.image(t, self.images(t))?.0)
@@ -100,7 +100,7 @@ impl<'m, M: MapFamily + ?Sized> UnstableManifold<'m, M> {
         match t.is_finite() {
             true => Ok(()),
             false => {
-                Err(Error::BadBranch { what: "the number of a point of a manifold", value: t })
+                Err(Error::BadArgument { what: "the number of a point of a manifold", value: t })
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::crossings::{ManifoldCrossing, moving, sine};
 use super::manifold::UnstableManifold;
-use crate::branches::{check_inside, check_window};
+use crate::checks::{check_inside, check_window};
 use crate::error::Error;
 use crate::families::MapFamily;
 use nalgebra::{Matrix3, Vector3};
@@ -56,7 +56,7 @@ const EXACT: f64 = 1e-9;
 /// ```
 ///
 /// # Errors
-/// [`Error::BadBranch`] for a window that is empty or does not contain the parameter; [`Error::NoTangency`] if none is found; those of
+/// [`Error::BadArgument`] for a window that is empty or does not contain the parameter; [`Error::NoTangency`] if none is found; those of
 /// the manifolds.
 pub fn manifold_tangency<'m, A: MapFamily + ?Sized + 'm, B: MapFamily + ?Sized + 'm>(
     first: impl Fn(f64) -> Result<UnstableManifold<'m, A>, Error>,

@@ -1,7 +1,8 @@
 //! Lyapunov exponents of maps.
 
-use crate::error::{Error, check_dimension};
-use crate::families::{MapFamily, point_after};
+use crate::checks::check_dimension;
+use crate::error::Error;
+use crate::families::{Linearized, MapFamily, point_after};
 use nalgebra::DMatrix;
 
 /// A mean over an orbit, with an interval that holds the limit with 95 % if the orbit is typical.
@@ -65,7 +66,7 @@ pub fn lyapunov_exponents<M: MapFamily + ?Sized>(
     let (mut batches, mut times) = (vec![vec![0.0; dimension]; BATCHES], vec![0.0; BATCHES]);
     for (sums, time) in batches.iter_mut().zip(&mut times) {
         for _ in 0..per_batch {
-            let (image, slopes) = map.linearized(&point, parameter)?;
+            let Linearized { image, slopes, .. } = map.linearized(&point, parameter)?;
             if !slopes.iter().chain(&image.point).all(|x| x.is_finite()) {
                 return Err(Error::NoImage { point, parameter });
             }

@@ -33,7 +33,7 @@ pub struct RotationNumber {
 /// ```
 ///
 /// # Errors
-/// Errors of the map; [`Error::NoImage`] if a turn is not finite; [`Error::BadBranch`] without images.
+/// Errors of the map; [`Error::NoImage`] if a turn is not finite; [`Error::BadArgument`] without images.
 pub fn rotation_number<M: MapFamily + ?Sized>(
     map: &M,
     (start, parameter): (&[f64], f64),
@@ -42,7 +42,7 @@ pub fn rotation_number<M: MapFamily + ?Sized>(
     turn: impl Fn(&[f64], &[f64]) -> f64,
 ) -> Result<RotationNumber, Error> {
     if images == 0 {
-        return Err(Error::BadBranch {
+        return Err(Error::BadArgument {
             what: "the number of images of a rotation number",
             value: 0.0,
         });

@@ -1,6 +1,6 @@
 //! All periodic points or equilibria in a window of one variable, each with a proof.
 
-use crate::branches::check_period;
+use crate::checks::{check_period, check_window};
 use crate::error::Error;
 use crate::families::check_without_time;
 use equations::{Enclosure, Formulas};
@@ -68,7 +68,7 @@ const WIDER: f64 = 0.125;
 /// ```
 ///
 /// # Errors
-/// [`Error::BadWindow`] for a window that is empty or not finite; [`Error::Formula`] for more than one formula, for the time t, and for a
+/// [`Error::BadArgument`] for a window that is empty or not finite; [`Error::Formula`] for more than one formula, for the time t, and for a
 /// function without a derivative; [`Error::BadPeriod`]; [`Error::ManyPieces`] for a search without an end, as that of a map with a
 /// line of fixed points.
 pub fn all_periodic_points(
@@ -93,9 +93,7 @@ fn search(
     period: usize,
     (left, right): (f64, f64),
 ) -> Result<AllPeriodicPoints, Error> {
-    if !(left < right) || !(right - left).is_finite() {
-        return Err(Error::BadWindow { left, right, samples: 3 });
-    }
+    check_window((left, right))?;
     let (needed, given) = (1, formula.count().max(formula.names().states.len()));
     if needed != given {
         return Err(

@@ -2,8 +2,9 @@
 
 use super::cells::{Cell, cells};
 use super::pieces::{MapPiece, MapPieces, pieces_between};
+use crate::checks::check_positive;
 use crate::error::Error;
-use crate::families::{Image, MapFamily};
+use crate::families::{Image, MapFamily, Pushed};
 use equations::Jet;
 use interval_arithmetic::bracketed_root;
 
@@ -47,17 +48,14 @@ impl ApproximateMap {
     /// The map on these pieces, as near as `tolerance`.
     ///
     /// # Errors
-    /// [`Error::BadBranch`] for a tolerance that is not positive; [`Error::ManyPieces`] for a map with more noise than the tolerance; those of
+    /// [`Error::BadArgument`] for a tolerance that is not positive; [`Error::ManyPieces`] for a map with more noise than the tolerance; those of
     /// the map.
     pub fn new<M: MapFamily + ?Sized>(
         map: &M,
         on: &MapPieces,
         tolerance: f64,
     ) -> Result<ApproximateMap, Error> {
-        if !(tolerance > 0.0 && tolerance.is_finite()) {
-            let what = "the tolerance of an approximate map";
-            return Err(Error::BadBranch { what, value: tolerance });
-        }
+        check_positive("the tolerance of an approximate map", tolerance)?;
         let mut made = Parts {
             parameter: on.parameter,
             tolerance,
@@ -68,7 +66,12 @@ impl ApproximateMap {
         };
         let value = |x: f64| {
             let image = map.image(&[x], on.parameter)?;
-            image.point.first().copied().ok_or_else(|| missing(x, on.parameter))
+            image
+                .point
+                .first()
+                .copied()
+                .filter(|y| y.is_finite())
+                .ok_or_else(|| missing(x, on.parameter))
         };
         for (number, piece) in on.pieces.iter().enumerate() {
             // A piece of one point has no polynomial.
@@ -153,7 +156,7 @@ impl ApproximateMap {
     /// maps, the first times a bound on the slopes of the second.
     ///
     /// # Errors
-    /// As [`new`](Self::new) and [`map_pieces`](super::map_pieces); [`Error::BadWindow`] without a piece.
+    /// As [`new`](Self::new) and [`map_pieces`](super::map_pieces); [`Error::BadArgument`] without a piece.
     pub fn then(&self, next: &ApproximateMap) -> Result<ApproximateMap, Error> {
         let ends = |piece: &MapPiece| [piece.ends.0, piece.ends.1];
         let mut cuts: Vec<f64> = self.0.pieces.iter().flat_map(ends).collect();
@@ -171,11 +174,9 @@ impl ApproximateMap {
         }
         samples.extend(cuts.last());
         samples.dedup();
-        let (&[left, ..], &[.., right]) = (&samples[..], &samples[..]) else {
-            return Err(Error::BadWindow { left: f64::NAN, right: f64::NAN, samples: 0 });
-        };
-        if left == right {
-            return Err(Error::BadWindow { left, right, samples: samples.len() });
+        if samples.len() < 2 {
+            let what = "the number of pieces of a map";
+            return Err(Error::BadArgument { what, value: 0.0 });
         }
         let both = Both(self, next);
         let found = pieces_between(&both, self.0.parameter, &samples)?;
@@ -209,11 +210,11 @@ impl MapFamily for ApproximateMap {
         Ok(Image { itinerary, ..Image::of_number(vec![cell.value(x)], None) })
     }
 
-    fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
+    fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Pushed, Error> {
         let x = curve.first().copied().unwrap_or(Jet::number(f64::NAN));
         let found = self.cell(x.value()).filter(|_| parameter == Jet::number(self.0.parameter));
         let (cell, _) = found.ok_or_else(|| missing(x.value(), parameter.value()))?;
-        Ok(vec![cell.pushed(&x)])
+        Ok(Pushed::exact(vec![cell.pushed(&x)]))
     }
 }
 
@@ -233,10 +234,10 @@ impl MapFamily for Both<'_> {
         Ok(Image { point: after.point, time: between.time + after.time, ..between })
     }
 
-    fn pushed(&self, curve: &[Jet<4>], _: Jet<4>) -> Result<Vec<Jet<4>>, Error> {
+    fn pushed(&self, curve: &[Jet<4>], _: Jet<4>) -> Result<Pushed, Error> {
         let Both(first, second) = self;
         let between = first.pushed(curve, Jet::number(first.0.parameter))?;
-        second.pushed(&between, Jet::number(second.0.parameter))
+        second.pushed(&between.curve, Jet::number(second.0.parameter))
     }
 }
 

@@ -95,7 +95,7 @@ impl Cell {
 }
 
 /// Polynomials that are as near to a function as the tolerance, on cells from left to right, and the largest difference at
-/// any test.
+/// any test. The values must be finite.
 ///
 /// Each cell is tested halfway between the points of its polynomial, and at one more point. A cell of a few roundings is not halved: the
 /// function jumps there, or has noise.
@@ -124,11 +124,7 @@ pub(super) fn cells(
         // The last one is in no simple ratio to the others: a term that vanishes at all of them is seen.
         for place in (0..DEGREE).map(|k| k as f64 + 0.5).chain([0.381_966 * DEGREE as f64]) {
             let x = at(place);
-            let here = (cell.value(x) - function(x)?).abs();
-            if here.is_nan() {
-                return Err(Error::NoImage { point: vec![x], parameter: f64::NAN });
-            }
-            off = off.max(here);
+            off = off.max((cell.value(x) - function(x)?).abs());
         }
         let middle = left + 0.5 * (right - left);
         let narrow = right - left <= NARROWEST * left.abs().max(right.abs());

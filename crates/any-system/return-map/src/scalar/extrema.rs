@@ -35,7 +35,8 @@ pub(super) fn extrema<M: MapFamily + ?Sized>(
     itinerary: &[String],
 ) -> Vec<Extremum> {
     let slope = |at: f64| {
-        let jet = map.pushed(&[Jet::moving(at, 1.0)], Jet::number(parameter)).ok()?.first()?.0;
+        let jet =
+            map.pushed(&[Jet::moving(at, 1.0)], Jet::number(parameter)).ok()?.curve.first()?.0;
         let is_known = jet[1].is_finite() && jet[2].is_finite();
         is_known.then_some(Slope { at, first: jet[1], second: 2.0 * jet[2] })
     };

@@ -2,7 +2,8 @@
 
 use super::extrema::{Extremum, extrema};
 use super::samples::samples_of;
-use crate::error::{Error, check_dimension};
+use crate::checks::check_dimension;
+use crate::error::Error;
 use crate::families::{Image, MapFamily};
 use crate::orbits::{OrbitEnd, end_of};
 

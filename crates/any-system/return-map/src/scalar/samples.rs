@@ -12,7 +12,7 @@ pub(super) fn samples_of(
     most: usize,
 ) -> Result<impl Fn(usize) -> f64, Error> {
     if !(left < right) || !(right - left).is_finite() || !(3..=most).contains(&samples) {
-        return Err(Error::BadWindow { left, right, samples });
+        return Err(Error::BadWindow { left, right, samples, most });
     }
     let last = samples - 1;
     // The sum may round to a place beyond the right end, where the map may not be defined.

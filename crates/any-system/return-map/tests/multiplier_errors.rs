@@ -1,0 +1,140 @@
+//! Multipliers are as near to the exact ones as they say.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+use hybrid_system::{Equations, Tolerances};
+use nalgebra::{DMatrix, Vector2};
+use proptest::prelude::*;
+use return_map::{
+    BranchPoint, BranchSteps, EquationReturns, FormulaMap, MapFamily, family, follow_branch,
+    periodic_attractors, periodic_point,
+};
+use std::ops::ControlFlow::Break;
+
+fn point_at<M: MapFamily>(map: &M, period: usize, start: &[f64], p: f64) -> BranchPoint {
+    let window = (p - 1.0, p + 1.0);
+    let steps = BranchSteps::default();
+    let branch = follow_branch(map, period, (start, p), window, steps, |_| Break(())).unwrap();
+    branch.points.into_iter().next().unwrap()
+}
+
+/// The largest distance of a multiplier from the nearest exact one, and the largest error that is stated.
+fn off(found: &BranchPoint, exact: &[f64]) -> (f64, f64) {
+    let nearest = |m: &nalgebra::Complex<f64>| {
+        exact.iter().map(|own| (m - own).norm()).fold(f64::INFINITY, f64::min)
+    };
+    let off = found.multipliers.iter().map(nearest).fold(0.0, f64::max);
+    (off, found.multiplier_errors.iter().copied().fold(0.0, f64::max))
+}
+
+/// Hénon's fixed point by a formula, by a closure, and by a closure with noise of 10⁻⁹.
+#[test]
+fn of_formulas_closures_and_noise() {
+    let names = equations::Names::new(&["x", "y"], &[("a", "1.4")]).unwrap();
+    let formulas = equations::Formulas::from_text(names, &["1 - a*x^2 + y", "0.3*x"]).unwrap();
+    let formula = FormulaMap::new(&formulas, "a").unwrap();
+    let closure = family(2, |x: &[f64], a| Ok(vec![1.0 - a * x[0] * x[0] + x[1], 0.3 * x[0]]));
+    let noisy = family(2, |x: &[f64], a| {
+        let noise = 1e-9 * (1e9 * x[0]).sin();
+        Ok(vec![1.0 - a * x[0] * x[0] + x[1] + noise, 0.3 * x[0]])
+    });
+    let x = (-0.7 + (0.49f64 + 5.6).sqrt()) / 2.8;
+    let root = (1.96 * x * x + 0.3).sqrt();
+    let exact = [-1.4 * x + root, -1.4 * x - root];
+    let start = [0.63, 0.19];
+    for (map, least, most) in
+        [(&formula as &dyn MapFamily, 0.0, 1e-14), (&closure, 1e-15, 1e-11), (&noisy, 1e-9, 1e-4)]
+    {
+        let (off, stated) = off(&point_at(&map, 1, &start, 1.4), &exact);
+        assert!(off <= stated && (least..most).contains(&stated), "{off:e} {stated:e}");
+    }
+    let map = |x: &Vector2<f64>| Ok(Vector2::new(1.0 - 1.4 * x[0] * x[0] + x[1], 0.3 * x[0]));
+    let found = periodic_point(map, &Vector2::new(0.6, 0.2), 1).unwrap();
+    for (multiplier, error) in found.multipliers.iter().zip(&found.multiplier_errors) {
+        let off = exact.iter().map(|own| (multiplier - own).norm()).fold(1.0, f64::min);
+        assert!(off <= *error && *error < 1e-11, "{off:e} {error:e}");
+    }
+}
+
+/// A double multiplier moves by the root of a change.
+#[test]
+fn of_a_double_one() {
+    let map = family(2, |x: &[f64], _| Ok(vec![0.5 * x[0] + x[1], 0.5 * x[1]]));
+    let (off, stated) = off(&point_at(&map, 1, &[0.0, 0.0], 0.0), &[0.5]);
+    assert!(off <= stated && stated < 1e-4, "{off:e} {stated:e}");
+}
+
+/// An orbit of a linear oscillator that hits a stop, with tolerances from 10⁻⁷ to 10⁻¹³.
+#[test]
+fn of_returns() {
+    let oscillator = Equations::new(&["x", "v"], &[("f", "1"), ("stop", "1")])
+        .mode_text("free", &["v", "f*cos(0.8*t) - x - 0.2*v"])
+        .rising_text("stop", "x - stop")
+        .resets_text(&["x", "-0.8*v"])
+        .clock_text("period", "5*pi/2", "5*pi/2");
+    let returns = |tolerance: f64| {
+        EquationReturns::new(&oscillator, "f", ("free", "period"), &["x", "v"])
+            .unwrap()
+            .tolerances(Tolerances::both(tolerance))
+    };
+    let found = periodic_attractors(&returns(1e-13), 1.0, &[vec![0.0, 0.0]], 200, 8);
+    let period = found[0].orbit.len();
+    let sure = point_at(&returns(1e-14), period, &found[0].orbit[0], 1.0);
+    assert!(sure.itinerary.len() > period, "{sure:?}");
+    let exact: Vec<_> = sure.multipliers.clone();
+    for tolerance in [1e-7, 1e-10, 1e-13] {
+        let found = point_at(&returns(tolerance), period, &sure.point, 1.0);
+        for ((own, exact), error) in
+            found.multipliers.iter().zip(&exact).zip(&found.multiplier_errors)
+        {
+            let off = (own - exact).norm();
+            assert!(off <= error + sure.multiplier_errors[0], "{tolerance:e}: {off:e} {error:e}");
+            assert!(*error < 1e3 * tolerance, "{tolerance:e}: {error:e}");
+        }
+    }
+}
+
+/// Over the top of a pendulum, as the foot of a wheel: the slower, the longer beside the saddle, where neighbours part.
+#[test]
+fn beside_a_saddle() {
+    let wheel = Equations::new(&["x", "v"], &[("p", "0")])
+        .mode_text("over", &["v", "sin(x)"])
+        .rising_text("down", "x - 1")
+        .resets_text(&["-1", "v"]);
+    let returns = EquationReturns::new(&wheel, "p", ("over", "down"), &["v"])
+        .unwrap()
+        .starting_text(&["-1", "v"])
+        .unwrap();
+    // The speed over the top that is just enough is 2 sin ½. All speeds come back.
+    for above in [1e-1, 1e-3, 1e-5, 1e-7, 1e-9] {
+        let found = returns.linearized(&[2.0 * 0.5f64.sin() + above], 0.0).unwrap();
+        let off = (found.slopes[(0, 0)] - 1.0).abs();
+        let stated = found.errors[(0, 0)];
+        println!("{above:e}: {off:e} {stated:e}");
+        assert!(off <= stated, "{above:e}: {off:e} {stated:e}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+    /// The multipliers of an orbit of period n of a linear map with rotation of its axes in between, against a product in another order.
+    #[test]
+    fn of_planted_matrices(entries in proptest::collection::vec(-2.0f64..2.0, 9), d in proptest::collection::vec(-1.5f64..1.5, 3)) {
+        let basis = DMatrix::from_vec(3, 3, entries) + DMatrix::identity(3, 3) * 3.0;
+        let inverse = basis.clone().try_inverse();
+        prop_assume!(inverse.is_some());
+        let inverse = inverse.unwrap();
+        prop_assume!(basis.norm() * inverse.norm() < 1e4);
+        let diagonal = DMatrix::from_diagonal(&nalgebra::DVector::from_vec(d.clone()));
+        let matrix = &basis * diagonal * &inverse;
+        let condition = basis.norm() * inverse.norm();
+        let map = family(3, |x: &[f64], _| {
+            Ok((&matrix * nalgebra::DVector::from_column_slice(x)).as_slice().to_vec())
+        });
+        let found = point_at(&map, 1, &[0.0, 0.0, 0.0], 0.0);
+        let (off, stated) = off(&found, &d);
+        // The matrix itself is rounded.
+        let planted = 1e-15 * condition * condition;
+        prop_assert!(off <= stated + planted, "{:e} {:e} {:?}", off, stated, found.multipliers);
+    }
+}
