@@ -150,6 +150,12 @@ pub trait HybridSystem {
         None
     }
 
+    /// The surface along which the state slides in `mode`, as in those of [`Filippov`](crate::Filippov) (feature `ode`). Default: none.
+    fn slides_on(&self, mode: Self::Mode) -> Option<Self::Surface> {
+        let _ = mode;
+        None
+    }
+
     /// f(x) of ẋ = f(x) in `mode`. Integrated flows and derivatives through events need it, and so does the sliding
     /// field. If the field depends on time, time is a component of the state with ṫ = 1.
     ///

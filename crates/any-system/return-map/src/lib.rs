@@ -110,6 +110,7 @@
 mod branches;
 mod checks;
 mod error;
+mod events;
 mod families;
 mod manifolds;
 mod multipliers;
@@ -127,7 +128,8 @@ pub use branches::{
 pub use error::Error;
 pub use families::{
     Border, BorderSite, Clearance, Closure, EquationReturns, FormulaMap, Image, Linearized,
-    MapFamily, Pushed, family, pieces, scalar_family,
+    MapFamily, Pushed, SmoothReturns, SystemReturns, Watched, family, pieces, returns,
+    scalar_family, smooth_returns, watched,
 };
 pub use manifolds::{
     ManifoldCrossing, ManifoldCurve, ManifoldCut, ManifoldEnd, ManifoldSteps, ManifoldTangency,

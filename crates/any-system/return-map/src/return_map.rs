@@ -1,9 +1,11 @@
 //! The return map: from a section to the next event on it.
 
 use crate::error::Error;
+use crate::events::{less_certain, plain};
 use crate::section::{Section, SmoothSection};
 use hybrid_system::{
-    ArcEnd, Differentiable, Event, Execution, HybridSystem, Limits, State, Stop, event_sensitivity,
+    Arc, ArcEnd, Certainty, Differentiable, Event, Execution, HybridSystem, Limits, State, Stop,
+    event_sensitivity,
 };
 use nalgebra::{RowSVector, SMatrix, SVector};
 use std::fmt::Debug;
@@ -42,6 +44,8 @@ pub struct Return<const K: usize> {
     pub time: f64,
     /// Number of events, the last one on the section included.
     pub events: usize,
+    /// How certain it is that no event on the way was missed: the least certain one counts.
+    pub certainty: Certainty,
 }
 
 impl<'a, T, C, const N: usize> ReturnMap<'a, T, C, N>
@@ -53,11 +57,6 @@ where
         ReturnMap { system, section, limits, counts_at_once: false }
     }
 
-    /// True if an event is after no time: at the start itself, within the rounding of its time.
-    fn is_at_once<M, S, X>(&self, event: &Event<M, S, X>) -> bool {
-        !self.counts_at_once && event.time <= event.time_rounding
-    }
-
     /// Follows the execution from `coordinates` to its next event on the section. An event at the start itself is none.
     ///
     /// # Errors
@@ -66,22 +65,37 @@ where
     where
         C: Section<T, N, K>,
     {
-        let (mode, state) = self.section.point(coordinates);
-        let mut execution = Execution::new(self.system, mode, state, self.limits);
-        let (mut time, mut events, mut surface) = (0.0, 0, None);
-        for arc in execution.by_ref() {
-            let arc = arc?;
-            time = arc.time + arc.duration;
-            let Some(event) = arc.event() else { continue };
-            (events, surface) = (events + 1, Some(event.surface));
-            if self.is_at_once(event) {
-                continue;
-            }
-            if let Some(coordinates) = self.section.coordinates(event) {
-                return Ok(Return { coordinates, time, events });
-            }
-        }
-        Err(no_return(execution.stop(), surface, time, events))
+        self.next_along(coordinates, |_| {})
+    }
+
+    /// The same; `see` receives each arc on the way, with its mode, its event and how certain this is.
+    ///
+    /// # Errors
+    /// As [`next`](Self::next).
+    pub fn next_along<const K: usize>(
+        &self,
+        coordinates: &SVector<f64, K>,
+        mut see: impl FnMut(&Arc<T::Mode, T::Surface, State<N>>),
+    ) -> Result<Return<K>, Error>
+    where
+        C: Section<T, N, K>,
+    {
+        let (mut time, mut events, mut certainty) = (0.0, 0, Certainty::Exact);
+        let coordinates = next_return(
+            self.system,
+            self.section.point(coordinates),
+            (self.limits, self.counts_at_once),
+            |event| self.section.coordinates(event),
+            |arc| {
+                time = arc.time + arc.duration;
+                if let Some(event) = arc.event() {
+                    events += 1;
+                    certainty = less_certain(certainty, event.certainty);
+                }
+                see(&arc);
+            },
+        )?;
+        Ok(Return { coordinates, time, events, certainty })
     }
 
     /// The next return, with the derivatives of image and return time.
@@ -105,6 +119,7 @@ where
         let mut time_derivative = RowSVector::zeros();
         let mut execution = Execution::new(self.system, mode, state, self.limits);
         let (mut time, mut events, mut surface) = (0.0, 0, None);
+        let mut certainty = Certainty::Exact;
         for arc in execution.by_ref() {
             let arc = arc?;
             time = arc.time + arc.duration;
@@ -113,7 +128,9 @@ where
             }
             let Some(event) = arc.event() else { continue };
             (events, surface) = (events + 1, Some(event.surface));
-            let back = self.section.coordinates(event).filter(|_| !self.is_at_once(event));
+            certainty = less_certain(certainty, event.certainty);
+            let back =
+                self.section.coordinates(event).filter(|_| !is_at_once(event, self.counts_at_once));
             // A terminal event off the section: the execution ends, and this loop ends too.
             if back.is_none() && event.after.is_none() {
                 continue;
@@ -123,7 +140,7 @@ where
             change = through * change;
             if let Some(coordinates) = back {
                 let derivative = self.section.coordinates_jacobian(event) * change;
-                let to = Return { coordinates, time, events };
+                let to = Return { coordinates, time, events, certainty };
                 return Ok(SmoothReturn { to, derivative, time_derivative });
             }
         }
@@ -154,9 +171,39 @@ where
     }
 }
 
+/// True if an event is after no time: at the start itself, within the rounding of its time.
+fn is_at_once<M, S, X>(event: &Event<M, S, X>, counts: bool) -> bool {
+    !counts && event.time <= event.time_rounding
+}
+
+/// What `coordinates` gives of the first event after a start that is a return. `see` receives each arc on the way.
+pub(crate) fn next_return<T: HybridSystem, R>(
+    system: &T,
+    (mode, state): (T::Mode, T::State),
+    (limits, counts_at_once): (Limits, bool),
+    coordinates: impl Fn(&Event<T::Mode, T::Surface, T::State>) -> Option<R>,
+    mut see: impl FnMut(Arc<T::Mode, T::Surface, T::State>),
+) -> Result<R, Error> {
+    let mut execution = Execution::new(system, mode, state, limits);
+    let (mut time, mut events, mut surface) = (0.0, 0, None);
+    for arc in execution.by_ref() {
+        let arc = arc?;
+        time = arc.time + arc.duration;
+        let back = arc.event().and_then(|event| {
+            (events, surface) = (events + 1, Some(event.surface));
+            coordinates(event).filter(|_| !is_at_once(event, counts_at_once))
+        });
+        see(arc);
+        if let Some(back) = back {
+            return Ok(back);
+        }
+    }
+    Err(no_return(execution.stop(), surface, time, events))
+}
+
 /// The error of an execution that ended before its return, after the last event on this surface.
 fn no_return<S: Debug>(stop: Option<Stop>, last: Option<S>, time: f64, events: usize) -> Error {
     let stop = stop.unwrap_or(Stop::Failed);
-    let surface = last.filter(|_| stop == Stop::Terminal).map(|surface| format!("{surface:?}"));
+    let surface = last.filter(|_| stop == Stop::Terminal).map(|surface| plain(&surface));
     Error::NoReturn { stop, surface, time, events }
 }

@@ -12,3 +12,5 @@ mod scalar_maps;
 mod scalar_tools;
 mod sections;
 mod starts_on_the_section;
+mod system_returns;
+mod watched;

@@ -71,7 +71,8 @@ fn the_logistic_map() {
 fn a_cascade_of_doublings() {
     let logistic = scalar_family(|x, r| r * x * (1.0 - x));
     let steps = BranchSteps::default();
-    let doublings = cascade(&logistic, 1, (&[0.6], 2.8), (2.5, 4.0), steps, 7).unwrap();
+    let doublings =
+        cascade(&logistic, 1, (&[0.6], 2.8), (2.5, 4.0), steps, 7, |_| Continue(())).unwrap();
     let at: Vec<f64> = doublings.iter().map(|found| found.at.parameter).collect();
     assert_eq!(at.len(), 7, "{at:?}");
     for (found, exact) in at.iter().zip([3.0, 1.0 + 6f64.sqrt(), 3.544_090_359_6, 3.564_407_266_1])

@@ -9,7 +9,7 @@ use return_map::{
     BranchPoint, BranchSteps, EquationReturns, FormulaMap, MapFamily, family, follow_branch,
     periodic_attractors, periodic_point,
 };
-use std::ops::ControlFlow::Break;
+use std::ops::ControlFlow::{Break, Continue};
 
 fn point_at<M: MapFamily>(map: &M, period: usize, start: &[f64], p: f64) -> BranchPoint {
     let window = (p - 1.0, p + 1.0);
@@ -77,7 +77,8 @@ fn of_returns() {
             .unwrap()
             .tolerances(Tolerances::both(tolerance))
     };
-    let found = periodic_attractors(&returns(1e-13), 1.0, &[vec![0.0, 0.0]], 200, 8);
+    let found =
+        periodic_attractors(&returns(1e-13), 1.0, &[vec![0.0, 0.0]], (200, 8), |_| Continue(()));
     let period = found[0].orbit.len();
     let sure = point_at(&returns(1e-14), period, &found[0].orbit[0], 1.0);
     assert!(sure.itinerary.len() > period, "{sure:?}");

@@ -76,7 +76,7 @@ fn attracting_orbits_have_traps() {
     });
     let seeds: Vec<Vec<f64>> =
         (0..20).map(|k| vec![0.1 * f64::from(k) - 1.0, 0.05 * f64::from(k)]).collect();
-    let found = periodic_attractors(&spiral, 0.0, &seeds, 100, 20);
+    let found = periodic_attractors(&spiral, 0.0, &seeds, (100, 20), |_| Continue(()));
     assert_eq!(found.len(), 1);
     assert_eq!(found[0].orbit.len(), 1);
     let ends = orbit_fates(&spiral, (&seeds, 0.0), &found, 10_000, |_| Continue(()));
@@ -84,7 +84,7 @@ fn attracting_orbits_have_traps() {
     // Two attractors and the saddle between them, which has no trap.
     let cubic = scalar_family(|x, p| x + 0.2 * (p + x - x * x * x));
     let seeds: Vec<Vec<f64>> = (0..9).map(|k| vec![0.25 * f64::from(k) - 0.99]).collect();
-    let found = periodic_attractors(&cubic, 0.0, &seeds, 1000, 4);
+    let found = periodic_attractors(&cubic, 0.0, &seeds, (1000, 4), |_| Continue(()));
     assert_eq!(found.len(), 2);
     let saddle = PeriodicAttractor::new(&cubic, 1, (&[0.01], 0.0));
     assert!(matches!(saddle, Err(Error::NoTrap { .. })), "{saddle:?}");
@@ -98,7 +98,9 @@ fn attracting_orbits_have_traps() {
     let logistic = scalar_family(|x, r| r * x * (1.0 - x));
     let cycle = PeriodicAttractor::new(&logistic, 8, (&[0.5], 3.5)).unwrap();
     assert_eq!(cycle.orbit.len(), 4);
-    assert!(periodic_attractors(&logistic, 3.9, &[vec![0.3]], 1000, 16).is_empty());
+    assert!(
+        periodic_attractors(&logistic, 3.9, &[vec![0.3]], (1000, 16), |_| Continue(())).is_empty()
+    );
     assert_eq!(orbit_fate(&logistic, (&[0.3], 3.9), &[], 10).end, OrbitEnd::Budget);
 }
 

@@ -9,6 +9,7 @@ use return_map::{
     map_pieces, pieces, scalar_family,
 };
 use std::f64::consts::PI;
+use std::ops::ControlFlow::Continue;
 
 /// Points between two ends, at no special places.
 fn between((left, right): (f64, f64), count: usize) -> impl Iterator<Item = f64> {
@@ -209,7 +210,7 @@ fn all_periodic_points_are_proved() {
     let logistic =
         Formulas::from_text(Names::new(&["x"], &[("r", "4")]).unwrap(), &["r*x*(1 - x)"]).unwrap();
     for n in 1..=7 {
-        let found = all_periodic_points(&logistic, n, (-1.0, 2.0)).unwrap();
+        let found = all_periodic_points(&logistic, n, (-1.0, 2.0), |_| Continue(())).unwrap();
         assert!(found.undecided.is_empty(), "{n} {found:?}");
         let mut exact: Vec<f64> = (0..1 << n)
             .map(|k| {
@@ -239,30 +240,33 @@ fn all_periodic_points_are_proved() {
 fn what_cannot_be_proved_is_named() {
     let of = |text: &str| Formulas::from_text(Names::new(&["x"], &[]).unwrap(), &[text]).unwrap();
     // A tangent fixed point at ½.
-    let found = all_periodic_points(&of("x^2 + 0.25"), 1, (-2.0, 2.0)).unwrap();
+    let found = all_periodic_points(&of("x^2 + 0.25"), 1, (-2.0, 2.0), |_| Continue(())).unwrap();
     assert!(found.points.is_empty() && found.undecided.len() <= 3, "{found:?}");
     assert!(found.undecided.iter().any(|(low, high)| *low <= 0.5 && 0.5 <= *high));
     assert!(
         found.undecided.iter().all(|(low, high)| (low - 0.5).abs() < 1e-5 && high - low < 1e-5)
     );
     // No value to the left of 0.
-    let found = all_periodic_points(&of("sqrt(x)"), 1, (-1.0, 3.0)).unwrap();
+    let found = all_periodic_points(&of("sqrt(x)"), 1, (-1.0, 3.0), |_| Continue(())).unwrap();
     assert_eq!(found.points.len(), 1, "{found:?}");
     assert!(found.points[0].at.contains(1.0));
-    let found = all_equilibria(&of("x - x^3"), (-2.0, 2.0)).unwrap();
+    let found = all_equilibria(&of("x - x^3"), (-2.0, 2.0), |_| Continue(())).unwrap();
     assert_eq!((found.points.len(), found.undecided.len()), (3, 0));
     for (point, exact) in found.points.iter().zip([-1.0, 0.0, 1.0]) {
         assert!(point.at.contains(exact) && point.least_period == Some(0), "{point:?}");
         assert!(point.multiplier.contains(1.0 - 3.0 * exact * exact));
     }
     // On the end of the window, and outside of it.
-    assert_eq!(all_equilibria(&of("x - 1"), (0.0, 1.0)).unwrap().points.len(), 1);
-    assert_eq!(all_equilibria(&of("x - 1"), (0.0, 0.999)).unwrap().points.len(), 0);
-    assert!(all_periodic_points(&of("x"), 0, (0.0, 1.0)).is_err());
-    assert!(all_periodic_points(&of("x^2"), 1, (1.0, 0.0)).is_err());
-    assert!(all_periodic_points(&of("x*t"), 1, (0.0, 1.0)).is_err());
+    assert_eq!(all_equilibria(&of("x - 1"), (0.0, 1.0), |_| Continue(())).unwrap().points.len(), 1);
+    assert_eq!(
+        all_equilibria(&of("x - 1"), (0.0, 0.999), |_| Continue(())).unwrap().points.len(),
+        0
+    );
+    assert!(all_periodic_points(&of("x"), 0, (0.0, 1.0), |_| Continue(())).is_err());
+    assert!(all_periodic_points(&of("x^2"), 1, (1.0, 0.0), |_| Continue(())).is_err());
+    assert!(all_periodic_points(&of("x*t"), 1, (0.0, 1.0), |_| Continue(())).is_err());
     let two = Formulas::from_text(Names::new(&["x", "y"], &[]).unwrap(), &["x", "y"]).unwrap();
-    assert!(all_periodic_points(&two, 1, (0.0, 1.0)).is_err());
+    assert!(all_periodic_points(&two, 1, (0.0, 1.0), |_| Continue(())).is_err());
 }
 
 /// Beside a border at which the second derivative of a piece is infinite: distances that fit on the piece are still too long.

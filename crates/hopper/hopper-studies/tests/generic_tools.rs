@@ -29,7 +29,7 @@ fn fold(hump: u64, target: f64, from: &str) -> f64 {
     let formula = above(target).with_parameters(&[("M", from)]).unwrap();
     // The fixed point itself is a triple root.
     let (left, right) = (alpha_star(hump), (hump as f64 + 1.0) * PI);
-    let found = all_equilibria(&formula, (left + 0.1, right)).unwrap();
+    let found = all_equilibria(&formula, (left + 0.1, right), |_| Continue(())).unwrap();
     assert!(found.undecided.is_empty());
     let start = found.points[0].at.middle();
     let map = FormulaMap::new(&formula, "M").unwrap();

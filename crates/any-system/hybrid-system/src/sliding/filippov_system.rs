@@ -28,6 +28,13 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
         }
     }
 
+    fn slides_on(&self, mode: Self::Mode) -> Option<Self::Surface> {
+        match mode {
+            FilippovMode::Free(mode) => self.system.slides_on(mode).map(FilippovSurface::Model),
+            FilippovMode::Sliding { surface, .. } => Some(FilippovSurface::Model(surface)),
+        }
+    }
+
     fn flow_at(
         &self,
         mode: Self::Mode,

@@ -1,8 +1,8 @@
 //! Where a branch meets a border of the map.
 
 use super::branch::{BranchEnd, BranchPoint};
-use super::curve::OnCurve;
-use super::follow::{Follower, point_of, predicted};
+use super::curve::{OnCurve, bordered, corrected, corrected_by};
+use super::follow::{ASIDE, Follower, point_of, predicted};
 use super::orbit::{Kind, Orbit, split};
 use crate::error::Error;
 use crate::families::{
@@ -152,13 +152,16 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
         mut beyond: Vec<String>,
         length: f64,
     ) -> BranchEnd {
-        // Each half begins at the last point before the border: a prediction from further away could lie beyond it.
-        let (mut at, mut ahead) = (last.clone(), length);
+        // Each half begins at the last point before the border: a prediction from further away could lie beyond it. The slopes are those of
+        // the last point that has them.
+        let (mut at, mut known, mut ahead) = (last.at.clone(), last.clone(), length);
         for halving in 1.. {
             let is_last = ahead <= f64::EPSILON * self.steps.longest;
             if is_last || TRIES.contains(&halving) {
+                let here = corrected(&self.orbit, &at, &known.tangent).ok().flatten();
+                known = here.unwrap_or(OnCurve { at: at.clone(), ..known });
                 let within = if is_last { BESIDE } else { AROUND };
-                let found = self.border_beside(&at, (itinerary, &beyond), within);
+                let found = self.border_beside(&known, (itinerary, &beyond), within);
                 if let Some(end) = found.filter(|end| is_last || end.1) {
                     return end.0;
                 }
@@ -167,17 +170,41 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
                 break;
             }
             ahead *= 0.5;
-            let found = self.step(&at, ahead).ok().flatten();
-            let own = found.as_ref().map(|found| self.orbit.itinerary(&found.at));
-            match (found, own) {
-                (Some(found), Some(Ok(own))) if own == itinerary => at = found,
-                (_, Some(Ok(other))) => beyond = other,
-                _ => {}
+            let from = OnCurve { at: at.clone(), ..known.clone() };
+            let expected = predicted(&self.orbit.scales, &from, ahead);
+            match self.orbit.itinerary(&expected) {
+                // Nearer to the border less is expected beyond it.
+                Ok(other) if other != itinerary => beyond = other,
+                _ => {
+                    let found = self.near_step(&from, &expected, ahead);
+                    match found.map(|found| (self.orbit.itinerary(&found), found)) {
+                        Some((Ok(own), found)) if own == itinerary => at = found,
+                        Some((Ok(other), _)) => beyond = other,
+                        _ => {}
+                    }
+                }
             }
         }
+        let at = known;
         let place = first_difference(itinerary, &beyond);
         let at = point_of(&self.orbit, &at, itinerary.to_vec());
         BranchEnd::Border { border: Border::Piece, at, beyond, place }
+    }
+
+    /// A short step to a point near the expected one: by the slopes of a point nearby, or, where these are others, by the own ones.
+    fn near_step(
+        &self,
+        from: &OnCurve,
+        expected: &DVector<f64>,
+        length: f64,
+    ) -> Option<DVector<f64>> {
+        let matrix = bordered(&from.slopes, &from.tangent).lu();
+        let found = corrected_by(&self.orbit, &matrix, expected, &from.tangent);
+        let found = found.filter(|at| {
+            let aside = (at - expected).component_div(&self.orbit.scales).norm();
+            aside <= ASIDE * length + f64::EPSILON * at.component_div(&self.orbit.scales).norm()
+        });
+        found.or_else(|| self.step(from, length).ok().flatten().map(|found| found.at))
     }
 
     /// The border next to a point, and true if it is located on both sides of which the map has the two sequences of pieces.

@@ -76,7 +76,7 @@ pub fn continue_branch<M: MapFamily + ?Sized>(
 }
 
 /// How far the end of a branch may be from a point of the map, on its scale: the noise of an integrated map.
-const SAME: f64 = 1e-6;
+pub(super) const SAME: f64 = 1e-6;
 
 /// The end of a branch, with the tangent that leads away from the point before.
 fn at_end<M: MapFamily + ?Sized>(

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::multipliers::Uncertain;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 /// The equations of a curve.
 pub(super) trait Curve {
@@ -83,6 +83,34 @@ pub(super) fn tangent(slopes: &DMatrix<f64>, along: &DVector<f64>) -> Option<DVe
     let tangent = bordered(slopes, along).lu().solve(&side)?;
     let length = tangent.norm();
     (length.is_finite() && length > 0.0).then(|| tangent / length)
+}
+
+/// The same by the slopes of a point nearby, which cost nothing: only for short ways. `matrix` are these slopes, bordered by `along`.
+pub(super) fn corrected_by(
+    curve: &impl Curve,
+    matrix: &LU<f64, Dyn, Dyn>,
+    predicted: &DVector<f64>,
+    along: &DVector<f64>,
+) -> Option<DVector<f64>> {
+    let mut at = predicted.clone();
+    let mut before = f64::INFINITY;
+    for _ in 1..=MOST_NEWTON_STEPS {
+        let values = curve.values(&at).ok()?;
+        let off = (&at - predicted).component_div(curve.scales()).dot(along);
+        let step = matrix.solve(&-values.push(off))?;
+        let length = step.amax();
+        at += step.component_mul(curve.scales());
+        let size = 1.0 + at.component_div(curve.scales()).amax();
+        if length <= ROUNDING * size || length <= NOISE && length > 0.5 * before {
+            return Some(at);
+        }
+        // It converges, or the slopes are those of another place.
+        if !(length <= 0.5 * before) {
+            return None;
+        }
+        before = length;
+    }
+    None
 }
 
 /// The point of the curve in the plane through `predicted` that is normal to `along`, near `predicted`; `None` if Newton's method finds

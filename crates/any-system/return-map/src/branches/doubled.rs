@@ -1,22 +1,25 @@
 //! The branch of twice the period behind a doubling, and cascades of doublings.
 
 use super::branch::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint};
+use super::continued::SAME;
 use super::curve::{Curve, OnCurve, corrected};
 use super::follow::{BranchSteps, Follower, follow_branch, point_of, predicted};
-use super::orbit::{Kind, Orbit};
+use super::orbit::{Kind, Orbit, split};
 use super::start::{none_near, scales};
+use super::tests::CRITICAL;
 use crate::checks::{check_dimension, check_period};
 use crate::error::Error;
 use crate::families::MapFamily;
-use nalgebra::{DMatrix, DVector};
+use crate::multipliers::eigenvalues;
+use nalgebra::{Complex, DMatrix, DVector};
 use std::ops::ControlFlow;
 
 /// The branch of twice the period that begins at a doubling. It is followed in one direction: in the other one are the same orbits, from
 /// their other points. Its first point is the first step from the doubling.
 ///
 /// # Errors
-/// [`Error::OtherStart`] if the bifurcation is no doubling; [`Error::BadArgument`] if it is outside of the window; [`Error::NoPeriodicPoint`] if no point is found
-/// beside it.
+/// [`Error::OtherStart`] if the bifurcation is no doubling; [`Error::BadArgument`] if it is outside of the window; [`Error::OtherBranch`] if it
+/// is none of this map with this period; [`Error::NoPeriodicPoint`] if no point is found beside it.
 pub fn doubled_branch<M: MapFamily + ?Sized>(
     map: &M,
     (period, doubling): (usize, &Bifurcation),
@@ -42,13 +45,14 @@ pub fn doubled_branch<M: MapFamily + ?Sized>(
     let slopes = DMatrix::zeros(start.len() - 1, start.len());
     let errors = slopes.clone();
     let root = OnCurve { at: start, tangent, slopes, errors, error: at.error, steps: 0 };
+    let single = Orbit { map, kind: Kind::Periodic(period), scales: orbit.scales.clone() };
+    check_doubling(&single, &root.at)?;
     let mut length = steps.first;
     while length >= steps.shortest {
         let predicted = predicted(&orbit.scales, &root, length);
         let first = corrected(&orbit, &predicted, &root.tangent).ok().flatten();
         // The points of the single period solve the equations too.
         let is_double = |first: &OnCurve| {
-            let single = Orbit { map, kind: Kind::Periodic(period), scales: orbit.scales.clone() };
             let off = single.values(&first.at).ok();
             off.is_some_and(|off| off.push(0.0).component_div(&orbit.scales).norm() > length)
         };
@@ -72,17 +76,39 @@ pub fn doubled_branch<M: MapFamily + ?Sized>(
         }
         length *= 0.5;
     }
-    Err(none_near(&orbit, &root.at))
+    Err(map.stopped().unwrap_or_else(|| none_near(&orbit, &root.at)))
 }
 
-/// A cascade of doublings: the branch through a point, the branch of twice the period behind its first doubling, and so on, up to
-/// `depth` doublings. Each branch is followed up to its first doubling in one direction, and the steps get shorter as the doublings
-/// come closer.
+/// An error for a point that is none of this period, or does not double.
+fn check_doubling<M: MapFamily + ?Sized>(
+    single: &Orbit<'_, M>,
+    at: &DVector<f64>,
+) -> Result<(), Error> {
+    let off = single.values(at)?.push(0.0).component_div(&single.scales).norm();
+    let flips = |m: &Complex<f64>| (m + 1.0).norm() < CRITICAL;
+    let mut slopes = single.slopes(at)?.matrix;
+    for (mut column, scale) in slopes.column_iter_mut().zip(single.scales.iter()) {
+        column *= *scale;
+    }
+    let (point, parameter) = split(at);
+    match off <= SAME && eigenvalues(&single.derivative(&slopes)).iter().any(flips) {
+        true => Ok(()),
+        false => Err(Error::OtherBranch { point, parameter }),
+    }
+}
+
+/// A cascade of doublings: the branch through a point, the branch of twice the period behind its doubling that is nearest to the start in
+/// the parameter, and so on, up to `depth` doublings. The k-th one, counted from 0, is that of an orbit of period `period`·2ᵏ. Each doubled
+/// branch is followed up to its first doubling, and the steps get shorter as the doublings come closer.
+///
+/// `see` receives each doubling as it is found. If it breaks, the cascade ends there.
 ///
 /// ```
 /// use return_map::{BranchSteps, cascade, scalar_family};
+/// use std::ops::ControlFlow::Continue;
 /// let logistic = scalar_family(|x, r| r * x * (1.0 - x));
-/// let doublings = cascade(&logistic, 1, (&[0.6], 2.8), (2.5, 4.0), BranchSteps::default(), 4)?;
+/// let steps = BranchSteps::default();
+/// let doublings = cascade(&logistic, 1, (&[0.6], 2.8), (2.5, 4.0), steps, 4, |_| Continue(()))?;
 /// let exact = [3.0, 1.0 + 6f64.sqrt(), 3.5440903596, 3.5644072661];
 /// for (found, exact) in doublings.iter().zip(exact) {
 ///     assert!((found.at.parameter - exact).abs() < 1e-8);
@@ -99,11 +125,14 @@ pub fn cascade<M: MapFamily + ?Sized>(
     window: (f64, f64),
     steps: BranchSteps,
     depth: usize,
+    mut see: impl FnMut(&Bifurcation) -> ControlFlow<()>,
 ) -> Result<Vec<Bifurcation>, Error> {
     let mut doublings: Vec<Bifurcation> = Vec::new();
     let is_doubling = |found: &&Bifurcation| found.kind == BifurcationKind::Doubling;
     let branch = follow_branch(map, period, start, window, steps, |_| ControlFlow::Continue(()))?;
-    let mut next = branch.bifurcations.iter().find(is_doubling).cloned();
+    let off = |found: &Bifurcation| (found.at.parameter - start.1).abs();
+    let nearest = |a: &&Bifurcation, b: &&Bifurcation| off(a).total_cmp(&off(b));
+    let mut next = branch.bifurcations.iter().filter(is_doubling).min_by(nearest).cloned();
     let (mut period, mut steps) = (period, steps);
     while let Some(doubling) = next.take() {
         if doublings.len() >= depth {
@@ -111,7 +140,7 @@ pub fn cascade<M: MapFamily + ?Sized>(
         }
         let before = doublings.last().cloned();
         doublings.push(doubling.clone());
-        if doublings.len() == depth {
+        if see(&doubling).is_break() || doublings.len() == depth {
             break;
         }
         // The branch up to the next doubling is some 2.5 times smaller than the last one.

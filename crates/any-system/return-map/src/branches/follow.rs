@@ -1,13 +1,13 @@
 //! Follows a branch from a point in both directions.
 
-use super::branch::{Branch, BranchEnd, BranchPoint};
+use super::branch::{Bifurcation, Branch, BranchEnd, BranchPoint};
 use super::curve::{OnCurve, STRAIGHT, corrected, tangent};
 use super::locate::between;
 use super::orbit::{Kind, Orbit, split};
 use super::start::{check, scales, solved};
 use crate::checks::check_period;
 use crate::error::Error;
-use crate::families::MapFamily;
+use crate::families::{Clearance, MapFamily};
 use nalgebra::DVector;
 use std::ops::ControlFlow;
 
@@ -33,7 +33,7 @@ impl Default for BranchSteps {
 
 /// The curve is no further from the end of a step along the tangent than this part of the step: it turns by no more than the largest
 /// angle. Another branch beside it is.
-const ASIDE: f64 = 0.35;
+pub(super) const ASIDE: f64 = 0.35;
 
 /// After a step with at most so many Newton steps the next one is longer by this factor.
 const QUICK: usize = 4;
@@ -125,10 +125,22 @@ pub(super) struct Follower<'a, M: ?Sized, S> {
     pub(super) see: &'a mut S,
 }
 
+/// What a step leads to.
+enum Step {
+    /// The next point, with the clearances of its orbit and the bifurcations on the way; true if it is the last one, at the end of the window.
+    To { next: OnCurve, clearances: Vec<Clearance>, located: Vec<Bifurcation>, leaves: bool },
+    /// The end of the branch.
+    Ends(BranchEnd),
+    /// A shorter step is needed, with the reason.
+    TooLong(String),
+}
+
+const TOO_LONG: &str = "the tangent turns faster than the shortest step";
+
 /// One direction of a branch.
 pub(super) struct OneWay {
     pub(super) points: Vec<BranchPoint>,
-    pub(super) located: Vec<super::branch::Bifurcation>,
+    pub(super) located: Vec<Bifurcation>,
     pub(super) end: BranchEnd,
 }
 
@@ -181,66 +193,33 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
             OneWay { points: Vec::new(), located: Vec::new(), end: BranchEnd::PointLimit };
         let (mut last, mut length) = (first.clone(), self.steps.first.min(self.steps.longest));
         let mut near = self.orbit.clearances(&first);
-        let too_long = "the tangent turns faster than the shortest step";
-        let mut reason = String::from(too_long);
+        let mut reason = String::from(TOO_LONG);
         while way.points.len() < self.steps.points {
-            if length < self.steps.shortest {
-                way.end = self.lost(&last, itinerary, reason);
+            let taken = match length < self.steps.shortest {
+                true => Step::Ends(self.lost(&last, itinerary, reason.clone())),
+                false => self.taken((&last, &near), length, itinerary),
+            };
+            // What a map that has no more images seems to be is no result.
+            if self.orbit.map.stopped().is_some() {
+                way.end = BranchEnd::Stopped;
                 return way;
             }
-            let next = match self.step(&last, length) {
-                Ok(Some(next)) => next,
-                Ok(None) => {
-                    reason = String::from(too_long);
-                    length *= 0.5;
-                    continue;
-                }
-                Err(error) => {
-                    reason = error.to_string();
-                    length *= 0.5;
-                    continue;
-                }
-            };
-            let is_out = |p: f64| p < self.window.0 || p > self.window.1;
-            let (next, leaves) = match is_out(parameter_of(&next)) {
-                false => (next, false),
-                true if [self.window.0, self.window.1].contains(&parameter_of(&last)) => {
-                    way.end = BranchEnd::Window;
+            let (next, leaves) = match taken {
+                Step::Ends(end) => {
+                    way.end = end;
                     return way;
                 }
-                true => match self.at_window(&last, &next) {
-                    Some(next) => (next, true),
-                    None => {
-                        length *= 0.5;
-                        continue;
-                    }
-                },
-            };
-            match self.orbit.itinerary(&next.at) {
-                Ok(own) if own == itinerary => {}
-                Ok(other) => {
-                    let length = self.off(&last, &next.at).dot(&last.tangent);
-                    way.end = self.border(&last, itinerary, other, length);
-                    return way;
-                }
-                Err(error) => {
-                    reason = error.to_string();
+                Step::TooLong(why) => {
+                    reason = why;
                     length *= 0.5;
                     continue;
                 }
-            }
-            let next_near = self.orbit.clearances(&next);
-            if let Some(end) = self.touched((&last, &near), (&next, &next_near), itinerary) {
-                way.end = end;
-                return way;
-            }
-            let Some(located) = between(&self.orbit, (&last, &next), leaves, itinerary) else {
-                reason = String::from("another branch passes beside it");
-                length *= 0.5;
-                continue;
+                Step::To { next, clearances, located, leaves } => {
+                    near = clearances;
+                    way.located.extend(located);
+                    (next, leaves)
+                }
             };
-            near = next_near;
-            way.located.extend(located);
             let point = point_of(&self.orbit, &next, itinerary.to_vec());
             let stopped = (self.see)(&point).is_break();
             way.points.push(point);
@@ -258,6 +237,47 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
             last = next;
         }
         way
+    }
+
+    /// What a step of this length leads to.
+    fn taken(
+        &self,
+        (last, near): (&OnCurve, &[Clearance]),
+        length: f64,
+        itinerary: &[String],
+    ) -> Step {
+        let too_long = || Step::TooLong(String::from(TOO_LONG));
+        let mut next = match self.step(last, length) {
+            Ok(Some(next)) => next,
+            Ok(None) => return too_long(),
+            Err(error) => return Step::TooLong(error.to_string()),
+        };
+        let leaves = !(self.window.0..=self.window.1).contains(&parameter_of(&next));
+        if leaves {
+            if [self.window.0, self.window.1].contains(&parameter_of(last)) {
+                return Step::Ends(BranchEnd::Window);
+            }
+            match self.at_window(last, &next) {
+                Some(at_end) => next = at_end,
+                None => return too_long(),
+            }
+        }
+        match self.orbit.itinerary(&next.at) {
+            Ok(own) if own == itinerary => {}
+            Ok(other) => {
+                let length = self.off(last, &next.at).dot(&last.tangent);
+                return Step::Ends(self.border(last, itinerary, other, length));
+            }
+            Err(error) => return Step::TooLong(error.to_string()),
+        }
+        let clearances = self.orbit.clearances(&next);
+        if let Some(end) = self.touched((last, near), (&next, &clearances), itinerary) {
+            return Step::Ends(end);
+        }
+        match between(&self.orbit, (last, &next), leaves, itinerary) {
+            Some(located) => Step::To { next, clearances, located, leaves },
+            None => Step::TooLong(String::from("another branch passes beside it")),
+        }
     }
 
     /// A step along the tangent; `None` if it is too long.

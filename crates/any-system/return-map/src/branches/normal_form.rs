@@ -13,6 +13,9 @@ use nalgebra::{Complex, DMatrix, DVector};
 /// differences it has an error of 10⁻⁸.
 const SYMMETRIC: f64 = 1e-7;
 
+/// A coefficient so small, in units of the size of the point, is none: by differences it has an error of 10⁻⁸.
+const DEGENERATE: f64 = 1e-6;
+
 /// So near to 1 the third or fourth power of a multiplier is one: a strong resonance, in whose normal form more terms count. Beside it the
 /// coefficient is large as the inverse distance.
 const RESONANT: f64 = 1e-6;
@@ -111,8 +114,15 @@ fn real_form<M: MapFamily + ?Sized>(
     };
     let third =
         bent.and_then(|bent| forms.second(&q, &bent)).map(|mixed| p.dot(&(&sixth_c + mixed * 0.5)));
-    let is_symmetric = third.is_some_and(|third| second.abs() <= SYMMETRIC * third.abs().sqrt());
+    // Where both vanish, as at a fold of higher order, no coefficient tells what happens.
+    let size = forms.orbit.scales[0];
+    let is_symmetric = third.is_some_and(|third| {
+        second.abs() <= SYMMETRIC * third.abs().sqrt() && third.abs() * size * size > DEGENERATE
+    });
     let coefficient = match kind {
+        BifurcationKind::Transcritical if !is_symmetric && second.abs() * size <= DEGENERATE => {
+            None
+        }
         BifurcationKind::Fold => Some(second),
         BifurcationKind::Transcritical if !is_symmetric => Some(second),
         _ => third,

@@ -8,7 +8,7 @@ use nalgebra::{Complex, DMatrix};
 
 /// How far a critical multiplier may be from its value: a double one is known to the root of its rounding, and one of an orbit of a long
 /// period to that of many images.
-const CRITICAL: f64 = 1e-3;
+pub(super) const CRITICAL: f64 = 1e-3;
 
 /// A number that changes its sign at a bifurcation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -177,6 +177,7 @@ fn one_way<C: Condition>(
         let next = corrected(curve, &predicted, &last.tangent);
         let next = match next {
             Ok(next) => next.filter(|next| next.tangent.dot(&last.tangent) > STRAIGHT),
+            Err(Error::Stopped { .. }) => return (points, CurveEnd::Stopped),
             Err(error) => {
                 reason = error.to_string();
                 length *= 0.5;

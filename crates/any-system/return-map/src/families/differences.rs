@@ -25,21 +25,28 @@ const USEFUL: f64 = 1e-6;
 /// Derivatives that are less sure than this are refused: the map has none, or its noise hides them.
 const USELESS: f64 = 1e-3;
 
-/// Derivatives, by how much the first two change with the distance of the values, over the slope of the values, and this slope.
+/// Derivatives from values at distances up to some h, and how far they may be off.
 struct Estimated {
     jets: Vec<Jet<4>>,
+    /// By how much the first two change with the distance, over the slope of the values.
     change: f64,
-    slopes: Vec<f64>,
+    /// How far the first derivatives may be off: by that, and by the rounding of the values.
+    errors: Vec<f64>,
 }
 
 impl Estimated {
-    fn pushed(self) -> Pushed {
-        let largest = |(jet, slope): (&Jet<4>, &f64)| slope.max(jet.0[1].abs());
-        let of = |pair| (self.change + f64::EPSILON / REACH) * largest(pair);
-        let errors = self.jets.iter().zip(&self.slopes).map(of).collect();
-        Pushed { curve: self.jets, errors }
+    fn new(jets: Vec<Jet<4>>, change: f64, slopes: &[f64], h: f64) -> Estimated {
+        let of = |(jet, slope): (&Jet<4>, &f64)| {
+            let [value, first, ..] = jet.0.map(f64::abs);
+            change * slope.max(first) + ROUNDINGS * f64::EPSILON * (value / h.abs() + first)
+        };
+        let errors = jets.iter().zip(slopes).map(of).collect();
+        Estimated { jets, change, errors }
     }
 }
+
+/// So many roundings of a value are in a first derivative: those of the values of a simple map, times their weights.
+const ROUNDINGS: f64 = 4.0;
 
 /// The image of a curve to third order, by differences of images of points.
 pub(crate) fn differences(
@@ -82,7 +89,7 @@ pub(crate) fn differences(
         h *= SHORTER;
     }
     if let Some(best) = best.filter(|best| best.change < USELESS) {
-        return Ok(best.pushed());
+        return Ok(Pushed { curve: best.jets, errors: best.errors });
     }
     let point: Vec<f64> = curve.iter().map(|jet| jet.0[0]).collect();
     Err(Error::Differences { point, parameter: parameter.0[0], distance: h / SHORTER })
@@ -133,7 +140,7 @@ fn one_sided(of: &impl Fn(f64) -> Result<Image, Error>, here: &Image, h: f64) ->
     let (coarse, slopes) = seven_on_one_side(of, here, 0.5 * h)?;
     let (fine, _) = seven_on_one_side(of, here, 0.25 * h)?;
     let change = change(&coarse, &fine, &slopes, 0.5 * h);
-    Some(Estimated { jets: coarse, change, slopes })
+    Some(Estimated::new(coarse, change, &slopes, 0.5 * h))
 }
 
 /// The derivatives from seven values on one side, at multiples of h, and the slopes of the values.
@@ -184,7 +191,7 @@ fn difference(
     let off = sides.into_iter().try_fold(0.0, |off: f64, (s, found)| {
         Some(off.max(off_expected(&fine, &found?.point, &slopes, s)))
     })?;
-    Some(Estimated { jets: coarse, change: change.max(off), slopes })
+    Some(Estimated::new(coarse, change.max(off), &slopes, h))
 }
 
 /// The derivatives from the value and the pairs of values at ±4h, ±2h and ±h.

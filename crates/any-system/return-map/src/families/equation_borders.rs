@@ -5,7 +5,7 @@ use super::equation_returns::EquationReturns;
 use super::equation_ways::Way;
 use super::family::{Image, MapFamily};
 use super::formula_values::FormulaValues;
-use super::return_arcs::{LIMIT, ReturnArcs, name_of};
+use super::return_arcs::{ReturnArcs, name_of, named_border};
 use crate::error::Error;
 use equations::Jet;
 use hybrid_system::{Along, Arc, Direction, Equations, Label, Turn};
@@ -276,14 +276,8 @@ impl EquationReturns {
             side,
         };
         let piece = site(Border::Piece, own, 1.0);
-        let limit = |names: &[String]| {
-            names.iter().skip(place).find_map(|name| Some(name.strip_suffix(LIMIT)?.to_owned()))
-        };
-        match (limit(own), limit(beyond)) {
-            (Some(mode), None) | (None, Some(mode)) => {
-                return site(Border::Chattering { mode }, own, 1.0);
-            }
-            _ => {}
+        if let Some(named) = named_border(own, beyond, place) {
+            return named;
         }
         // Of an orbit of several returns, those behind this one do not matter.
         let comes_back =

@@ -199,7 +199,12 @@ impl EquationReturns {
         let at = (&state[..], still(way.begin + elapsed(arcs)));
         let image = self.image_of(at, still(parameter))?;
         let (point, certainty) = (image.iter().map(Jet::value).collect(), least_certain(arcs));
-        Ok(Image { point, itinerary: itinerary(arcs), time: elapsed(arcs), certainty })
+        Ok(Image {
+            point,
+            itinerary: itinerary(arcs, |mode| mode.to_string()),
+            time: elapsed(arcs),
+            certainty,
+        })
     }
 
     /// The image of a curve at the end of the arcs from its first point; and the error of its derivative over that of the motion. The error

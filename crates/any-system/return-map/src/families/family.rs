@@ -140,6 +140,11 @@ pub trait MapFamily: Sync {
         let _ = border;
         Err(Error::NoPassage { event: itinerary.join(", ") })
     }
+
+    /// Why there are no further images at all: [`Error::Stopped`] of a map that is [watched](super::watched) and was stopped. Default: `None`.
+    fn stopped(&self) -> Option<Error> {
+        None
+    }
 }
 
 impl<T: MapFamily + ?Sized> MapFamily for &T {
@@ -186,5 +191,8 @@ impl<T: MapFamily + ?Sized> MapFamily for &T {
         border: Option<&BorderSite>,
     ) -> Result<Box<dyn MapFamily + '_>, Error> {
         (**self).along(itinerary, border)
+    }
+    fn stopped(&self) -> Option<Error> {
+        (**self).stopped()
     }
 }

@@ -1,8 +1,20 @@
 //! A map that is applied several times.
 
-use super::family::MapFamily;
+use super::family::{Image, MapFamily};
+use crate::checks::check_dimension;
 use crate::error::Error;
 use equations::Jet;
+
+/// The image of a point, which has as many components. A map of a caller may break this promise.
+pub(crate) fn image_of<M: MapFamily + ?Sized>(
+    map: &M,
+    point: &[f64],
+    parameter: f64,
+) -> Result<Image, Error> {
+    let image = map.image(point, parameter)?;
+    check_dimension("the image of a point", map.dimension(), image.point.len())?;
+    Ok(image)
+}
 
 /// The point after some images.
 pub(crate) fn point_after<M: MapFamily + ?Sized>(
@@ -12,7 +24,7 @@ pub(crate) fn point_after<M: MapFamily + ?Sized>(
 ) -> Result<Vec<f64>, Error> {
     let mut point = start.to_vec();
     for _ in 0..images {
-        point = map.image(&point, parameter)?.point;
+        point = image_of(map, &point, parameter)?.point;
     }
     Ok(point)
 }
@@ -25,7 +37,7 @@ pub(crate) fn orbit_after<M: MapFamily + ?Sized>(
 ) -> Result<(Vec<f64>, Vec<String>), Error> {
     let (mut point, mut itinerary) = (start.to_vec(), Vec::new());
     for _ in 0..images {
-        let image = map.image(&point, parameter)?;
+        let image = image_of(map, &point, parameter)?;
         itinerary.extend(image.itinerary);
         point = image.point;
     }
@@ -40,6 +52,7 @@ pub(crate) fn curve_after<M: MapFamily + ?Sized>(
 ) -> Result<Vec<Jet<4>>, Error> {
     for _ in 0..images {
         curve = map.pushed(&curve, parameter)?.curve;
+        check_dimension("the image of a curve", map.dimension(), curve.len())?;
     }
     Ok(curve)
 }

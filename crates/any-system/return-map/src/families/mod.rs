@@ -18,6 +18,8 @@ mod formula_map;
 mod formula_values;
 mod iterated;
 mod return_arcs;
+mod system_returns;
+mod watched;
 
 pub use border::{Border, BorderSite, Clearance};
 pub use closures::{Closure, family, pieces, scalar_family};
@@ -27,4 +29,6 @@ pub use equation_returns::EquationReturns;
 pub use family::{Image, MapFamily};
 pub use formula_map::FormulaMap;
 pub(crate) use formula_map::check_without_time;
-pub(crate) use iterated::{curve_after, first_difference, orbit_after, point_after};
+pub(crate) use iterated::{curve_after, first_difference, image_of, orbit_after, point_after};
+pub use system_returns::{SmoothReturns, SystemReturns, returns, smooth_returns};
+pub use watched::{Watched, watched};

@@ -1,5 +1,6 @@
 //! Where two manifolds meet: homoclinic and heteroclinic points.
 
+use super::chords::meeting;
 use super::curve::{ManifoldCurve, distance};
 use super::manifold::UnstableManifold;
 use crate::checks::check_dimension;
@@ -27,12 +28,13 @@ const MOST_STEPS: usize = 30;
 const EXACT: f64 = 1e-11;
 
 /// The points at which two manifolds in the plane cross, between points of their curves, in the order of the first. Each is solved
-/// for on both manifolds. Two crossings between neighbouring points of a curve may be missed.
+/// for on both manifolds. Two crossings between neighbouring points of a curve may be missed. Manifolds that coincide have none: at a
+/// crossing the angle must be known, and tell where it is between the points.
 ///
-/// The saddles themselves are no crossings: they are at the ends.
+/// The saddles themselves are no crossings: they are at the ends. Neither are points that are closer to a saddle than its first point.
 ///
 /// # Errors
-/// [`hybrid_system::Error::Dimension`] for manifolds that are not in the plane.
+/// [`hybrid_system::Error::Dimension`] for manifolds that are not in the plane; [`Error::Stopped`].
 pub fn manifold_crossings<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
     (first, curve): (&UnstableManifold<'_, A>, &ManifoldCurve),
     (second, other): (&UnstableManifold<'_, B>, &ManifoldCurve),
@@ -41,35 +43,30 @@ pub fn manifold_crossings<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
         check_dimension("a saddle whose manifolds may cross", 2, saddle.point.len())?;
     }
     let mut found: Vec<ManifoldCrossing> = Vec::new();
-    let is_cut = |curve: &ManifoldCurve, k: usize| curve.cuts.iter().any(|cut| cut.after == k);
-    for k in 1..curve.points.len().saturating_sub(1) {
-        let (Some(a), Some(b)) = (plane(&curve.points[k]), plane(&curve.points[k + 1])) else {
-            return Ok(found);
+    for (k, j) in meeting(&curve.chords(), &other.chords()) {
+        let at = |curve: &ManifoldCurve, k: usize| {
+            Some([plane(curve.points.get(k)?)?, plane(curve.points.get(k + 1)?)?])
         };
-        if is_cut(curve, k) {
-            continue;
-        }
-        for j in 1..other.points.len().saturating_sub(1) {
-            let (Some(c), Some(d)) = (plane(&other.points[j]), plane(&other.points[j + 1])) else {
-                return Ok(found);
+        let (Some([a, b]), Some([c, d])) = (at(curve, k), at(other, j)) else { continue };
+        let Some((s, r)) = chords((a, b), (c, d)) else { continue };
+        let between = |numbers: &[f64], k: usize, part: f64| {
+            numbers[k] + part * (numbers[k + 1] - numbers[k])
+        };
+        let start = [between(&curve.numbers, k, s), between(&other.numbers, j, r)];
+        let widths =
+            [curve.numbers[k + 1] - curve.numbers[k], other.numbers[j + 1] - other.numbers[j]];
+        let shorter = (b - a).norm().min((d - c).norm());
+        let crossing = solved((first, second), start, widths, shorter);
+        let is_known = |new: &ManifoldCrossing| {
+            let near = |old: &ManifoldCrossing| {
+                distance(&old.point, &new.point) <= 10.0 * (old.error + new.error)
             };
-            let Some((s, r)) = chords((a, b), (c, d)).filter(|_| !is_cut(other, j)) else {
-                continue;
-            };
-            let between = |numbers: &[f64], k: usize, part: f64| {
-                numbers[k] + part * (numbers[k + 1] - numbers[k])
-            };
-            let start = [between(&curve.numbers, k, s), between(&other.numbers, j, r)];
-            let widths =
-                [curve.numbers[k + 1] - curve.numbers[k], other.numbers[j + 1] - other.numbers[j]];
-            let crossing = solved((first, second), start, widths);
-            let is_known = |new: &ManifoldCrossing| {
-                found
-                    .iter()
-                    .any(|old| distance(&old.point, &new.point) <= 10.0 * (old.error + new.error))
-            };
-            found.extend(crossing.filter(|new| !is_known(new)));
-        }
+            found.iter().any(near)
+        };
+        found.extend(crossing.filter(|new| !is_known(new)));
+    }
+    for stopped in [first.stopped(), second.stopped()].into_iter().flatten() {
+        return Err(stopped);
     }
     Ok(found)
 }
@@ -104,11 +101,12 @@ pub(super) fn sine(u: &Vector2<f64>, v: &Vector2<f64>) -> f64 {
     u.perp(v) / (u.norm() * v.norm())
 }
 
-/// The crossing near two numbers, by Newton's method.
+/// The crossing near two numbers, by Newton's method, between points of which two are as close as `shorter`.
 fn solved<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
     (first, second): (&UnstableManifold<'_, A>, &UnstableManifold<'_, B>),
     start: [f64; 2],
     widths: [f64; 2],
+    shorter: f64,
 ) -> Option<ManifoldCrossing> {
     let [mut t, mut r] = start;
     let mut best: Option<ManifoldCrossing> = None;
@@ -131,6 +129,8 @@ fn solved<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
         (t, r) = (t + step[0], r + step[1]);
     }
     best.filter(|best| {
-        best.error <= EXACT * best.point.iter().fold(1.0, |size: f64, x| size.max(x.abs()))
+        let exact = EXACT * best.point.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
+        // Both curves are known to this distance: at a smaller angle the crossing could be anywhere between the points.
+        best.error <= exact && best.angle * shorter > exact
     })
 }

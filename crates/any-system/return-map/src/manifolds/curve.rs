@@ -69,8 +69,7 @@ pub enum ManifoldEnd {
     PointLimit,
     /// It was stopped.
     Stopped,
-    /// The next point has no image, by this error, or the steps are none: lengths must be positive and finite, and a region must have a
-    /// side for each coordinate.
+    /// The next point has no image, by this error.
     NoImage(Error),
 }
 
@@ -115,11 +114,16 @@ const NEIGHBOURS: f64 = 1e-13;
 
 impl<M: MapFamily + ?Sized> UnstableManifold<'_, M> {
     /// Points along the manifold, from the saddle on. `see` receives each one; if it breaks, the curve ends there.
+    ///
+    /// # Errors
+    /// [`Error::BadArgument`] for lengths that are not positive and finite, and for a region without an inside;
+    /// [`hybrid_system::Error::Dimension`] for one that has not one side for each coordinate.
     pub fn curve(
         &self,
         steps: &ManifoldSteps,
         mut see: impl FnMut(&[f64]) -> ControlFlow<()>,
-    ) -> ManifoldCurve {
+    ) -> Result<ManifoldCurve, Error> {
+        steps.check(self.saddle().point.len())?;
         let mut curve = ManifoldCurve {
             points: vec![self.saddle().point.clone()],
             numbers: vec![f64::NEG_INFINITY],
@@ -127,10 +131,6 @@ impl<M: MapFamily + ?Sized> UnstableManifold<'_, M> {
             length: 0.0,
             end: ManifoldEnd::PointLimit,
         };
-        if let Err(error) = steps.check(self.saddle().point.len()) {
-            curve.end = ManifoldEnd::NoImage(error);
-            return curve;
-        }
         // The first chord is short, also where the cubic reaches far.
         let first = self.number(pxfm::f_log(SHARPEST * steps.longest)).min(0.0);
         let (mut t, mut step) = (f64::NEG_INFINITY, FIRST);
@@ -144,6 +144,10 @@ impl<M: MapFamily + ?Sized> UnstableManifold<'_, M> {
             let is_shortest = step <= NEIGHBOURS * next.abs().max(1.0);
             let (point, pieces) = match self.image(next, images) {
                 Ok(found) => found,
+                Err(Error::Stopped { .. }) => {
+                    curve.end = ManifoldEnd::Stopped;
+                    break;
+                }
                 Err(_) if !is_shortest && t.is_finite() => {
                     step *= 0.5;
                     continue;
@@ -183,7 +187,7 @@ impl<M: MapFamily + ?Sized> UnstableManifold<'_, M> {
             step = if is_jump { FIRST } else { (1.5 * step).min(FIRST) };
             t = next;
         }
-        curve
+        Ok(curve)
     }
 
     /// The angle by which a curve turns at its last point towards the next one.

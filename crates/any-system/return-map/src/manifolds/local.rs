@@ -35,10 +35,12 @@ impl LocalCurve {
         start: (&[f64], f64),
     ) -> Result<LocalCurve, Error> {
         let (saddle, derivative) = solve_periodic(map, period, start)?;
-        let no_saddle = || Error::NoSaddle {
-            point: saddle.point.clone(),
-            parameter: saddle.parameter,
-            unstable: saddle.multipliers.iter().filter(|m| m.norm() > 1.0).count(),
+        let no_saddle = || {
+            map.stopped().unwrap_or_else(|| Error::NoSaddle {
+                point: saddle.point.clone(),
+                parameter: saddle.parameter,
+                unstable: saddle.multipliers.iter().filter(|m| m.norm() > 1.0).count(),
+            })
         };
         let unstable: Vec<_> = saddle.multipliers.iter().filter(|m| m.norm() > 1.0).collect();
         let &[own] = &unstable[..] else { return Err(no_saddle()) };
@@ -84,11 +86,8 @@ impl LocalCurve {
                 return Ok(LocalCurve { reach, ..curve });
             }
         }
-        Err(Error::NoSaddle {
-            point: curve.saddle.point.clone(),
-            parameter: curve.saddle.parameter,
-            unstable: 1,
-        })
+        let BranchPoint { point, parameter, .. } = curve.saddle;
+        Err(map.stopped().unwrap_or(Error::NoSaddle { point, parameter, unstable: 1 }))
     }
 
     /// The point at s.

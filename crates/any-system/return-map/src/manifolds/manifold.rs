@@ -19,7 +19,7 @@ use equations::Jet;
 /// let henon = family(2, |x: &[f64], a| Ok(vec![1.0 - a * x[0] * x[0] + x[1], 0.3 * x[0]]));
 /// let manifold = UnstableManifold::new(&henon, 1, (&[0.63, 0.19], 1.4), 1.0)?;
 /// let steps = ManifoldSteps { length: 20.0, ..ManifoldSteps::default() };
-/// let curve = manifold.curve(&steps, |_| std::ops::ControlFlow::Continue(()));
+/// let curve = manifold.curve(&steps, |_| std::ops::ControlFlow::Continue(()))?;
 /// assert!(curve.points.iter().all(|point| point[0].abs() < 1.3));
 /// # Ok::<(), return_map::Error>(())
 /// ```
@@ -55,6 +55,11 @@ impl<'m, M: MapFamily + ?Sized> UnstableManifold<'m, M> {
     /// The saddle.
     pub fn saddle(&self) -> &BranchPoint {
         &self.local.saddle
+    }
+
+    /// Why the map has no further images, if it was stopped.
+    pub(super) fn stopped(&self) -> Option<Error> {
+        self.map.stopped()
     }
 
     /// The multiplier of g: of f²ⁿ, if that of fⁿ is negative.

@@ -1,8 +1,9 @@
 //! Where do the orbits go that leave a saddle, and where do they come from?
 //!
 //! `local` is the curve near the saddle, `manifold` the whole one as a function of one number, `curve` its points at even distances,
-//! `crossings` where two of them meet, `tangency` where they touch.
+//! `crossings` where two of them meet (`chords` says where to look), `tangency` where they touch.
 
+mod chords;
 mod crossings;
 mod curve;
 mod local;

@@ -47,7 +47,7 @@ const EXACT: f64 = 1e-9;
 /// let one = |p: f64| UnstableManifold::new(&curve, 1, (&[0.0, 5.0], p), -1.0);
 /// let two = |p: f64| UnstableManifold::new(&line, 1, (&[0.0, p], p), 1.0);
 /// let (bend, flat, steps) = (one(1.01)?, two(1.01)?, ManifoldSteps::default());
-/// let curves = [bend.curve(&steps, |_| Continue(())), flat.curve(&steps, |_| Continue(()))];
+/// let curves = [bend.curve(&steps, |_| Continue(()))?, flat.curve(&steps, |_| Continue(()))?];
 /// let crossings = manifold_crossings((&bend, &curves[0]), (&flat, &curves[1]))?;
 /// assert_eq!(crossings.len(), 2);
 /// let found = manifold_tangency(one, two, (&crossings[0], 1.01), (0.9, 1.1))?;
@@ -91,7 +91,10 @@ pub fn manifold_tangency<'m, A: MapFamily + ?Sized + 'm, B: MapFamily + ?Sized +
         &[x, y] if is_near && is_exact && unfolds && is_known => {
             Ok(ManifoldTangency { point: [x, y], parameter: at[2], numbers, error })
         }
-        _ => Err(Error::NoTangency { parameter: at[2], residual: off.norm() }),
+        _ => {
+            let none = Error::NoTangency { parameter: at[2], residual: off.norm() };
+            Err(one.stopped().unwrap_or(none))
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use crate::branches::{BranchPoint, size_of, solve_periodic};
 use crate::error::Error;
 use crate::families::{MapFamily, orbit_after};
 use nalgebra::{DMatrix, DVector};
+use std::ops::ControlFlow;
 
 /// An attracting periodic orbit, and a trap: an ellipsoid about its first point that fⁿ shrinks towards this point.
 ///
@@ -74,7 +75,7 @@ impl PeriodicAttractor {
             }
             found.radius *= 0.5;
         }
-        Err(error)
+        Err(map.stopped().unwrap_or(error))
     }
 
     /// True if fⁿ brings these points of the ellipsoid closer, at least by a factor.
@@ -180,12 +181,13 @@ fn tests(root: &DMatrix<f64>) -> Option<Vec<(f64, DVector<f64>)>> {
 
 /// The attracting periodic orbits, of periods up to `longest`, on which the orbits of some seeds settle after `transient` images. Each is
 /// found once, in the order of the seeds. A seed whose orbit has no image, or settles on none of them, adds none: [`orbit_fate`] says
-/// what becomes of it.
+/// what becomes of it. `progress` receives the number of finished seeds; if it breaks, no further one begins.
 ///
 /// ```
 /// use return_map::{periodic_attractors, scalar_family};
 /// let logistic = scalar_family(|x, r| r * x * (1.0 - x));
-/// let found = periodic_attractors(&logistic, 3.2, &[vec![0.3], vec![0.7]], 1000, 8);
+/// let seeds = [vec![0.3], vec![0.7]];
+/// let found = periodic_attractors(&logistic, 3.2, &seeds, (1000, 8), |_| std::ops::ControlFlow::Continue(()));
 /// assert_eq!(found.len(), 1);
 /// assert_eq!(found[0].orbit.len(), 2);
 /// ```
@@ -195,13 +197,16 @@ pub fn periodic_attractors<M: MapFamily + ?Sized>(
     map: &M,
     parameter: f64,
     seeds: &[Vec<f64>],
-    transient: usize,
-    longest: usize,
+    (transient, longest): (usize, usize),
+    mut progress: impl FnMut(usize) -> ControlFlow<()>,
 ) -> Vec<PeriodicAttractor> {
     let mut found: Vec<PeriodicAttractor> = Vec::new();
-    for seed in seeds {
+    for (finished, seed) in seeds.iter().enumerate() {
         if let Some(new) = settled(map, parameter, seed, (transient, longest), &found) {
             found.push(new);
+        }
+        if progress(finished + 1).is_break() {
+            break;
         }
     }
     found

@@ -37,7 +37,7 @@ pub struct OrbitLength {
 /// The bifurcation diagram of a map at some parameters, in their order: the orbits of some seeds after a transient.
 ///
 /// It runs on all processors with the feature `parallel`, and has the same bits on any number of them. `progress` receives the number of
-/// finished columns, or of finished seeds if they are carried. If it breaks, the columns that are not finished are left out.
+/// finished columns. If it breaks, the columns that are not finished are left out. Of carried seeds those of one column run side by side.
 ///
 /// ```
 /// use return_map::{OrbitLength, Seeds, bifurcation_diagram, scalar_family};
@@ -66,40 +66,39 @@ pub fn bifurcation_diagram<M: MapFamily + ?Sized>(
             };
             many(parameters.len(), column, progress).into_iter().flatten().collect()
         }
-        Seeds::Carried => {
-            let follow = |k: usize| carried(map, &seeds[k], parameters, length);
-            let rows = many(seeds.len(), follow, progress);
-            // Without one of the seeds no column is complete.
-            let Some(rows) = rows.into_iter().collect::<Option<Vec<_>>>() else {
-                return Vec::new();
-            };
-            let mut rows: Vec<_> = rows.into_iter().map(Vec::into_iter).collect();
-            let columns = parameters.iter().map(|&parameter| {
-                let orbits = rows.iter_mut().filter_map(Iterator::next).collect();
-                DiagramColumn { parameter, orbits }
-            });
-            columns.collect()
-        }
+        Seeds::Carried => carried(map, parameters, seeds, length, progress),
     }
 }
 
-/// The orbits of one seed, which is carried on.
+/// The columns one after the other, each from where the one before has ended.
 fn carried<M: MapFamily + ?Sized>(
     map: &M,
-    seed: &[f64],
     parameters: &[f64],
+    seeds: &[Vec<f64>],
     length: OrbitLength,
-) -> Vec<Result<Vec<Vec<f64>>, Error>> {
-    let mut start = seed.to_vec();
-    let at = |&parameter: &f64| {
-        let orbit = orbit(map, &start, parameter, length);
-        start = match &orbit {
-            Ok((_, last)) => last.clone(),
-            Err(_) => seed.to_vec(),
-        };
-        orbit.map(|(kept, _)| kept)
-    };
-    parameters.iter().map(at).collect()
+    progress: impl Fn(usize) -> ControlFlow<()>,
+) -> Vec<DiagramColumn> {
+    let mut starts = seeds.to_vec();
+    let mut columns = Vec::with_capacity(parameters.len());
+    for &parameter in parameters {
+        let one = |k: usize| orbit(map, &starts[k], parameter, length);
+        let found = many(seeds.len(), one, |_| ControlFlow::Continue(()));
+        let mut orbits = Vec::with_capacity(seeds.len());
+        for (k, found) in found.into_iter().flatten().enumerate() {
+            orbits.push(found.map(|(kept, last)| {
+                starts[k] = last;
+                kept
+            }));
+            if orbits[k].is_err() {
+                starts[k].clone_from(&seeds[k]);
+            }
+        }
+        columns.push(DiagramColumn { parameter, orbits });
+        if progress(columns.len()).is_break() {
+            break;
+        }
+    }
+    columns
 }
 
 /// The points of an orbit after a transient, and the last one.

@@ -67,6 +67,8 @@ pub fn lyapunov_exponents<M: MapFamily + ?Sized>(
     for (sums, time) in batches.iter_mut().zip(&mut times) {
         for _ in 0..per_batch {
             let Linearized { image, slopes, .. } = map.linearized(&point, parameter)?;
+            check_dimension("the image of a point", dimension, slopes.nrows())?;
+            check_dimension("the derivatives of an image", dimension + 1, slopes.ncols())?;
             if !slopes.iter().chain(&image.point).all(|x| x.is_finite()) {
                 return Err(Error::NoImage { point, parameter });
             }

@@ -33,7 +33,8 @@ pub struct RotationNumber {
 /// ```
 ///
 /// # Errors
-/// Errors of the map; [`Error::NoImage`] if a turn is not finite; [`Error::BadArgument`] without images.
+/// Errors of the map; [`Error::NoImage`] if a turn is not finite; [`Error::BadArgument`] without images, and if the sum of the turns is not
+/// finite.
 pub fn rotation_number<M: MapFamily + ?Sized>(
     map: &M,
     (start, parameter): (&[f64], f64),
@@ -64,6 +65,9 @@ pub fn rotation_number<M: MapFamily + ?Sized>(
     }
     let count = images as f64;
     let mean = sum / count;
+    if !(mean.is_finite() && weighted.is_finite()) {
+        return Err(Error::BadArgument { what: "the number of turns of an orbit", value: mean });
+    }
     Ok(RotationNumber {
         value: weighted / weights,
         lower: mean - 1.0 / count,

@@ -4,6 +4,7 @@ use crate::checks::{check_period, check_window};
 use crate::error::Error;
 use crate::families::check_without_time;
 use equations::{Enclosure, Formulas};
+use std::ops::ControlFlow;
 
 /// What a search of a window has found.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -53,6 +54,8 @@ const WIDER: f64 = 0.125;
 /// All points x of a window with fⁿ(x) = x, for the formula of a map of one variable with its parameters: each is proved to exist and to be
 /// alone in an interval, and there are no others outside of the intervals that are named as undecided.
 ///
+/// `progress` receives the part of the window that is finished, from 0 to 1, after each interval. If it breaks, the rest is undecided.
+///
 /// Interval Newton method with the chain rule: R. E. Moore, R. B. Kearfott, M. J. Cloud, *Introduction to Interval Analysis*
 /// (2009).
 ///
@@ -60,7 +63,7 @@ const WIDER: f64 = 0.125;
 /// use equations::{Formulas, Names};
 /// use return_map::all_periodic_points;
 /// let logistic = Formulas::from_text(Names::new(&["x"], &[("r", "3.9")])?, &["r*x*(1 - x)"])?;
-/// let found = all_periodic_points(&logistic, 3, (-0.5, 1.5))?;
+/// let found = all_periodic_points(&logistic, 3, (-0.5, 1.5), |_| std::ops::ControlFlow::Continue(()))?;
 /// // Two fixed points and two cycles of period three. There are no others.
 /// assert_eq!((found.points.len(), found.undecided.len()), (8, 0));
 /// assert_eq!(found.points.iter().filter(|point| point.least_period == Some(3)).count(), 6);
@@ -75,23 +78,29 @@ pub fn all_periodic_points(
     map: &Formulas,
     period: usize,
     window: (f64, f64),
+    progress: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Result<AllPeriodicPoints, Error> {
     check_period(period)?;
-    search(map, period, window)
+    search(map, period, window, progress)
 }
 
 /// All equilibria of a field of one variable in a window: as [`all_periodic_points`].
 ///
 /// # Errors
 /// As [`all_periodic_points`].
-pub fn all_equilibria(field: &Formulas, window: (f64, f64)) -> Result<AllPeriodicPoints, Error> {
-    search(field, 0, window)
+pub fn all_equilibria(
+    field: &Formulas,
+    window: (f64, f64),
+    progress: impl FnMut(f64) -> ControlFlow<()>,
+) -> Result<AllPeriodicPoints, Error> {
+    search(field, 0, window, progress)
 }
 
 fn search(
     formula: &Formulas,
     period: usize,
     (left, right): (f64, f64),
+    mut progress: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Result<AllPeriodicPoints, Error> {
     check_window((left, right))?;
     let (needed, given) = (1, formula.count().max(formula.names().states.len()));
@@ -141,6 +150,13 @@ fn search(
                     }
                 }
             }
+        }
+        let rest = todo.last().map_or(right, |next| next.low);
+        if progress((rest - left) / (right - left)).is_break() {
+            if rest < right {
+                found.undecided.push((rest, right));
+            }
+            break;
         }
     }
     found.points.sort_by(|a, b| a.at.low.total_cmp(&b.at.low));

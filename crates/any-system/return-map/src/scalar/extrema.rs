@@ -1,14 +1,14 @@
 //! Critical points of a map of one variable.
 
-use crate::families::MapFamily;
+use crate::families::{MapFamily, image_of};
 use equations::Jet;
-use interval_arithmetic::bracketed_root;
+use interval_arithmetic::{bracketed_root, golden_section_minimum};
 
 /// A critical point at which the map turns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extremum {
-    /// Where: to the rounding of the derivative over the second derivative.
+    /// Where: to the rounding of the derivative over the second derivative. At a kink that the map does not name, to the root of rounding.
     pub at: f64,
     /// The image there.
     pub value: f64,
@@ -56,10 +56,18 @@ pub(super) fn extrema<M: MapFamily + ?Sized>(
         if let Some(before) = before {
             turns(&slope, (before, here), DEEPEST, &mut |(left, right)| {
                 let value = |x: f64| slope(x).map_or(f64::NAN, |slope| slope.first);
-                let Ok(at) = bracketed_root(value, left.at, right.at) else { return };
-                let Ok(image) = map.image(&[at], parameter) else { return };
+                let is_maximum = left.first > 0.0 || right.first < 0.0;
+                let at = bracketed_root(value, left.at, right.at).unwrap_or_else(|_| {
+                    // At a kink, which the map does not name, the derivative has no zero.
+                    let side = if is_maximum { -1.0 } else { 1.0 };
+                    let value = |x: f64| {
+                        image_of(map, &[x], parameter)
+                            .map_or(f64::INFINITY, |at| side * at.point[0])
+                    };
+                    golden_section_minimum(value, left.at, right.at)
+                });
+                let Ok(image) = image_of(map, &[at], parameter) else { return };
                 if image.itinerary == itinerary {
-                    let is_maximum = left.first > 0.0 || right.first < 0.0;
                     found.push(Extremum { at, value: image.point[0], is_maximum });
                 }
             });

@@ -4,7 +4,7 @@ use super::extrema::{Extremum, extrema};
 use super::samples::samples_of;
 use crate::checks::check_dimension;
 use crate::error::Error;
-use crate::families::{Image, MapFamily};
+use crate::families::{Image, MapFamily, image_of};
 use crate::orbits::{OrbitEnd, end_of};
 
 /// A map of one variable on a window, at one value of its parameter: pieces with one itinerary each, and gaps without images.
@@ -107,7 +107,7 @@ pub(super) fn pieces_between<M: MapFamily + ?Sized>(
     samples: &[f64],
 ) -> Result<MapPieces, Error> {
     check_dimension("a map of one variable", map.dimension(), 1)?;
-    let of = |x: f64| map.image(&[x], parameter).map_err(end_of);
+    let of = |x: f64| image_of(map, &[x], parameter).map_err(end_of);
     let mut points: Vec<(f64, Found)> = Vec::with_capacity(samples.len());
     for &x in samples {
         let here = (x, of(x));
@@ -117,6 +117,9 @@ pub(super) fn pieces_between<M: MapFamily + ?Sized>(
             points.extend(between);
         }
         points.push(here);
+        if let Some(stopped) = map.stopped() {
+            return Err(stopped);
+        }
     }
     let mut found = MapPieces {
         window: (samples[0], samples[samples.len() - 1]),
@@ -158,7 +161,7 @@ pub(super) fn pieces_between<M: MapFamily + ?Sized>(
         }
         rest = behind;
     }
-    Ok(found)
+    map.stopped().map_or(Ok(found), Err)
 }
 
 /// True for two points of one piece or of one gap. Failures have numbers in them: they are one kind.

@@ -1,0 +1,34 @@
+//! What modes and surfaces are called, and how certain events are.
+
+use hybrid_system::Certainty;
+use std::fmt::{self, Debug};
+
+/// The less certain one of two.
+pub(crate) fn less_certain(a: Certainty, b: Certainty) -> Certainty {
+    let rank = |certainty: &Certainty| match certainty {
+        Certainty::Exact => 0,
+        Certainty::Certain => 1,
+        Certainty::Interpolated => 2,
+        Certainty::Sampled { .. } => 3,
+    };
+    match (a, b) {
+        (Certainty::Sampled { interval: x }, Certainty::Sampled { interval: y }) => {
+            Certainty::Sampled { interval: x.max(y) }
+        }
+        _ if rank(&b) > rank(&a) => b,
+        _ => a,
+    }
+}
+
+/// What a mode or a surface is called, without the quotation marks of a label.
+pub(crate) fn plain(thing: &impl Debug) -> String {
+    struct Written<'t, T>(&'t T);
+    impl<T: Debug> fmt::Display for Written<'_, T> {
+        fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+            Debug::fmt(self.0, to)
+        }
+    }
+    let written = Written(thing).to_string();
+    let inner = written.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
+    inner.map_or(written.clone(), str::to_owned)
+}
