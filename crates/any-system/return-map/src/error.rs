@@ -78,6 +78,17 @@ pub enum Error {
         /// Newton steps taken.
         steps: usize,
     },
+    /// The equations of a branch are singular at its start: it has no direction there.
+    #[error(
+        "no branch begins at {point:?} and the parameter {parameter}: branches cross there, or all points beside it are solutions. Begin \
+         beside it"
+    )]
+    Singular {
+        /// The point.
+        point: Vec<f64>,
+        /// The parameter.
+        parameter: f64,
+    },
     /// A periodic point has no one-dimensional unstable manifold.
     #[error(
         "no unstable manifold of one dimension at {point:?}, for the parameter {parameter}: {unstable} multipliers are outside of the \

@@ -3,9 +3,11 @@
 mod borders;
 mod branch_ends;
 mod branches;
+mod curve_ends;
 mod flows;
 mod known_answers;
 mod manifolds;
+mod manifolds_of_flows;
 mod multiplier_errors;
 mod orbits;
 mod scalar_maps;

@@ -108,52 +108,6 @@ fn edges_beside(points: &[Vec<f64>], label: impl Fn(f64, f64) -> bool) -> usize 
     edges
 }
 
-/// A ball in a double well with friction: ẍ = x − x³ − 0.2 ẋ. The stable manifold of the ridge parts the basins of both wells.
-#[test]
-fn the_boundary_of_duffing_s_basins() {
-    let rate = |x: f64, v: f64| (v, x - x * x * x - 0.2 * v);
-    // A quarter of a unit of time by Runge and Kutta's steps, forward or backward.
-    let flow = move |mut x: f64, mut v: f64, direction: f64| {
-        let h = direction * 0.25 / 25.0;
-        for _ in 0..25 {
-            let (k1, l1) = rate(x, v);
-            let (k2, l2) = rate(x + 0.5 * h * k1, v + 0.5 * h * l1);
-            let (k3, l3) = rate(x + 0.5 * h * k2, v + 0.5 * h * l2);
-            let (k4, l4) = rate(x + h * k3, v + h * l3);
-            x += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
-            v += h / 6.0 * (l1 + 2.0 * l2 + 2.0 * l3 + l4);
-        }
-        (x, v)
-    };
-    let back = family(2, move |x: &[f64], _| {
-        let (x, v) = flow(x[0], x[1], -1.0);
-        Ok(vec![x, v])
-    });
-    let steps = ManifoldSteps {
-        length: 30.0,
-        region: vec![(-1.6, 1.6); 2],
-        points: 3000,
-        ..ManifoldSteps::default()
-    };
-    let mut points = Vec::new();
-    for side in [1.0, -1.0] {
-        let manifold = UnstableManifold::new(&back, 1, (&[0.0, 0.0], 0.0), side).unwrap();
-        points.extend(manifold.curve(&steps, |_| Continue(())).unwrap().points);
-    }
-    let ends_right = |mut x: f64, mut v: f64| {
-        for _ in 0..400 {
-            (x, v) = flow(x, v, 1.0);
-            // Below the ridge a ball stays in its well.
-            if 0.5 * v * v - 0.5 * x * x + 0.25 * x * x * x * x < 0.0 {
-                break;
-            }
-        }
-        x > 0.0
-    };
-    let edges = edges_beside(&points, ends_right);
-    assert!(edges > 150, "{edges}");
-}
-
 /// Homoclinic points of Hénon's map: on both manifolds, and so are their images.
 #[test]
 fn homoclinic_points() {

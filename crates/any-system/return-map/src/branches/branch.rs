@@ -34,7 +34,9 @@ pub struct BranchPoint {
     pub is_stable: bool,
     /// The pieces of the map that the orbit meets.
     pub itinerary: Vec<String>,
-    /// How far the point is known: the last Newton step, in units of its size.
+    /// The size of the first point of its branch, or 1 if that is zero: the unit of lengths.
+    pub size: f64,
+    /// How far the point is known: the last Newton step, in this unit.
     pub error: f64,
 }
 

@@ -55,7 +55,7 @@ pub fn continue_branch<M: MapFamily + ?Sized>(
             continue;
         }
         check(map, (&last.point, last.parameter), window, steps)?;
-        let orbit = Orbit { map, kind, scales: scales(&last.point, &[window]) };
+        let orbit = Orbit { map, kind, scales: scales(last.point.len(), last.size, &[window]) };
         let before = if end == 0 { points.get(1) } else { points.iter().rev().nth(1) };
         let first = at_end(&orbit, &last, before)?;
         let mut follower = Follower { orbit, window, steps, see: &mut see };

@@ -52,7 +52,7 @@ impl OnCurve {
 pub(super) const MOST_NEWTON_STEPS: usize = 12;
 
 /// A Newton step of this length ends the corrector: some hundred roundings.
-const ROUNDING: f64 = 1e-14;
+pub(super) const ROUNDING: f64 = 1e-14;
 
 /// A Newton step that is not shorter than half of the one before is noise of the map, if it is at most this long, in units of the scales. The noise of an
 /// integrated map is of the size of its tolerance; a larger number would accept points that are none.

@@ -35,7 +35,7 @@ pub fn doubled_branch<M: MapFamily + ?Sized>(
     let at = &doubling.at;
     check_dimension("the direction of a doubling", at.point.len(), doubling.direction.len())?;
     super::start::check(map, (&at.point, at.parameter), window, steps)?;
-    let scales = scales(&at.point, &[window]);
+    let scales = scales(at.point.len(), at.size, &[window]);
     let orbit = Orbit { map, kind: Kind::Periodic(2 * period), scales };
     // The eigenvector, without a change of the parameter.
     let mut tangent = DVector::from_column_slice(&doubling.direction).push(0.0);

@@ -4,7 +4,7 @@ use super::branch::{Bifurcation, Branch, BranchEnd, BranchPoint};
 use super::curve::{OnCurve, STRAIGHT, corrected, tangent};
 use super::locate::between;
 use super::orbit::{Kind, Orbit, split};
-use super::start::{check, scales, solved};
+use super::start::{check, check_direction, scales, size_of, solved};
 use crate::checks::check_period;
 use crate::error::Error;
 use crate::families::{Clearance, MapFamily};
@@ -60,7 +60,7 @@ pub(super) const LONGER: f64 = 1.5;
 ///
 /// # Errors
 /// [`Error::BadArgument`] for a window that is empty or does not contain the parameter, and for steps that are not positive;
-/// [`Error::NoPeriodicPoint`] if there is no point near the start; errors of the map there. An error further on ends the branch, whose
+/// [`Error::NoPeriodicPoint`] if there is no point near the start, [`Error::Singular`] if branches cross at it; errors of the map there. An error further on ends the branch, whose
 /// points stay.
 pub fn follow_branch<M: MapFamily + ?Sized>(
     map: &M,
@@ -111,8 +111,9 @@ fn follow<M: MapFamily + ?Sized>(
     mut see: impl FnMut(&BranchPoint) -> ControlFlow<()>,
 ) -> Result<Branch, Error> {
     check(map, (start, parameter), window, steps)?;
-    let orbit = Orbit { map, kind, scales: scales(start, &[window]) };
+    let orbit = Orbit { map, kind, scales: scales(start.len(), size_of(start), &[window]) };
     let first = solved(&orbit, (start, parameter))?;
+    check_direction(&orbit, &first)?;
     let mut follower = Follower { orbit, window, steps, see: &mut see };
     follower.both_ways(first)
 }
@@ -332,6 +333,15 @@ pub(super) fn point_of<M: MapFamily + ?Sized>(
     let (point, parameter) = split(&found.at);
     let (multipliers, multiplier_errors) = orbit.uncertain_derivative(found).eigenvalues();
     let is_stable = orbit.kind.is_stable(&multipliers);
-    let error = found.error;
-    BranchPoint { point, parameter, multipliers, multiplier_errors, is_stable, itinerary, error }
+    let (error, size) = (found.error, orbit.scales[0]);
+    BranchPoint {
+        point,
+        parameter,
+        multipliers,
+        multiplier_errors,
+        is_stable,
+        itinerary,
+        size,
+        error,
+    }
 }

@@ -1,7 +1,7 @@
 //! Where a branch starts: the point of it near a given one, and what is refused.
 
 use super::branch::BranchPoint;
-use super::curve::{Curve, MOST_NEWTON_STEPS, OnCurve, corrected};
+use super::curve::{Curve, MOST_NEWTON_STEPS, OnCurve, ROUNDING, corrected};
 use super::follow::{BranchSteps, point_of};
 use super::orbit::{Kind, Orbit, split};
 use crate::checks::{check_dimension, check_inside, check_period, check_positive, check_window};
@@ -20,10 +20,25 @@ pub(super) fn solved<M: MapFamily + ?Sized>(
     corrected(orbit, &at, &along)?.ok_or_else(|| none_near(orbit, &at))
 }
 
-/// The error of a search by Newton's method that began at a point and a parameter.
+/// An error for a start at which the slopes of the equations have not their full rank, within what is known of them.
+pub(super) fn check_direction<M: ?Sized>(orbit: &Orbit<'_, M>, at: &OnCurve) -> Result<(), Error> {
+    let smallest = at.slopes.clone().singular_values().min();
+    // The equations are fⁿ(x) − x: each rounds as x does.
+    let known = at.errors.norm() + f64::EPSILON * orbit.scales[0];
+    if smallest > known {
+        return Ok(());
+    }
+    let (point, parameter) = split(&at.at);
+    Err(Error::Singular { point, parameter })
+}
+
+/// The error of a search by Newton's method that began at a point and a parameter. At a solution itself the equations are singular.
 pub(super) fn none_near(curve: &impl Curve, at: &DVector<f64>) -> Error {
     let (point, parameter) = split(at);
     let residual = curve.values(at).map_or(f64::NAN, |values| values.amax());
+    if residual <= ROUNDING * size_of(&point) {
+        return Error::Singular { point, parameter };
+    }
     let (parameter, steps) = (Some(parameter), MOST_NEWTON_STEPS);
     Error::NoPeriodicPoint { point, parameter, residual, steps }
 }
@@ -38,25 +53,33 @@ pub(crate) fn solve_periodic<M: MapFamily + ?Sized>(
     let width = parameter.abs().max(1.0);
     let window = (parameter - width, parameter + width);
     check(map, (start, parameter), window, BranchSteps::default())?;
-    let orbit = Orbit { map, kind: Kind::Periodic(period), scales: scales(start, &[window]) };
+    let orbit = Orbit {
+        map,
+        kind: Kind::Periodic(period),
+        scales: scales(start.len(), size_of(start), &[window]),
+    };
     let found = solved(&orbit, (start, parameter))?;
     let itinerary = orbit.itinerary(&found.at)?;
     let derivative = orbit.derivative(&found.slopes);
     Ok((point_of(&orbit, &found, itinerary), derivative))
 }
 
-/// The sizes of the unknowns: that of the first point, or 1, for each component, and the widths of the windows.
-pub(super) fn scales(point: &[f64], windows: &[(f64, f64)]) -> DVector<f64> {
-    let size = size_of(point);
+/// The sizes of the unknowns: that of the first point for each component, and the widths of the windows.
+pub(super) fn scales(dimension: usize, size: f64, windows: &[(f64, f64)]) -> DVector<f64> {
     let widths = windows.iter().map(|(left, right)| right - left);
-    let all: Vec<f64> = point.iter().map(|_| size).chain(widths).collect();
-    DVector::from(all)
+    DVector::from_iterator(
+        dimension + windows.len(),
+        std::iter::repeat_n(size, dimension).chain(widths),
+    )
 }
+
+/// A smaller point is the rounding of zero.
+const SMALLEST: f64 = 1e-14;
 
 /// The largest size of some numbers, or 1 if they are zero.
 pub(crate) fn size_of<'n>(numbers: impl IntoIterator<Item = &'n f64>) -> f64 {
     let size = numbers.into_iter().fold(0.0, |size: f64, x| size.max(x.abs()));
-    if size > 0.0 { size } else { 1.0 }
+    if size > SMALLEST { size } else { 1.0 }
 }
 
 pub(super) fn check<M: MapFamily + ?Sized>(

@@ -116,7 +116,10 @@ pub(super) fn followed<M: MapFamily>(
     check(map, (&start.point, start.parameter), windows.0, steps)?;
     check(map, (&start.point, second), windows.1, steps)?;
     let dimension = start.point.len();
-    let curve = ConditionCurve { condition, scales: scales(&start.point, &[windows.0, windows.1]) };
+    let curve = ConditionCurve {
+        condition,
+        scales: scales(dimension, start.size, &[windows.0, windows.1]),
+    };
     let at = DVector::from_column_slice(&start.point).push(start.parameter).push(second);
     // Along the second parameter, or along the first one where the curve turns.
     let mut first = None;
