@@ -3,6 +3,7 @@
 mod borders;
 mod branch_ends;
 mod branches;
+mod broken_promises;
 mod curve_ends;
 mod flows;
 mod known_answers;
@@ -15,4 +16,5 @@ mod scalar_tools;
 mod sections;
 mod starts_on_the_section;
 mod system_returns;
+mod walkers;
 mod watched;

@@ -98,6 +98,51 @@ fn the_derivative_is_infinite_at_a_grazing() {
     assert!((nearest / nearer - 10f64.sqrt()).abs() < 0.01, "{nearer} {nearest}");
 }
 
+/// On the motion with impacts the largest multiplier grows as C/v beside the grazing, with the speed v of the impact (A. B. Nordmark, 1991).
+#[test]
+fn a_multiplier_is_infinite_at_a_grazing() {
+    let strobe = strobe();
+    let steps = BranchSteps::default();
+    // The branch with impacts comes from its fold, and ends at the grazing.
+    let start = (&[0.11, 0.80][..], 0.2);
+    let window = (0.1, 0.4);
+    let branch = follow_branch(&strobe, 1, start, window, steps, |_| Continue(())).unwrap();
+    // The speed of the impact is in proportion to the distance from the grazing.
+    let products: Vec<f64> = branch
+        .points
+        .iter()
+        .filter(|point| !point.is_stable)
+        .map(|point| (grazing_forcing() - point.parameter, point.spectral_radius()))
+        .filter(|(distance, _)| *distance < 6e-4 && *distance > 0.0)
+        .map(|(distance, multiplier)| multiplier * distance)
+        .collect();
+    let (low, high) =
+        products.iter().fold((1.0f64, 0.0f64), |(low, high), x| (low.min(*x), high.max(*x)));
+    assert!(products.len() > 5 && low > 0.0 && high < 1.002 * low, "{products:?}");
+}
+
+/// The tent map p·min(x, 1 − x): the fixed point p/(1 + p) with the multiplier −p is born at p = 1 on the border, and doubles nowhere.
+#[test]
+fn the_fixed_point_of_the_tent_map() {
+    let tent = pieces(1, |x: &[f64], p| match x[0] < 0.5 {
+        true => Ok((vec![p * x[0]], "left")),
+        false => Ok((vec![p * (1.0 - x[0])], "right")),
+    });
+    let steps = BranchSteps::default();
+    let start = (&[0.6][..], 1.5);
+    let branch = follow_branch(&tent, 1, start, (0.5, 2.0), steps, |_| Continue(())).unwrap();
+    for point in &branch.points {
+        let p = point.parameter;
+        assert!((point.point[0] - p / (1.0 + p)).abs() < 1e-12, "{point:?}");
+        assert!((point.multipliers[0].re + p).abs() <= point.multiplier_errors[0], "{point:?}");
+    }
+    let BranchEnd::Border { at, .. } = &branch.ends[0] else { panic!("{:?}", branch.ends) };
+    assert!((at.parameter - 1.0).abs() < 1e-9 && (at.point[0] - 0.5).abs() < 1e-9, "{at:?}");
+    assert_eq!(branch.ends[1], BranchEnd::Window);
+    // The multiplier is −1 at the border itself, and behind it no more.
+    assert!(branch.bifurcations.is_empty(), "{:?}", branch.bifurcations);
+}
+
 /// The skew tent map a x + μ for x < 0, b x + μ for x > 0: with b < −1 the points of its cycle of two are μ (1 + a)/(1 − a b) and
 /// μ (1 + b)/(1 − a b), with the multiplier a b. It is born at the border, where both collide.
 #[test]

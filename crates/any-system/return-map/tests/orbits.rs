@@ -12,6 +12,34 @@ use return_map::{
 };
 use std::ops::ControlFlow::{Break, Continue};
 
+/// A rod falls from the upright to one side or to the other, by events that end the run, after some returns.
+#[test]
+fn two_surfaces_that_end_a_run() {
+    let rod = Equations::new(&["x", "v"], &[("p", "0")])
+        .mode_text("falls", &["v", "x + p"])
+        .rising_text("forward", "x - 1")
+        .stops()
+        .falling_text("back", "x + 1")
+        .stops()
+        .clock_text("strobe", "1", "1");
+    let map = EquationReturns::new(&rod, "p", ("falls", "strobe"), &["x", "v"]).unwrap();
+    let starts: Vec<Vec<f64>> = [0.5, 0.01, 1e-6, -1e-6, -0.01, 0.0].map(|x| vec![x, 0.0]).to_vec();
+    let fates = orbit_fates(&map, (&starts, 0.0), &[], 50, |_| Continue(()));
+    for (start, fate) in starts.iter().zip(&fates) {
+        let fate = fate.as_ref().unwrap();
+        if start[0] == 0.0 {
+            assert_eq!((&fate.end, fate.images), (&OrbitEnd::Budget, 50));
+            continue;
+        }
+        let side = if start[0] > 0.0 { "forward" } else { "back" };
+        assert_eq!(fate.end, OrbitEnd::Terminal(side.to_owned()));
+        // |x| cosh t = 1.
+        let time = (1.0 / start[0].abs()).acosh();
+        assert!((fate.time - time).abs() < 1e-9, "{fate:?}");
+        assert_eq!(fate.images, time.floor() as usize);
+    }
+}
+
 /// ln 2 of the logistic map at r = 4; of Hénon's map the sum is ln b, and the largest 0.4192.
 #[test]
 fn lyapunov_exponents_are_the_known_ones() {

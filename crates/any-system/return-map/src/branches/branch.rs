@@ -114,7 +114,7 @@ pub enum BranchEnd {
         /// What lies there.
         border: Border,
         /// The point on the border, to rounding where the map goes on smoothly beyond it; else the last one that was found on its own
-        /// pieces. Its multipliers are those on this side.
+        /// pieces. Its multipliers are those of the last point before the border: at a grazing they may be infinite.
         at: BranchPoint,
         /// The pieces behind the border, where they are known.
         beyond: Vec<String>,

@@ -35,18 +35,21 @@ struct Estimated {
 }
 
 impl Estimated {
-    fn new(jets: Vec<Jet<4>>, change: f64, slopes: &[f64], h: f64) -> Estimated {
+    /// `rounding` is that of the value at a distance h, in first derivatives.
+    fn new(jets: Vec<Jet<4>>, change: f64, slopes: &[f64], (h, rounding): (f64, f64)) -> Estimated {
         let of = |(jet, slope): (&Jet<4>, &f64)| {
             let [value, first, ..] = jet.0.map(f64::abs);
-            change * slope.max(first) + ROUNDINGS * f64::EPSILON * (value / h.abs() + first)
+            change * slope.max(first) + rounding * f64::EPSILON * (value / h.abs() + first)
         };
         let errors = jets.iter().zip(slopes).map(of).collect();
         Estimated { jets, change, errors }
     }
 }
 
-/// So many roundings of a value are in a first derivative: those of the values of a simple map, times their weights.
-const ROUNDINGS: f64 = 4.0;
+/// So many roundings of a value are in a first derivative, of values on both sides and on one side: those of a simple map, times the weights
+/// of its values.
+const BOTH_SIDES: f64 = 4.0;
+const ONE_SIDE: f64 = 16.0;
 
 /// The image of a curve to third order, by differences of images of points.
 pub(crate) fn differences(
@@ -140,7 +143,7 @@ fn one_sided(of: &impl Fn(f64) -> Result<Image, Error>, here: &Image, h: f64) ->
     let (coarse, slopes) = seven_on_one_side(of, here, 0.5 * h)?;
     let (fine, _) = seven_on_one_side(of, here, 0.25 * h)?;
     let change = change(&coarse, &fine, &slopes, 0.5 * h);
-    Some(Estimated::new(coarse, change, &slopes, 0.5 * h))
+    Some(Estimated::new(coarse, change, &slopes, (0.5 * h, ONE_SIDE)))
 }
 
 /// The derivatives from seven values on one side, at multiples of h, and the slopes of the values.
@@ -191,7 +194,7 @@ fn difference(
     let off = sides.into_iter().try_fold(0.0, |off: f64, (s, found)| {
         Some(off.max(off_expected(&fine, &found?.point, &slopes, s)))
     })?;
-    Some(Estimated::new(coarse, change.max(off), &slopes, h))
+    Some(Estimated::new(coarse, change.max(off), &slopes, (h, BOTH_SIDES)))
 }
 
 /// The derivatives from the value and the pairs of values at ±4h, ±2h and ±h.
