@@ -5,6 +5,7 @@ mod branch_ends;
 mod branches;
 mod broken_promises;
 mod curve_ends;
+mod example_picture;
 mod flows;
 mod known_answers;
 mod manifolds;

@@ -70,23 +70,141 @@ impl Frame {
         });
     }
 
-    /// A marker at a point of the data plane, with a label to its right, or to its left.
-    pub fn labelled_point(
+    /// Branches, and above them their marks: each name has its symbol, and stands beside it where it covers least of the branches. A mark at the
+    /// place of another one with the same name, as where two branches meet, is drawn once.
+    ///
+    /// ```
+    /// use journal_figures::{Frame, LabelledBranch, Svg};
+    /// let mut svg = Svg::new(300.0, 200.0);
+    /// let frame = Frame::linear(40.0, 10.0, 250.0, 150.0, (0.0, 1.0), (0.0, 1.0));
+    /// let line = vec![(0.2, 0.5, true), (0.6, 0.5, true), (0.8, 0.5, false)];
+    /// let marks = vec![(0.6, 0.5, "doubling".to_owned())];
+    /// frame.labelled_branches(&mut svg, &[LabelledBranch { line, marks }], ["#10386e", "#d03a2b"]);
+    /// ```
+    pub fn labelled_branches(
         &self,
         svg: &mut Svg,
-        point: (f64, f64),
-        (marker, color): (Marker, &'static str),
-        (side, label): (Anchor, &str),
+        branches: &[LabelledBranch],
+        [line, mark]: [&'static str; 2],
     ) {
-        let (x, y) = self.at(point);
-        svg.marker((x, y), marker, MARKER, color);
+        for branch in branches {
+            self.branch(svg, &branch.line, line);
+        }
+        let drawn: Vec<(f64, f64)> =
+            branches.iter().flat_map(|branch| self.dense(&branch.line)).collect();
+        let marks: Vec<_> = branches.iter().flat_map(|branch| &branch.marks).collect();
+        for (k, (x, y, name)) in marks.iter().enumerate() {
+            let place = self.at((*x, *y));
+            let is_here = |(u, v, other): &&(f64, f64, String)| {
+                let (left, top) = self.at((*u, *v));
+                other == name && (left - place.0).hypot(top - place.1) < 0.5 * MARKER
+            };
+            if !place.0.is_finite() || !place.1.is_finite() || marks[..k].iter().any(is_here) {
+                continue;
+            }
+            svg.marker(place, symbol(name), MARKER, mark);
+            let covers = |label: &Label| (label.covered(self, &drawn), label.order);
+            let best = Label::around(place, name).into_iter().min_by_key(covers);
+            if let Some(label) = best {
+                svg.text(label.at.0, label.at.1, label.anchor, TICK_SIZE, name);
+            }
+        }
+    }
+
+    /// Points of the drawing along a line, at most a point apart.
+    fn dense(&self, line: &[(f64, f64, bool)]) -> Vec<(f64, f64)> {
+        let corners: Vec<(f64, f64)> = line.iter().map(|&(x, y, _)| self.at((x, y))).collect();
+        let mut found = Vec::new();
+        for pair in corners.windows(2) {
+            let [(x, y), (u, v)] = [pair[0], pair[1]];
+            let length = (u - x).hypot(v - y);
+            if !length.is_finite() || length > self.width + self.height {
+                continue;
+            }
+            let count = length.ceil().max(1.0);
+            let part = |k: f64| (x + (u - x) * k / count, y + (v - y) * k / count);
+            found.extend((0..count as usize).map(|k| part(k as f64)));
+        }
+        found.extend(corners.last());
+        found
+    }
+}
+
+/// A branch of solutions, with what has a name on it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LabelledBranch {
+    /// The points (x, y), and whether they attract.
+    pub line: Vec<(f64, f64, bool)>,
+    /// Points with their names: bifurcations, ends.
+    pub marks: Vec<(f64, f64, String)>,
+}
+
+/// A place for the name of a mark.
+struct Label {
+    /// The preferred place comes first.
+    order: usize,
+    at: (f64, f64),
+    anchor: Anchor,
+    /// Its left and right end, and its top and bottom.
+    sides: [(f64, f64); 2],
+}
+
+/// The width of a letter, as a part of the size of the font: the mean one.
+const LETTER: f64 = 0.5;
+
+impl Label {
+    /// To the right, to the left, above, below, and in the four corners between.
+    fn around((x, y): (f64, f64), name: &str) -> Vec<Label> {
         let gap = 0.5 * MARKER + GAP;
-        let (dx, dy) = match side {
-            Anchor::Start => (gap, 3.5),
-            Anchor::Middle => (0.0, -gap),
-            Anchor::End => (-gap, 3.5),
-        };
-        svg.text(x + dx, y + dy, side, TICK_SIZE, label);
+        let width = LETTER * TICK_SIZE * name.chars().count() as f64;
+        let half = 0.35 * TICK_SIZE;
+        let near = 0.7 * gap;
+        [
+            (gap, 0.0, Anchor::Start),
+            (-gap, 0.0, Anchor::End),
+            (0.0, -gap - half, Anchor::Middle),
+            (0.0, gap + half, Anchor::Middle),
+            (near, -near - half, Anchor::Start),
+            (near, near + half, Anchor::Start),
+            (-near, -near - half, Anchor::End),
+            (-near, near + half, Anchor::End),
+        ]
+        .into_iter()
+        .enumerate()
+        .map(|(order, (dx, dy, anchor))| {
+            let (left, middle) = (x + dx, y + dy);
+            let left = match anchor {
+                Anchor::Start => left,
+                Anchor::Middle => left - 0.5 * width,
+                Anchor::End => left - width,
+            };
+            let sides = [(left - 1.0, left + width + 1.0), (middle - half, middle + half)];
+            Label { order, at: (x + dx, middle + half), anchor, sides }
+        })
+        .collect()
+    }
+
+    /// How many of these points it covers; more than all of them if it is not inside the frame.
+    fn covered(&self, frame: &Frame, points: &[(f64, f64)]) -> usize {
+        let [(left, right), (top, bottom)] = self.sides;
+        let is_inside = frame.left < left
+            && right < frame.left + frame.width
+            && frame.top < top
+            && bottom < frame.top + frame.height;
+        let is_covered = |&&(x, y): &&(f64, f64)| left < x && x < right && top < y && y < bottom;
+        points.iter().filter(is_covered).count() + if is_inside { 0 } else { points.len() + 1 }
+    }
+}
+
+/// The symbol of a bifurcation; a square for other names.
+fn symbol(name: &str) -> Marker {
+    match name {
+        "fold" => Marker::Disc,
+        "doubling" => Marker::Diamond,
+        "circle" | "Hopf" => Marker::Ring,
+        "crossing" => Marker::Cross,
+        "pitchfork" => Marker::Triangle,
+        _ => Marker::Square,
     }
 }
 
@@ -114,6 +232,35 @@ mod tests {
         let outside = [(1.5, 0.5), (0.5, -0.1), (f64::NAN, 0.5), (1.0, 1.0)];
         assert_eq!(drawn(&outside), expected(&[0, 0, 0, 0]));
         assert_eq!(drawn(&vec![(0.6, 0.6); 1000]), expected(&[0, 6, 0, 0]));
+    }
+
+    #[test]
+    fn names_stand_beside_branches_and_once() {
+        let frame = Frame::linear(0.0, 0.0, 200.0, 200.0, (0.0, 1.0), (0.0, 1.0));
+        let fold = |x: f64| (x, 0.5, String::from("fold"));
+        let drawn = |line: &[(f64, f64, bool)], marks: &[(f64, f64, String)]| {
+            let mut svg = Svg::new(200.0, 200.0);
+            let branch = LabelledBranch { line: line.to_vec(), marks: marks.to_vec() };
+            frame.labelled_branches(&mut svg, &[branch], ["#000", "#f00"]);
+            svg
+        };
+        // Two at one place are one, and what is nowhere is not drawn.
+        let single = drawn(&[], &[fold(0.5)]);
+        assert_eq!(drawn(&[], &[fold(0.5), fold(0.501), fold(f64::NAN)]), single);
+        assert_ne!(drawn(&[], &[fold(0.5), (0.5, 0.5, String::from("grazing"))]), single);
+        // To the right, unless the branch or the frame is there.
+        let side = |line: &[(f64, f64, bool)], x: f64| {
+            let points = frame.dense(line);
+            let covers = |label: &Label| (label.covered(&frame, &points), label.order);
+            let all = Label::around(frame.at((x, 0.5)), "fold");
+            all.into_iter().min_by_key(covers).unwrap().order
+        };
+        let right = [(0.5, 0.5, true), (1.0, 0.5, true)];
+        let both = [(0.0, 0.5, true), (1.0, 0.5, true)];
+        assert_eq!(
+            [side(&[], 0.5), side(&[], 0.99), side(&right, 0.5), side(&both, 0.5)],
+            [0, 1, 1, 2]
+        );
     }
 
     #[test]

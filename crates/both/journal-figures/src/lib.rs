@@ -10,7 +10,7 @@
 //! | [`Marker`] | symbols that differ by shape as well as by colour |
 //! | [`Svg::line_key`], [`Svg::marker_key`] | a sample of a line or a symbol, with its name |
 //! | [`smooth`], [`graph_pieces`] | curves and graphs of functions that do not exist everywhere |
-//! | [`Frame::point_cloud`], [`Frame::branch`], [`Frame::labelled_point`] | bifurcation diagrams: orbits in greys, branches that attract or not, bifurcations |
+//! | [`Frame::point_cloud`], [`Frame::branch`], [`Frame::labelled_branches`] | bifurcation diagrams: orbits in greys, branches that attract or not, bifurcations |
 //! | [`cobweb`] | the corners of the cobweb of an orbit |
 //! | [`palette`] | colours for categories |
 //! | [`html`] | the markup of labels as HTML |
@@ -66,6 +66,7 @@ pub use axes::{Frame, Scale, decades, ticks};
 pub use cobweb::cobweb;
 pub use curve::{graph_pieces, graph_pieces_to, smooth};
 pub use data::{DataFile, csv_file, csv_text};
+pub use diagram::LabelledBranch;
 pub use error::Error;
 pub use label::html;
 pub use marker::Marker;

@@ -3,7 +3,7 @@
 //! A [`Branch`] is followed by pseudo-arclength (`curve`, `follow`, from `start`): H. B. Keller, *Numerical solution of bifurcation and nonlinear
 //! eigenvalue problems* (1977). `orbit` has the equations of a periodic
 //! point, `tests` the numbers that change their signs at bifurcations, `locate` finds these, `normal_form` has their coefficients,
-//! `doubled` the branch behind a doubling and cascades of them, `continued` goes on with a branch that was stopped, `border` is where a branch meets another piece of the map. `two_parameters` follows
+//! `doubled` the branch behind a doubling and cascades of them, `continued` goes on with a branch that was stopped, `drawn` says what a drawing shows, `border` is where a branch meets another piece of the map. `two_parameters` follows
 //! curves in two parameters, of smooth bifurcations (`bifurcation_curve`), and of grazings and corners (`border_curve`). Y. A. Kuznetsov, *Elements of Applied Bifurcation Theory*, Springer
 //! (2004).
 
@@ -14,6 +14,7 @@ mod branch;
 mod continued;
 mod curve;
 mod doubled;
+mod drawn;
 mod follow;
 mod locate;
 mod normal_form;

@@ -1,10 +1,8 @@
 //! Figures of the generic crates: how guards are met, what happens at surfaces, and example models.
 
-mod bifurcations;
 mod eccentric_cylinder;
 mod forced_oscillator;
 mod guards;
-mod oscillator;
 mod published;
 mod scene_panel;
 mod semantics;
@@ -26,7 +24,6 @@ pub(crate) const ALL: &[(&str, Draw)] = &[
     ("semantics_motion", semantics_motion::figure),
     ("eccentric_cylinder", eccentric_cylinder::figure),
     ("forced_oscillator", forced_oscillator::figure),
-    ("oscillator", oscillator::figure),
     ("published", published::figure),
     ("valve", valve::figure),
 ];

@@ -1,15 +1,14 @@
 //! The bifurcation diagram of the pressure relief valve.
 
-use super::bifurcations::{draw_branch, draw_end, draw_points};
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
 use example_systems::valve::{LARGEST_FLOW, SMALLEST_FLOW, valve_equations};
 use hybrid_system::{Label, Tolerances};
-use journal_figures::{Anchor, Frame, Svg, csv_file, ticks};
+use journal_figures::{Frame, LabelledBranch, Svg, csv_file, ticks};
 use return_map::{
-    BranchEnd, BranchSteps, EquationReturns, FormulaMap, OrbitLength, Seeds, bifurcation_diagram,
-    doubled_branch, follow_branch, follow_equilibria,
+    Branch, BranchEnd, BranchSteps, EquationReturns, FormulaMap, OrbitLength, Seeds,
+    bifurcation_diagram, doubled_branch, follow_branch, follow_equilibria,
 };
 use std::ops::ControlFlow::Continue;
 
@@ -72,23 +71,22 @@ pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
     let see = |_: &_| Continue(());
     let calm = orbits(&[CALM], OrbitLength { transient: TRANSIENT, keep: 1 })?.concat();
     let once = follow_branch(&returns, 1, (&calm, CALM), RATES, steps, see)?;
+    let mut branches = vec![drawn(&once)];
     for doubling in &once.bifurcations {
-        let twice = doubled_branch(&returns, (1, doubling), RATES, steps, see)?;
-        draw_branch(&mut svg, frame, &twice);
+        branches.push(drawn(&doubled_branch(&returns, (1, doubling), RATES, steps, see)?));
     }
-    draw_branch(&mut svg, frame, &once);
     // Behind the grazing the disc does not hit its seat.
     if let BranchEnd::Border { at, .. } = &once.ends[1] {
         let start = (&at.point[..], at.parameter + BESIDE);
         let free = follow_branch(&returns, 1, start, (at.parameter, RATES.1), steps, see)?;
-        // It ends where the orbit shrinks to the equilibrium.
-        draw_points(&mut svg, frame, &free);
-        draw_end(&mut svg, frame, &once.ends[1], Anchor::Start);
+        // It ends where the orbit shrinks to the equilibrium, whose name is there.
+        branches.push(LabelledBranch { marks: Vec::new(), ..drawn(&free) });
     }
     let field = valve.field(Label::new("open")?)?;
     let field = FormulaMap::new(field, "flow")?;
     let rest = (&REST[..], REST[0] * REST[2].sqrt());
-    draw_branch(&mut svg, frame, &follow_equilibria(&field, rest, RATES, steps, see)?);
+    branches.push(drawn(&follow_equilibria(&field, rest, RATES, steps, see)?));
+    frame.labelled_branches(&mut svg, &branches, [BRANCH, MARKED]);
     frame.axes(
         &mut svg,
         &ticks(RATES, 10),
@@ -111,6 +109,14 @@ pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
         ],
     )
 }
+
+/// The displacements on a branch, with its bifurcations and ends.
+fn drawn(branch: &Branch) -> LabelledBranch {
+    LabelledBranch { line: branch.line(0), marks: branch.marks(0) }
+}
+
+const BRANCH: &str = "#1f4e96";
+const MARKED: &str = "#d03a2b";
 
 /// How far behind the grazing the branch of free orbits begins.
 const BESIDE: f64 = 0.02;
