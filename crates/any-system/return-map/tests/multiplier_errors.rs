@@ -1,4 +1,4 @@
-//! Multipliers are as near to the exact ones as they say.
+//! Multipliers and bifurcations are as near to the exact ones as they say.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, Vector2};
 use proptest::prelude::*;
 use return_map::{
     BranchPoint, BranchSteps, EquationReturns, FormulaMap, MapFamily, family, follow_branch,
-    periodic_attractors, periodic_point,
+    periodic_attractors, periodic_point, scalar_family,
 };
 use std::ops::ControlFlow::{Break, Continue};
 
@@ -113,6 +113,41 @@ fn beside_a_saddle() {
         let stated = found.errors[(0, 0)];
         println!("{above:e}: {off:e} {stated:e}");
         assert!(off <= stated, "{above:e}: {off:e} {stated:e}");
+    }
+}
+
+/// Closed forms: of closures, whose derivatives are differences.
+#[test]
+fn bifurcations_are_where_they_say() {
+    let logistic = scalar_family(|x, r| r * x * (1.0 - x));
+    let henon = family(2, |x: &[f64], a| Ok(vec![1.0 - a * x[0] * x[0] + x[1], 0.3 * x[0]]));
+    let delayed = family(2, |x: &[f64], r| Ok(vec![r * x[0] * (1.0 - x[1]), x[0]]));
+    let pitchfork = scalar_family(|x, p| x + p * x - x * x * x);
+    type Case<'m> = (&'m dyn MapFamily, usize, &'m [f64], f64, (f64, f64), &'m [f64]);
+    let six = 1.0 + 6f64.sqrt();
+    let cases: [Case<'_>; 6] = [
+        (&logistic, 1, &[0.6], 2.5, (0.5, 3.5), &[1.0, 3.0]),
+        (&logistic, 2, &[0.513], 3.2, (3.1, 3.5), &[six]),
+        (&henon, 1, &[0.9, 0.27], 0.2, (-0.5, 1.0), &[-0.1225, 0.3675]),
+        (&henon, 2, &[1.1, -0.05], 0.6, (0.4, 1.0), &[0.9125]),
+        (&delayed, 1, &[0.4, 0.4], 1.7, (1.5, 2.2), &[2.0]),
+        (&pitchfork, 1, &[0.0], -0.5, (-1.0, 1.0), &[0.0]),
+    ];
+    for (map, period, start, at, window, exact) in cases {
+        let start = (start, at);
+        let steps = BranchSteps::default();
+        let branch = follow_branch(&map, period, start, window, steps, |_| Continue(())).unwrap();
+        let mut found = exact.iter().map(|exact| {
+            let off = |found: &return_map::Bifurcation| (found.at.parameter - exact).abs();
+            let all = branch.bifurcations.iter();
+            all.min_by(|a, b| off(a).total_cmp(&off(b)))
+                .map(|found| (off(found), found.error, found.kind))
+        });
+        assert!(
+            found.all(|found| found.is_some_and(|(off, error, _)| off <= error && error < 1e-8)),
+            "{exact:?}: {:?}",
+            branch.bifurcations
+        );
     }
 }
 

@@ -142,11 +142,11 @@ fn the_onset_of_sliding_of_a_filippov_system() {
         let model = Model::integrated(move |faster: bool, x: &State<2>| {
             [x[1], -x[0] + if faster { -1.0 } else { 1.0 }]
         })
-        .tolerance(1e-10)
+        .tolerance(1e-8)
         .rising(false, |x| x[1] - 1.0, |x| (true, *x))
         .falling(true, |x| x[1] - 1.0, |x| (false, *x))
         .falling(false, |x| x[1], |x| (false, *x));
-        Filippov::new(model, Tolerances::both(1e-10))
+        Filippov::new(model, Tolerances::both(1e-8))
     };
     let map = returns(
         1,
@@ -160,13 +160,13 @@ fn the_onset_of_sliding_of_a_filippov_system() {
         },
         Limits::new(100.0, 10),
     );
-    let steps = BranchSteps { first: 0.1, longest: 0.2, shortest: 1e-3, ..BranchSteps::default() };
+    let steps = BranchSteps { first: 0.1, longest: 0.2, shortest: 2e-2, ..BranchSteps::default() };
     let branch =
-        follow_branch(&map, 1, (&[0.9], 0.45), (0.44, 0.6), steps, |_| Continue(())).unwrap();
+        follow_branch(&map, 1, (&[0.98], 0.49), (0.48, 0.6), steps, |_| Continue(())).unwrap();
     for found in &branch.points {
-        assert!((found.point[0] - 2.0 * found.parameter).abs() < 1e-9, "{found:?}");
+        assert!((found.point[0] - 2.0 * found.parameter).abs() < 1e-7, "{found:?}");
     }
     let BranchEnd::Border { border, at, .. } = &branch.ends[1] else { panic!("{:?}", branch.ends) };
     assert_eq!(*border, Border::Sliding { surface: String::from("Model(0)") });
-    assert!((at.parameter - 0.5).abs() < 1e-8, "{at:?}");
+    assert!((at.parameter - 0.5).abs() < 1e-6, "{at:?}");
 }

@@ -60,6 +60,9 @@ pub struct Bifurcation {
     pub kind: BifurcationKind,
     /// Where.
     pub at: BranchPoint,
+    /// How far the parameter may be from the exact one: an estimate, from the error of the critical multiplier and from how fast it changes
+    /// along the branch; at a crossing of branches from how far points on one side tell another place.
+    pub error: f64,
     /// The eigenvector of the critical multiplier, of length 1; for a Neimark–Sacker or Hopf bifurcation its real part, at any phase.
     pub direction: Vec<f64>,
     /// The coefficient of the normal form, with the eigenvector of length 1; `None` if it is not known, and at the strong resonances μ³ = 1

@@ -8,6 +8,16 @@ use super::orbit::Orbit;
 use super::tests::{TESTS, Test};
 use crate::families::MapFamily;
 use interval_arithmetic::bracketed_root;
+use nalgebra::Complex;
+
+/// Where a test is zero.
+struct Located {
+    /// The length along the tangent from the first point.
+    place: f64,
+    /// How far this may be off, at a crossing of branches.
+    apart: f64,
+    at: OnCurve,
+}
 
 /// The bifurcations between two neighbouring points of a branch, in order; `None` if the step passes to another branch.
 /// `is_last` is true for a step to the end of the window: a bifurcation there belongs to it.
@@ -28,17 +38,18 @@ pub(super) fn between<M: MapFamily + ?Sized>(
             continue;
         }
         let located = match ends_there {
-            true => Some((length, to.clone())),
+            true => Some(Located { place: length, apart: 0.0, at: to.clone() }),
             false => zero(orbit, ((from, before), (to, behind)), length, test),
         };
         let is_crossing = test == Test::Cross && !ends_there;
-        if is_crossing && !located.as_ref().is_some_and(|(_, at)| is_solution(orbit, at)) {
+        if is_crossing && !located.as_ref().is_some_and(|found| is_solution(orbit, &found.at)) {
             return None;
         }
-        let Some((place, at)) = located else { continue };
+        let Some(Located { place, apart, at }) = located else { continue };
         let small = ZERO * before.abs().max(behind.abs());
         let jumps = test == Test::Turn && !(test.value(&at, orbit).abs() <= small);
-        if let Some(bifurcation) = bifurcation(orbit, test, &at, itinerary) {
+        if let Some(mut bifurcation) = bifurcation(orbit, test, &at, itinerary) {
+            bifurcation.error = parameter_error(orbit, test, (from, to), (&at, apart));
             found.push((place, jumps, bifurcation));
         }
     }
@@ -87,7 +98,7 @@ fn zero<M: MapFamily + ?Sized>(
     ((from, before), (to, behind)): ((&OnCurve, f64), (&OnCurve, f64)),
     length: f64,
     test: Test,
-) -> Option<(f64, OnCurve)> {
+) -> Option<Located> {
     let at = |along: f64| {
         corrected(orbit, &predicted(&orbit.scales, from, along), &from.tangent).ok().flatten()
     };
@@ -104,15 +115,16 @@ fn zero<M: MapFamily + ?Sized>(
     };
     let Ok(place) = bracketed_root(value, 0.0, length) else {
         // The nearer end, which is known.
-        return Some(match before.abs() < behind.abs() {
+        let (place, at) = match before.abs() < behind.abs() {
             true => (0.0, from.clone()),
             false => (length, to.clone()),
-        });
+        };
+        return Some(Located { place, apart: 0.0, at });
     };
     if test == Test::Cross {
         return crossing(orbit, test, &at, (place, length));
     }
-    Some((place, at(place).unwrap_or_else(|| to.clone())))
+    Some(Located { place, apart: 0.0, at: at(place).unwrap_or_else(|| to.clone()) })
 }
 
 /// How far beside a crossing of branches points are found, as a part of the step.
@@ -127,7 +139,7 @@ fn crossing<M: MapFamily + ?Sized>(
     test: Test,
     at: &impl Fn(f64) -> Option<OnCurve>,
     (place, length): (f64, f64),
-) -> Option<(f64, OnCurve)> {
+) -> Option<Located> {
     const OFFSETS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
     let unit = BESIDE * length;
     let points = OFFSETS.map(|offset| at(place + offset * unit));
@@ -152,9 +164,56 @@ fn crossing<M: MapFamily + ?Sized>(
         found.at += &point.at * *weight;
         found.slopes += &point.slopes * *weight;
     }
+    // The parabola through three of them has its zero elsewhere. That of the cubic is nearer to the crossing by as much as the points are
+    // near to each other.
+    let three = |x: f64| {
+        let [a, b, c, _] = OFFSETS;
+        let [p, q, r, _] = values;
+        p * (x - b) * (x - c) / ((a - b) * (a - c))
+            + q * (x - a) * (x - c) / ((b - a) * (b - c))
+            + r * (x - a) * (x - b) / ((c - a) * (c - b))
+    };
+    let apart = bracketed_root(three, -2.0, 2.0).map_or(1.0, |other| (other - zero).abs());
     found.error = points.iter().fold(0.0, |error: f64, point| error.max(point.error));
-    Some((place + zero * unit, found))
+    Some(Located { place: place + zero * unit, apart: apart * BESIDE * unit, at: found })
 }
+
+/// How far the parameter of a bifurcation between two points may be off.
+fn parameter_error<M: MapFamily + ?Sized>(
+    orbit: &Orbit<'_, M>,
+    test: Test,
+    (from, to): (&OnCurve, &OnCurve),
+    (at, apart): (&OnCurve, f64),
+) -> f64 {
+    let last = at.at.len() - 1;
+    let width = orbit.scales[last];
+    let rounding = f64::EPSILON * (at.at[last].abs() + SOLVED * width);
+    if test == Test::Cross {
+        return (apart + at.error) * width + rounding;
+    }
+    let length = (&to.at - &from.at).component_div(&orbit.scales).norm();
+    let (values, errors) = orbit.uncertain_derivative(at).eigenvalues();
+    let critical = test.nearest(orbit.kind, &values);
+    let Some((value, error)) = critical.map(|k| (values[k], errors[k])) else {
+        return f64::INFINITY;
+    };
+    // The same multiplier at both ends.
+    let near = |point: &OnCurve| {
+        let (values, _) = orbit.uncertain_derivative(point).eigenvalues();
+        let off = |other: &Complex<f64>| (other - value).norm();
+        values.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)))
+    };
+    let change = near(from).zip(near(to)).map_or(0.0, |(a, b)| (a - b).norm());
+    // How far along the branch, in parts of the step; and how the parameter moves there. At a fold it turns.
+    let part = (error / change).min(1.0);
+    let slopes = [from, to].map(|point| point.tangent[last]);
+    let turns = 0.5 * (slopes[1] - slopes[0]).abs() * part;
+    let moved = (at.tangent[last].abs().min(slopes[0].abs().max(slopes[1].abs())) + turns) * part;
+    (moved * length + at.error) * width + rounding
+}
+
+/// So many roundings are in a point that Newton's method has found.
+const SOLVED: f64 = 4.0;
 
 fn bifurcation<M: MapFamily + ?Sized>(
     orbit: &Orbit<'_, M>,
@@ -173,5 +232,5 @@ fn bifurcation<M: MapFamily + ?Sized>(
         BifurcationKind::Transcritical if is_symmetric => BifurcationKind::Pitchfork,
         kind => kind,
     };
-    Some(Bifurcation { kind, at: point, direction, coefficient })
+    Some(Bifurcation { kind, at: point, error: 0.0, direction, coefficient })
 }

@@ -57,6 +57,17 @@ impl Test {
         }
     }
 
+    /// The number of the multiplier that is critical at the zero.
+    pub(super) fn nearest(self, of: Kind, values: &[Complex<f64>]) -> Option<usize> {
+        let off = |value: &Complex<f64>| match (self, of) {
+            (Test::Flip, _) => (value + 1.0).norm(),
+            (Test::Circle, Kind::Periodic(_)) => (value.norm() - 1.0).abs(),
+            (Test::Circle, Kind::Equilibrium) => value.re.abs(),
+            _ => (value - of.at_fold()).norm(),
+        };
+        (0..values.len()).min_by(|a, b| off(&values[*a]).total_cmp(&off(&values[*b])))
+    }
+
     /// The bifurcation at which the number is zero; `None` if it is zero without one.
     pub(super) fn kind(self, of: Kind, values: &[Complex<f64>]) -> Option<BifurcationKind> {
         // A number that jumps, as where two pieces of a curve are taken for one, is zero at no bifurcation.
