@@ -1,4 +1,4 @@
-//! Return maps of hybrid systems, their fixed and periodic points, and the stability of these points from either side.
+//! Return maps of hybrid systems: their periodic points, how these are born, change and end with a parameter, and what orbits do.
 //!
 //! ```text
 //!     section ──start──► arc ─event─► arc ─event─► … ─event on the section──► image
@@ -13,7 +13,9 @@
 //! | [`fixed_points`], [`FixedPoint`] | transverse and tangent fixed points of a scalar map |
 //! | [`periodic_point`], [`periodic_point_with_derivative`], [`PeriodicPoint`] | fixed and periodic points in any dimension, with their multipliers |
 //! | [`one_sided_stability`] | attracting or repelling from the left or right, with its power law |
-//! | [`MapFamily`], [`FormulaMap`], [`EquationReturns`], [`family`](fn@family), [`scalar_family`], [`pieces`] | maps that depend on a parameter: by formulas, as returns of `hybrid_system::Equations`, by closures |
+//! | [`MapFamily`], [`FormulaMap`], [`EquationReturns`] | maps that depend on a parameter: by formulas, as returns of `hybrid_system::Equations` |
+//! | [`returns`], [`smooth_returns`], [`family`](fn@family), [`scalar_family`], [`pieces`] | the same as returns of any hybrid system, and by closures of numbers |
+//! | [`watched`] | a map that counts its images and can be stopped: progress and interruption of everything below |
 //! | [`follow_branch`], [`follow_equilibria`], [`Branch`] | how fixed points, periodic points and equilibria change with the parameter |
 //! | [`Bifurcation`], [`BifurcationKind`] | where they are born, change and end, located on the branch, with normal forms |
 //! | [`doubled_branch`], [`cascade`], [`bifurcation_curve`] | the branch behind a doubling, cascades, curves in two parameters |
@@ -67,8 +69,14 @@
 //! ```
 //!
 //! # Accuracy
-//! A return is as accurate as the crossings that the system computes. Its derivative is as accurate as the
-//! derivatives of the system. [`fixed_points`] finds only fixed points that its samples reveal.
+//! A return is as accurate as the crossings that the system computes, and says how certain it is that none was missed. Derivatives of
+//! [`FormulaMap`] and [`EquationReturns`] are exact to the tolerance of the motion. Those of closures are differences of order six, which have
+//! some twelve digits of the first derivative of a smooth map with values to rounding, and are refused below three.
+//!
+//! Each multiplier has an estimate of its error ([`BranchPoint::multiplier_errors`]), and each bifurcation one of its parameter
+//! ([`Bifurcation::error`]). Near a double multiplier, and for orbits that stay long beside an unstable equilibrium, they are large.
+//!
+//! [`fixed_points`] and [`map_pieces`] find only what their samples reveal; [`all_periodic_points`] proves that there are no others.
 //!
 //! # Poincaré sections of plain flows
 //! A plain flow is a hybrid system with one mode, and a guard whose reset keeps the state. The example `lorenz`
@@ -96,12 +104,8 @@
 //!
 //! A step never passes to other pieces of the map. At a grazing, or where two events come at one instant, the branch ends in
 //! [`BranchEnd::Border`] with the surface, and [`border_curve`] follows this end in a second parameter. For [`EquationReturns`] surfaces
-//! that are touched and left again within one step are found, too. The example `bifurcation_diagram` goes from equations to a picture.
-//!
-//! Derivatives of `FormulaMap` and `EquationReturns` are exact to the tolerance of the motion. Those of closures are differences of order six, which have some twelve
-//! digits of the first derivative of a smooth map with values to rounding, and are refused below three. Each multiplier has an estimate of
-//! its error ([`BranchPoint::multiplier_errors`]): near a fold of multipliers, and for orbits that stay long beside an unstable equilibrium, it is
-//! large.
+//! that are touched and left again within one step are found, too: those of smooth guards, not the ticks of clocks. The example
+//! `bifurcation_diagram` goes from equations to a picture.
 //!
 //! # Not here
 //! - Manifolds of more than one dimension, invariant circles and tori; cycles of flows without a section.

@@ -97,7 +97,7 @@ impl Frame {
             let place = self.at((*x, *y));
             let is_here = |(u, v, other): &&(f64, f64, String)| {
                 let (left, top) = self.at((*u, *v));
-                other == name && (left - place.0).hypot(top - place.1) < 0.5 * MARKER
+                other == name && pxfm::f_hypot(left - place.0, top - place.1) < 0.5 * MARKER
             };
             if !place.0.is_finite() || !place.1.is_finite() || marks[..k].iter().any(is_here) {
                 continue;
@@ -117,7 +117,7 @@ impl Frame {
         let mut found = Vec::new();
         for pair in corners.windows(2) {
             let [(x, y), (u, v)] = [pair[0], pair[1]];
-            let length = (u - x).hypot(v - y);
+            let length = pxfm::f_hypot(u - x, v - y);
             if !length.is_finite() || length > self.width + self.height {
                 continue;
             }

@@ -121,7 +121,7 @@ pub enum BranchEnd {
         at: BranchPoint,
         /// The pieces behind the border, where they are known.
         beyond: Vec<String>,
-        /// Where the two sequences of pieces differ first.
+        /// Where the two sequences of pieces differ first: so many events are the same on both sides.
         place: usize,
     },
     /// No further point was found, however short the step: with the reason of the last try.

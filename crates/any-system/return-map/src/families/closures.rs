@@ -43,7 +43,7 @@ pub fn scalar_family(map: impl Fn(f64, f64) -> f64 + Sync) -> impl MapFamily {
     Closure { dimension: 1, map }
 }
 
-/// A smooth map of points with this number of components, f(x, p).
+/// A smooth map of points with this number of components, f(x, p). Each image takes the time 1.
 pub fn family(
     dimension: usize,
     map: impl Fn(&[f64], f64) -> Result<Vec<f64>, Error> + Sync,

@@ -65,10 +65,7 @@ pub fn manifold_crossings<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
         };
         found.extend(crossing.filter(|new| !is_known(new)));
     }
-    for stopped in [first.stopped(), second.stopped()].into_iter().flatten() {
-        return Err(stopped);
-    }
-    Ok(found)
+    first.stopped().or_else(|| second.stopped()).map_or(Ok(found), Err)
 }
 
 fn plane(point: &[f64]) -> Option<Vector2<f64>> {

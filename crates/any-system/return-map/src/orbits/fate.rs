@@ -17,7 +17,8 @@ pub struct OrbitFate {
     pub images: usize,
     /// The time until then; of a return map that of the last part, which does not return, included.
     pub time: f64,
-    /// The number of events until then, of a return map; of a map of several pieces the number of their names.
+    /// The number of events until then, of a return map, without those of infinite series; of a map of several pieces the number of their
+    /// names.
     pub events: usize,
 }
 
