@@ -8,10 +8,15 @@ use thiserror::Error;
 pub enum Error {
     /// The execution ended before it returned to the section.
     #[error(
-        "no return to the section: the execution stopped ({stop:?}{at}) after {time} time units and {events} events",
-        at = surface.as_ref().map_or(String::new(), |surface| format!(" at {surface}"))
+        "no return to the section from {start:?}{of}: the execution stopped ({stop:?}{at}) after {time} time units and {events} events",
+        at = surface.as_ref().map_or(String::new(), |surface| format!(" at {surface}")),
+        of = parameter.map_or(String::new(), |parameter| format!(" at the parameter {parameter}"))
     )]
     NoReturn {
+        /// Where it began: coordinates of the section.
+        start: Vec<f64>,
+        /// The parameter, of a map that has one.
+        parameter: Option<f64>,
         /// Why the execution ended.
         stop: hybrid_system::Stop,
         /// The surface of the event that ended it, for [`Stop::Terminal`](hybrid_system::Stop::Terminal).
@@ -172,6 +177,17 @@ pub enum Error {
         /// What was given.
         found: String,
     },
+    /// An orbit comes to infinitely many returns in finite time.
+    #[error(
+        "the returns become infinitely many in finite time near {point:?} at the parameter {parameter}: their product has no derivative. Take \
+         a section that chattering does not meet"
+    )]
+    Accumulates {
+        /// Where.
+        point: Vec<f64>,
+        /// The parameter.
+        parameter: f64,
+    },
     /// The work was stopped by its [watcher](crate::watched).
     #[error("stopped after {images} images of the map")]
     Stopped {
@@ -194,4 +210,21 @@ pub enum Error {
         /// The longest period that is searched.
         most: usize,
     },
+}
+
+impl Error {
+    /// The same for a missing return, with the point at which it began.
+    pub(crate) fn from_point(self, point: &[f64], of: Option<f64>) -> Error {
+        match self {
+            Error::NoReturn { stop, surface, time, events, .. } => Error::NoReturn {
+                start: point.to_vec(),
+                parameter: of,
+                stop,
+                surface,
+                time,
+                events,
+            },
+            other => other,
+        }
+    }
 }

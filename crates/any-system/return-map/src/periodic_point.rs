@@ -82,7 +82,7 @@ pub fn periodic_point<const K: usize>(
 
 /// A point of period `period`, for a map that gives its derivative together with the image, as
 /// [`next_with_derivative`](crate::ReturnMap::next_with_derivative) does. The multipliers are as accurate as the
-/// derivative.
+/// derivative, whose own error is not known here: `multiplier_errors` are those of rounding alone.
 ///
 /// # Errors
 /// As [`periodic_point`], but for [`Error::Differences`].

@@ -33,6 +33,9 @@ pub struct SmoothReturn<const K: usize> {
     pub derivative: SMatrix<f64, K, K>,
     /// Derivative of the return time with respect to the start.
     pub time_derivative: RowSVector<f64, K>,
+    /// How far an entry of the derivative may be off: an estimate. The error of the motion is taken from those of the times of the events
+    /// ([`Event::time_error`]), and grows as neighbours part on the way.
+    pub error: f64,
 }
 
 /// A return to the section.
@@ -81,7 +84,7 @@ where
         C: Section<T, N, K>,
     {
         let (mut time, mut events, mut certainty) = (0.0, 0, Certainty::Exact);
-        let coordinates = next_return(
+        let image = next_return(
             self.system,
             self.section.point(coordinates),
             (self.limits, self.counts_at_once),
@@ -94,8 +97,9 @@ where
                 }
                 see(&arc);
             },
-        )?;
-        Ok(Return { coordinates, time, events, certainty })
+        )
+        .map_err(|error| error.from_point(coordinates.as_slice(), None))?;
+        Ok(Return { coordinates: image, time, events, certainty })
     }
 
     /// The next return, with the derivatives of image and return time.
@@ -119,7 +123,8 @@ where
         let mut time_derivative = RowSVector::zeros();
         let mut execution = Execution::new(self.system, mode, state, self.limits);
         let (mut time, mut events, mut surface) = (0.0, 0, None);
-        let mut certainty = Certainty::Exact;
+        let (mut certainty, mut rate) = (Certainty::Exact, f64::EPSILON);
+        let (first, mut largest) = (change.amax(), change.amax());
         for arc in execution.by_ref() {
             let arc = arc?;
             time = arc.time + arc.duration;
@@ -138,13 +143,20 @@ where
             let (through, delay) = event_sensitivity(self.system, &arc)?;
             time_derivative += delay * change;
             change = through * change;
+            // As a part of the arc: an arc of no time has no error.
+            let part = if arc.duration > 0.0 { event.time_error / arc.duration } else { 0.0 };
+            rate += f64::EPSILON + part.min(1.0);
+            largest = largest.max(change.amax());
             if let Some(coordinates) = back {
                 let derivative = self.section.coordinates_jacobian(event) * change;
                 let to = Return { coordinates, time, events, certainty };
-                return Ok(SmoothReturn { to, derivative, time_derivative });
+                let parted = if first > 0.0 { (largest / first).max(1.0) } else { 1.0 };
+                let error = rate * parted * largest.max(derivative.amax());
+                return Ok(SmoothReturn { to, derivative, time_derivative, error });
             }
         }
-        Err(no_return(execution.stop(), surface, time, events))
+        let none = no_return(execution.stop(), surface, time, events);
+        Err(none.from_point(coordinates.as_slice(), None))
     }
 
     /// The image of a point of a one-dimensional section; `None` if the execution ends without a return.
@@ -205,5 +217,6 @@ pub(crate) fn next_return<T: HybridSystem, R>(
 fn no_return<S: Debug>(stop: Option<Stop>, last: Option<S>, time: f64, events: usize) -> Error {
     let stop = stop.unwrap_or(Stop::Failed);
     let surface = last.filter(|_| stop == Stop::Terminal).map(|surface| plain(&surface));
-    Error::NoReturn { stop, surface, time, events }
+    let (start, parameter) = (Vec::new(), None);
+    Error::NoReturn { start, parameter, stop, surface, time, events }
 }

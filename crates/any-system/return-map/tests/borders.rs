@@ -6,7 +6,7 @@ use example_systems::impact_oscillator::grazing_forcing;
 use hybrid_system::Equations;
 use return_map::{
     Border, Branch, BranchEnd, BranchSteps, CurveEnd, EquationReturns, Error, border_curve,
-    follow_branch, scalar_family,
+    follow_branch, map_pieces, scalar_family,
 };
 use std::ops::ControlFlow::Continue;
 
@@ -79,6 +79,17 @@ fn a_grazing_is_found_from_both_sides() {
         assert_eq!(kind, grazing("flight: ceiling"));
         assert!((at - touch).abs() < 1e-14, "{at} {touch}");
     }
+}
+
+/// On a section of one coordinate the borders of the pieces have their kinds.
+#[test]
+fn borders_between_pieces() {
+    let map = throw();
+    let found = map_pieces(&map, 1.2, (0.5, 2.5), 40).unwrap();
+    assert_eq!(found.pieces.len(), 2, "{found:?}");
+    assert!((found.pieces[0].ends.1 - 2f64.sqrt()).abs() < 1e-12);
+    assert_eq!(found.border(&map, 0), Some(grazing("flight: ceiling")));
+    assert_eq!(found.border(&map, 1), None);
 }
 
 /// A path from (c, 1) with the slope −p ends at the floor or at a wall. The next c is the part a of the place.

@@ -195,7 +195,7 @@ fn wrong_dimensions_are_errors() {
     assert!(swap.image(&[0.1], 0.0).is_err());
     assert!(scalar_family(|x, _| x).image(&[0.1, f64::NAN], 0.0).is_err());
     for window in [(1.0, 0.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
-        let again = continue_branch(&henon(0.3), branch.clone(), window, steps, |_| Continue(()));
+        let again = continue_branch(&henon(0.3), &branch, window, steps, |_| Continue(()));
         assert!(again.is_err(), "{window:?}");
     }
 }

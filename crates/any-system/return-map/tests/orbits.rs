@@ -12,6 +12,32 @@ use return_map::{
 };
 use std::ops::ControlFlow::{Break, Continue};
 
+/// A ball that is dropped anew once in three time units, seen at each bounce: its bounces are infinitely many in each of them. Orbits go on
+/// behind their limit, and exponents say that there is none.
+#[test]
+fn infinitely_many_returns() {
+    let ball = Equations::new(&["height", "speed", "drops"], &[("r", "0.3")])
+        .mode_text("flight", &["speed", "-1", "0"])
+        .falling_text("floor", "height")
+        .resets_text(&["height", "-r*speed", "drops"])
+        .rests("rest")
+        .clock_text("drop", "3", "3")
+        .resets_text(&["1/2", "0", "drops + 1"])
+        .to("flight")
+        .mode_text("rest", &["0", "0", "0"])
+        .clock_text("drop again", "3", "3")
+        .resets_text(&["1/2", "0", "drops + 1"])
+        .to("flight");
+    let map = EquationReturns::new(&ball, "r", ("flight", "floor"), &["v", "n"])
+        .unwrap()
+        .starting_text(&["0", "v", "n"])
+        .unwrap()
+        .coordinates_text(&["speed", "drops"])
+        .unwrap();
+    let exponents = lyapunov_exponents(&map, (&[0.3, 0.0], 0.3), 0, 2000);
+    assert!(exponents.is_err(), "{exponents:?}");
+}
+
 /// A rod falls from the upright to one side or to the other, by events that end the run, after some returns.
 #[test]
 fn two_surfaces_that_end_a_run() {

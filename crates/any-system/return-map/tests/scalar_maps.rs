@@ -5,8 +5,8 @@
 use equations::{Formulas, Jet, Names};
 use example_systems::spring_leg::apexes;
 use return_map::{
-    ApproximateMap, Error, MapFamily, OrbitEnd, all_equilibria, all_periodic_points, family,
-    map_pieces, pieces, scalar_family,
+    ApproximateMap, Error, MapFamily, OrbitEnd, PeriodicAttractor, all_equilibria,
+    all_periodic_points, family, lyapunov_exponents, map_pieces, pieces, scalar_family,
 };
 use std::f64::consts::PI;
 use std::ops::ControlFlow::Continue;
@@ -141,6 +141,24 @@ fn a_return_map_by_polynomials() {
     assert!((h - example_systems::spring_leg::APEX).abs() < 1e-8, "{h}");
 }
 
+/// A map by polynomials is a map for all that takes one.
+#[test]
+fn an_approximate_map_has_slopes() {
+    let logistic = scalar_family(|x, r| r * x * (1.0 - x));
+    let found = map_pieces(&logistic, 4.0, (0.0, 1.0), 20).unwrap();
+    let fast = ApproximateMap::new(&logistic, &found, 1e-10).unwrap();
+    for x in between((0.0, 1.0), 20) {
+        let found = fast.linearized(&[x], 4.0).unwrap();
+        let off = (found.slopes[(0, 0)] - 4.0 * (1.0 - 2.0 * x)).abs();
+        assert!(off <= found.errors[(0, 0)] && found.errors[(0, 0)] < 1e-6, "{off:e} {found:?}");
+    }
+    let exponent = lyapunov_exponents(&fast, (&[0.3], 4.0), 100, 20_000).unwrap().per_image[0];
+    assert!(exponent.lower < 2f64.ln() && 2f64.ln() < exponent.upper, "{exponent:?}");
+    let found = map_pieces(&logistic, 3.2, (0.0, 1.0), 20).unwrap();
+    let fast = ApproximateMap::new(&logistic, &found, 1e-10).unwrap();
+    assert_eq!(PeriodicAttractor::new(&fast, 2, (&[0.5], 3.2)).unwrap().orbit.len(), 2);
+}
+
 #[test]
 fn compositions() {
     let logistic = scalar_family(|x, r| r * x * (1.0 - x));
@@ -192,7 +210,7 @@ fn maps_and_branches_are_saved_and_read() {
     let text = serde_json::to_string(&branch).unwrap();
     let read: Branch = serde_json::from_str(&text).unwrap();
     assert_eq!(read, branch);
-    let whole = continue_branch(&logistic, read, (1.5, 3.5), steps, |_| Continue(())).unwrap();
+    let whole = continue_branch(&logistic, &read, (1.5, 3.5), steps, |_| Continue(())).unwrap();
     let ends = [whole.points.first().unwrap(), whole.points.last().unwrap()];
     assert_eq!(ends.map(|end| end.parameter), [1.5, 3.5]);
     assert_eq!(whole.bifurcations.len(), 1);
@@ -200,7 +218,7 @@ fn maps_and_branches_are_saved_and_read() {
     assert!(in_order);
     // Another map is refused.
     let other = scalar_family(|x, r| 1.1 * r * x * (1.0 - x));
-    let refused = continue_branch(&other, branch, (1.5, 3.5), steps, |_| Continue(()));
+    let refused = continue_branch(&other, &branch, (1.5, 3.5), steps, |_| Continue(()));
     assert!(matches!(refused, Err(Error::OtherBranch { .. })));
 }
 

@@ -82,7 +82,7 @@ fn three_ways_to_one_branch() {
         1,
         Ball,
         |v: &[f64], _| ((), Vector2::new(0.0, v[0])),
-        |event| Some(vec![event.after?.1[1]]),
+        |event, _| Some(vec![event.after?.1[1]]),
         limits,
     );
     let equations = Equations::new(&["height", "speed"], &[("r", "0.5")])
@@ -118,7 +118,7 @@ fn three_ways_to_one_branch() {
         1,
         Ball,
         |_: &[f64], _| ((), Vector2::new(0.0, 1.0)),
-        |_| None,
+        |_, _| None,
         Limits::new(10.0, 3),
     );
     let none =
@@ -154,7 +154,7 @@ fn the_onset_of_sliding_of_a_filippov_system() {
         |radius: &[f64], p| {
             (FilippovMode::Free(false), Vector2::new(1.0 - (p + 0.5 * radius[0]), 0.0))
         },
-        |event| match event.surface {
+        |event, _| match event.surface {
             FilippovSurface::Model(2) => Some(vec![event.before[0] - 1.0]),
             _ => None,
         },

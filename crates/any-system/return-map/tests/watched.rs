@@ -38,7 +38,7 @@ fn branches() {
                     |end: &BranchEnd| matches!(end, BranchEnd::Stopped | BranchEnd::Window);
                 assert!(branch.ends.iter().all(is_end));
                 let on =
-                    continue_branch(&logistic, branch, window, steps, |_| Continue(())).unwrap();
+                    continue_branch(&logistic, &branch, window, steps, |_| Continue(())).unwrap();
                 let kinds: Vec<_> = on.bifurcations.iter().map(|found| found.kind).collect();
                 assert_eq!(kinds, [BifurcationKind::Doubling], "{most}");
                 assert_eq!(on.ends, [BranchEnd::Window, BranchEnd::Window]);

@@ -201,8 +201,8 @@ fn symbol(name: &str) -> Marker {
     match name {
         "fold" => Marker::Disc,
         "doubling" => Marker::Diamond,
-        "circle" | "Hopf" => Marker::Ring,
-        "crossing" => Marker::Cross,
+        "Neimark–Sacker" | "Hopf" => Marker::Ring,
+        "transcritical" => Marker::Cross,
         "pitchfork" => Marker::Triangle,
         _ => Marker::Square,
     }

@@ -20,7 +20,7 @@ use std::ops::ControlFlow;
 /// let logistic = scalar_family(|x, r| r * x * (1.0 - x));
 /// let steps = BranchSteps::default();
 /// let first = follow_branch(&logistic, 1, (&[0.6], 2.5), (2.4, 2.6), steps, |_| Continue(()))?;
-/// let whole = continue_branch(&logistic, first, (1.5, 3.5), steps, |_| Continue(()))?;
+/// let whole = continue_branch(&logistic, &first, (1.5, 3.5), steps, |_| Continue(()))?;
 /// assert_eq!(whole.points.last().map(|point| point.parameter), Some(3.5));
 /// assert_eq!(whole.bifurcations.len(), 1);
 /// # Ok::<(), return_map::Error>(())
@@ -30,7 +30,7 @@ use std::ops::ControlFlow;
 /// As [`follow_branch`](super::follow_branch); [`Error::OtherBranch`] if the end of the branch is no point of this map.
 pub fn continue_branch<M: MapFamily + ?Sized>(
     map: &M,
-    branch: Branch,
+    branch: &Branch,
     window: (f64, f64),
     steps: BranchSteps,
     mut see: impl FnMut(&BranchPoint) -> ControlFlow<()>,
@@ -43,23 +43,30 @@ pub fn continue_branch<M: MapFamily + ?Sized>(
         }
     };
     check_window(window)?;
-    let Branch { period, mut points, mut bifurcations, mut ends } = branch;
-    for end in [0, 1] {
-        let goes_on = matches!(
-            ends[end],
+    let Branch { period, mut points, mut bifurcations, mut ends } = branch.clone();
+    // Both ends are found before one of them grows.
+    let goes_on = |end: usize| -> Result<Option<(Orbit<'_, M>, OnCurve, Vec<String>)>, Error> {
+        let is_open = matches!(
+            branch.ends[end],
             BranchEnd::Stopped | BranchEnd::PointLimit | BranchEnd::Window | BranchEnd::Lost { .. }
         );
-        let last = if end == 0 { points.first() } else { points.last() };
-        let Some(last) = last.filter(|_| goes_on).cloned() else { continue };
-        if !(window.0 < last.parameter && last.parameter < window.1) {
-            continue;
-        }
+        let inwards = |k: usize| match end {
+            0 => branch.points.get(k),
+            _ => branch.points.iter().rev().nth(k),
+        };
+        let is_inside = |p: f64| window.0 < p && p < window.1;
+        let last = inwards(0).filter(|last| is_open && is_inside(last.parameter));
+        let Some(last) = last else { return Ok(None) };
         check(map, (&last.point, last.parameter), window, steps)?;
-        let orbit = Orbit { map, kind, scales: scales(last.point.len(), last.size, &[window]) };
-        let before = if end == 0 { points.get(1) } else { points.iter().rev().nth(1) };
-        let first = at_end(&orbit, &last, before)?;
+        let scales = scales(last.point.len(), last.size, &[window]);
+        let orbit = Orbit { map, kind, scales };
+        let first = at_end(&orbit, last, inwards(1))?;
+        Ok(Some((orbit, first, last.itinerary.clone())))
+    };
+    for (end, found) in [goes_on(0)?, goes_on(1)?].into_iter().enumerate() {
+        let Some((orbit, first, itinerary)) = found else { continue };
         let mut follower = Follower { orbit, window, steps, see: &mut see };
-        let way = follower.one_way(first, &last.itinerary);
+        let way = follower.one_way(first, &itinerary);
         match end {
             0 => {
                 points.splice(0..0, way.points.into_iter().rev());

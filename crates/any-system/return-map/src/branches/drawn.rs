@@ -10,9 +10,9 @@ impl fmt::Display for BifurcationKind {
         f.pad(match self {
             BifurcationKind::Fold => "fold",
             BifurcationKind::Doubling => "doubling",
-            BifurcationKind::NeimarkSacker => "circle",
+            BifurcationKind::NeimarkSacker => "Neimark–Sacker",
             BifurcationKind::Hopf => "Hopf",
-            BifurcationKind::Transcritical => "crossing",
+            BifurcationKind::Transcritical => "transcritical",
             BifurcationKind::Pitchfork => "pitchfork",
         })
     }

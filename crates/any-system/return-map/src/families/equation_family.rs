@@ -29,13 +29,17 @@ impl MapFamily for EquationReturns {
     ) -> Result<(), Error> {
         let model = self.model(Some(parameter))?;
         let (mut run, mut begin) = self.begin(&model, (start, parameter))?;
+        let mut from = start.to_vec();
         for _ in 0..images {
-            let way = Way { arcs: self.next_return(&mut run)?, model: model.clone(), begin };
+            let arcs = self.next_return(&mut run);
+            let arcs = arcs.map_err(|error| error.from_point(&from, Some(parameter)))?;
+            let way = Way { arcs, model: model.clone(), begin };
             let image = self.image_after(&way, parameter)?;
             match self.going_on((&way, &model), &run, (&image, parameter))? {
                 Some(next) => run = next,
                 None => (run, begin) = self.begin(&model, (&image.point, parameter))?,
             }
+            from.clone_from(&image.point);
             if see(image).is_break() {
                 break;
             }

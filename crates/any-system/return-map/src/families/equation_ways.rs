@@ -151,7 +151,8 @@ impl EquationReturns {
         let stop = run.stop().unwrap_or(Stop::Failed);
         let surface = last.filter(|_| stop == Stop::Terminal).map(|surface| surface.to_string());
         let (time, events) = (run.time() - begin, run.jump() - events_before);
-        Err(Error::NoReturn { stop, surface, time, events })
+        let (start, parameter) = (Vec::new(), None);
+        Err(Error::NoReturn { start, parameter, stop, surface, time, events })
     }
 
     /// The execution behind a return, with the limits of the next one; `None` if the next return begins anew.
@@ -185,7 +186,8 @@ impl EquationReturns {
     pub(super) fn way(&self, point: &[f64], parameter: f64) -> Result<Way, Error> {
         let model = self.model(Some(parameter))?;
         let (mut run, begin) = self.begin(&model, (point, parameter))?;
-        let arcs = self.next_return(&mut run)?;
+        let arcs = self.next_return(&mut run);
+        let arcs = arcs.map_err(|error| error.from_point(point, Some(parameter)))?;
         Ok(Way { arcs, model, begin })
     }
 
@@ -198,7 +200,13 @@ impl EquationReturns {
         let state: Vec<Jet<1>> = state.iter().copied().map(still).collect();
         let at = (&state[..], still(way.begin + elapsed(arcs)));
         let image = self.image_of(at, still(parameter))?;
-        let (point, certainty) = (image.iter().map(Jet::value).collect(), least_certain(arcs));
+        let (point, certainty): (Vec<f64>, _) =
+            (image.iter().map(Jet::value).collect(), least_certain(arcs));
+        if !point.iter().all(|x| x.is_finite()) {
+            // The start is not known here: the state is as good.
+            let point = state.iter().map(Jet::value).collect();
+            return Err(Error::NoImage { point, parameter });
+        }
         Ok(Image {
             point,
             itinerary: itinerary(arcs, |mode| mode.to_string()),

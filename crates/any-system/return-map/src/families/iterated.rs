@@ -4,6 +4,7 @@ use super::family::{Image, MapFamily};
 use crate::checks::check_dimension;
 use crate::error::Error;
 use equations::Jet;
+use std::ops::ControlFlow;
 
 /// The image of a point, which has as many components. A map of a caller may break this promise.
 pub(crate) fn image_of<M: MapFamily + ?Sized>(
@@ -27,6 +28,22 @@ pub(crate) fn point_after<M: MapFamily + ?Sized>(
         point = image_of(map, &point, parameter)?.point;
     }
     Ok(point)
+}
+
+/// The point to which an orbit comes with some images. It goes on behind a limit of infinitely many returns in finite time, to which image for
+/// image it would come nearer for ever.
+pub(crate) fn orbit_end<M: MapFamily + ?Sized>(
+    map: &M,
+    (start, parameter): (&[f64], f64),
+    images: usize,
+) -> Result<Vec<f64>, Error> {
+    let mut last = start.to_vec();
+    map.orbit(start, parameter, images, &mut |image| {
+        last = image.point;
+        ControlFlow::Continue(())
+    })?;
+    check_dimension("the image of a point", map.dimension(), last.len())?;
+    Ok(last)
 }
 
 /// The point after some images, and the pieces of the map on the way.

@@ -29,6 +29,8 @@ pub use equation_returns::EquationReturns;
 pub use family::{Image, MapFamily};
 pub use formula_map::FormulaMap;
 pub(crate) use formula_map::check_without_time;
-pub(crate) use iterated::{curve_after, first_difference, image_of, orbit_after, point_after};
+pub(crate) use iterated::{
+    curve_after, first_difference, image_of, orbit_after, orbit_end, point_after,
+};
 pub use system_returns::{SmoothReturns, SystemReturns, returns, smooth_returns};
 pub use watched::{Watched, watched};

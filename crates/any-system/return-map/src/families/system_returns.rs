@@ -25,8 +25,8 @@ pub struct SystemReturns<S, P, C> {
 }
 
 /// The return map of any hybrid system that depends on a parameter: `system` gives it at a value. The section has this number of
-/// coordinates: `point` gives mode and state of a start, at a value of the parameter, and `coordinates` those of an event, or `None` for
-/// an event that is no return. An event at the start itself, after no time, is none.
+/// coordinates: at a value of the parameter `point` gives mode and state of a start, and `coordinates` those of an event, or `None` for an
+/// event that is no return. An event at the start itself, after no time, is none.
 ///
 /// The itinerary of an image has the mode and the surface of each event on the way. Derivatives are differences, with their errors. For
 /// a model of `hybrid_system::Equations` [`EquationReturns`](super::EquationReturns) has exact ones; for a system that gives its own
@@ -46,7 +46,7 @@ pub struct SystemReturns<S, P, C> {
 ///     .resets(move |_, x| DVector::from_vec(vec![0.0, 1.0 - r * x[1]]))
 /// };
 /// let bounces = returns(1, ball, |v: &[f64], _| ((), DVector::from_vec(vec![0.0, v[0]])),
-///     |event| Some(vec![event.after.as_ref()?.1[1]]), Limits::sampled(100.0, 10, 0.01));
+///     |event, _| Some(vec![event.after.as_ref()?.1[1]]), Limits::sampled(100.0, 10, 0.01));
 /// let steps = BranchSteps::default();
 /// let branch = follow_branch(&bounces, 1, (&[2.0], 0.5), (0.2, 0.8), steps, |_| Continue(()))?;
 /// for found in &branch.points {
@@ -65,7 +65,7 @@ where
     T: HybridSystem,
     S: Fn(f64) -> T + Sync,
     P: Fn(&[f64], f64) -> (T::Mode, T::State) + Sync,
-    C: Fn(&Event<T::Mode, T::Surface, T::State>) -> Option<Vec<f64>> + Sync,
+    C: Fn(&Event<T::Mode, T::Surface, T::State>, f64) -> Option<Vec<f64>> + Sync,
 {
     SystemReturns { dimension, system, point, coordinates, limits }
 }
@@ -75,7 +75,7 @@ where
     T: HybridSystem,
     S: Fn(f64) -> T + Sync,
     P: Fn(&[f64], f64) -> (T::Mode, T::State) + Sync,
-    C: Fn(&Event<T::Mode, T::Surface, T::State>) -> Option<Vec<f64>> + Sync,
+    C: Fn(&Event<T::Mode, T::Surface, T::State>, f64) -> Option<Vec<f64>> + Sync,
 {
     fn dimension(&self) -> usize {
         self.dimension
@@ -84,12 +84,10 @@ where
     fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error> {
         check_dimension("the coordinates of a section", self.dimension, point.len())?;
         let (system, start) = ((self.system)(parameter), (self.point)(point, parameter));
-        let image = image_of(&system, start, self.limits, &self.coordinates)?;
+        let coordinates = |event: &_| (self.coordinates)(event, parameter);
+        let image = image_of(&system, start, self.limits, coordinates, (point, parameter))?;
         check_dimension("the coordinates of an event", self.dimension, image.point.len())?;
-        match image.point.iter().all(|x| x.is_finite()) {
-            true => Ok(image),
-            false => Err(Error::NoImage { point: point.to_vec(), parameter }),
-        }
+        Ok(image)
     }
 
     fn border(
@@ -109,9 +107,14 @@ fn image_of<T: HybridSystem>(
     start: (T::Mode, T::State),
     limits: Limits,
     coordinates: impl Fn(&Event<T::Mode, T::Surface, T::State>) -> Option<Vec<f64>>,
+    (from, parameter): (&[f64], f64),
 ) -> Result<Image, Error> {
     let mut arcs = Vec::new();
-    let point = next_return(system, start, (limits, false), coordinates, |arc| arcs.push(arc))?;
+    let point = next_return(system, start, (limits, false), coordinates, |arc| arcs.push(arc))
+        .map_err(|error| error.from_point(from, Some(parameter)))?;
+    if !point.iter().all(|x| x.is_finite()) {
+        return Err(Error::NoImage { point: from.to_vec(), parameter });
+    }
     let name = |mode| system.slides_on(mode).map_or_else(|| plain(&mode), |on| sliding_name(&on));
     let (itinerary, certainty) = (itinerary(&arcs, name), least_certain(&arcs));
     Ok(Image { point, itinerary, time: elapsed(&arcs), certainty })
@@ -132,8 +135,7 @@ pub struct SmoothReturns<S, F, const N: usize, const K: usize> {
 
 /// The return map of a [`Differentiable`] system that depends on a parameter: `system` and `section` give both at a value. First derivatives
 /// by the coordinates are those of [`ReturnMap::next_with_derivative`]: by the flow's variational equations and the saltation at each
-/// event. They are as exact as the system's, and the errors that they state are those of rounding alone. Derivatives by the parameter, and
-/// higher ones, are differences.
+/// event, with the error that [`SmoothReturn`](crate::SmoothReturn) states. Derivatives by the parameter, and higher ones, are differences.
 pub fn smooth_returns<T, C, S, F, const N: usize, const K: usize>(
     system: S,
     section: F,
@@ -166,21 +168,21 @@ where
         let coordinates = |event: &Event<T::Mode, T::Surface, State<N>>| {
             Some(section.coordinates(event)?.as_slice().to_vec())
         };
-        image_of(&system, start, self.limits, coordinates)
+        image_of(&system, start, self.limits, coordinates, (point, parameter))
     }
 
     fn linearized(&self, point: &[f64], parameter: f64) -> Result<Linearized, Error> {
         let image = self.image(point, parameter)?;
         let (system, section) = ((self.system)(parameter), (self.section)(parameter));
         let map = ReturnMap::new(&system, &section, self.limits);
-        let own = map.next_with_derivative(&SVector::from_column_slice(point))?.derivative;
-        let events = image.itinerary.len() as f64;
+        let found = map.next_with_derivative(&SVector::from_column_slice(point))?;
+        let own = found.derivative;
         let by_parameter = |curve: &[Jet<4>], moving: Jet<4>| match moving.0[1] == 0.0 {
             true => {
                 let axis = curve.iter().position(|jet| jet.0[1] != 0.0).unwrap_or(0);
                 let column = own.column(axis);
                 let jets = column.iter().map(|slope| Jet([0.0, *slope, 0.0, 0.0])).collect();
-                Ok(Pushed::within(jets, f64::EPSILON * events * column.amax()))
+                Ok(Pushed::within(jets, found.error))
             }
             false => differences(&|point: &[f64], p| self.image(point, p), curve, moving),
         };

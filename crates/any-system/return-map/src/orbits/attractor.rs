@@ -221,12 +221,17 @@ fn settled<M: MapFamily + ?Sized>(
     known: &[PeriodicAttractor],
 ) -> Option<PeriodicAttractor> {
     let is_known = |point: &[f64]| known.iter().any(|known| known.contains(point));
-    let mut at = seed.to_vec();
-    for _ in 0..transient {
-        if is_known(&at) {
-            return None;
-        }
-        at = map.image(&at, parameter).ok()?.point;
+    if is_known(seed) {
+        return None;
+    }
+    let (mut at, mut known_met) = (seed.to_vec(), false);
+    let settles = map.orbit(seed, parameter, transient, &mut |image| {
+        at = image.point;
+        known_met = is_known(&at);
+        if known_met { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    if settles.is_err() || known_met {
+        return None;
     }
     // The returns near the point, the nearest first.
     let (mut later, mut returns) = (at.clone(), Vec::new());

@@ -95,7 +95,7 @@ pub fn orbit_fate<M: MapFamily + ?Sized>(
 }
 
 /// So many images in a row that do not move the time are the last ones of infinitely many: one or two may be those of a corner.
-const STILL: usize = 10;
+pub(super) const STILL: usize = 10;
 
 /// What a missing image means for an orbit.
 pub(crate) fn end_of(error: Error) -> OrbitEnd {

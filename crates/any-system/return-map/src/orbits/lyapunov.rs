@@ -2,7 +2,8 @@
 
 use crate::checks::check_dimension;
 use crate::error::Error;
-use crate::families::{Linearized, MapFamily, point_after};
+use crate::families::{Linearized, MapFamily, orbit_end};
+use crate::orbits::fate::STILL;
 use nalgebra::DMatrix;
 
 /// A mean over an orbit, with an interval that holds the limit with 95 % if the orbit is typical.
@@ -51,7 +52,8 @@ pub struct LyapunovExponents {
 /// ```
 ///
 /// # Errors
-/// Errors of the map, and of its derivatives: an orbit that grazes has none. [`Error::NoImage`] if the derivative is not finite.
+/// Errors of the map, and of its derivatives: an orbit that grazes has none. [`Error::NoImage`] if the derivative is not finite;
+/// [`Error::Accumulates`] for an orbit that comes to infinitely many returns in finite time, as those of a chattering contact.
 pub fn lyapunov_exponents<M: MapFamily + ?Sized>(
     map: &M,
     (start, parameter): (&[f64], f64),
@@ -60,10 +62,11 @@ pub fn lyapunov_exponents<M: MapFamily + ?Sized>(
 ) -> Result<LyapunovExponents, Error> {
     let dimension = map.dimension();
     check_dimension("the start of an orbit", dimension, start.len())?;
-    let mut point = point_after(map, (start, parameter), transient)?;
+    let mut point = orbit_end(map, (start, parameter), transient)?;
     let per_batch = steps.div_ceil(BATCHES).max(1);
     let mut frame = DMatrix::<f64>::identity(dimension, dimension);
     let (mut batches, mut times) = (vec![vec![0.0; dimension]; BATCHES], vec![0.0; BATCHES]);
+    let (mut total, mut still) = (0.0, 0);
     for (sums, time) in batches.iter_mut().zip(&mut times) {
         for _ in 0..per_batch {
             let Linearized { image, slopes, .. } = map.linearized(&point, parameter)?;
@@ -72,6 +75,11 @@ pub fn lyapunov_exponents<M: MapFamily + ?Sized>(
             if !slopes.iter().chain(&image.point).all(|x| x.is_finite()) {
                 return Err(Error::NoImage { point, parameter });
             }
+            still = if total + image.time == total { still + 1 } else { 0 };
+            if still == STILL {
+                return Err(Error::Accumulates { point, parameter });
+            }
+            total += image.time;
             *time += image.time;
             let qr = (slopes.columns(0, dimension) * &frame).qr();
             let r = qr.r();

@@ -1,7 +1,8 @@
 //! How fast an orbit turns: the rotation number.
 
 use crate::error::Error;
-use crate::families::{MapFamily, point_after};
+use crate::families::{MapFamily, orbit_end};
+use std::ops::ControlFlow;
 
 /// The mean number of turns of an orbit for one image.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,20 +49,27 @@ pub fn rotation_number<M: MapFamily + ?Sized>(
             value: 0.0,
         });
     }
-    let mut point = point_after(map, (start, parameter), transient)?;
+    let mut point = orbit_end(map, (start, parameter), transient)?;
+    let first = point.clone();
     let (mut sum, mut weighted, mut weights) = (0.0, 0.0, 0.0);
-    for k in 0..images {
-        let image = map.image(&point, parameter)?.point;
-        let part = turn(&point, &image);
+    let (mut k, mut failed) = (0usize, None);
+    map.orbit(&first, parameter, images, &mut |image| {
+        let part = turn(&point, &image.point);
         if !part.is_finite() {
-            return Err(Error::NoImage { point, parameter });
+            failed = Some(Error::NoImage { point: point.clone(), parameter });
+            return ControlFlow::Break(());
         }
         let place = (k as f64 + 0.5) / images as f64;
         let weight = pxfm::f_exp(-1.0 / (place * (1.0 - place)));
         sum += part;
         weighted += weight * part;
         weights += weight;
-        point = image;
+        k += 1;
+        point.clone_from(&image.point);
+        ControlFlow::Continue(())
+    })?;
+    if let Some(error) = failed {
+        return Err(error);
     }
     let count = images as f64;
     let mean = sum / count;

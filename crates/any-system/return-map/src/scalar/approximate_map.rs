@@ -4,7 +4,7 @@ use super::cells::{Cell, cells};
 use super::pieces::{MapPiece, MapPieces, pieces_between};
 use crate::checks::check_positive;
 use crate::error::Error;
-use crate::families::{Image, MapFamily, Pushed};
+use crate::families::{Image, Linearized, MapFamily, Pushed};
 use equations::Jet;
 use interval_arithmetic::bracketed_root;
 
@@ -214,7 +214,19 @@ impl MapFamily for ApproximateMap {
         let x = curve.first().copied().unwrap_or(Jet::number(f64::NAN));
         let found = self.cell(x.value()).filter(|_| parameter == Jet::number(self.0.parameter));
         let (cell, _) = found.ok_or_else(|| missing(x.value(), parameter.value()))?;
-        Ok(Pushed::exact(vec![cell.pushed(&x)]))
+        let pushed = cell.pushed(&x);
+        let errors = vec![cell.slope_error(self.0.error) * x.0[1].abs()];
+        Ok(Pushed { curve: vec![pushed], errors })
+    }
+
+    /// It is known at one value of the parameter: the last column is zero.
+    fn linearized(&self, point: &[f64], parameter: f64) -> Result<Linearized, Error> {
+        let image = self.image(point, parameter)?;
+        let of = |curve: &[Jet<4>], moving: Jet<4>| match moving.0[1] == 0.0 {
+            true => self.pushed(curve, moving),
+            false => Ok(Pushed::exact(vec![Jet::number(image.point[0])])),
+        };
+        Linearized::along_axes(image.clone(), (point, parameter), of)
     }
 }
 

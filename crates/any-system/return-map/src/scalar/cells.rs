@@ -61,6 +61,12 @@ impl Cell {
         2.0 * sum / (self.right - self.left)
     }
 
+    /// How far the slope may be off where the values are off by this: the slope of a polynomial of degree n is at most n² times its values, on
+    /// [−1, 1] (A. A. Markov).
+    pub(super) fn slope_error(&self, error: f64) -> f64 {
+        (DEGREE * DEGREE) as f64 * 2.0 * error / (self.right - self.left)
+    }
+
     /// The polynomial through the function at the Chebyshev points of the second kind, without the last terms that are below `small`.
     fn new(values: &[f64], (left, right): (f64, f64), small: f64) -> Cell {
         let n = values.len() - 1;

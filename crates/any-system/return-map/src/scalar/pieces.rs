@@ -4,7 +4,7 @@ use super::extrema::{Extremum, extrema};
 use super::samples::samples_of;
 use crate::checks::check_dimension;
 use crate::error::Error;
-use crate::families::{Image, MapFamily, image_of};
+use crate::families::{Border, Image, MapFamily, first_difference, image_of};
 use crate::orbits::{OrbitEnd, end_of};
 
 /// A map of one variable on a window, at one value of its parameter: pieces with one itinerary each, and gaps without images.
@@ -45,6 +45,26 @@ pub struct MapGap {
     /// What becomes of these points.
     pub end: OrbitEnd,
 }
+
+impl MapPieces {
+    /// What lies between a piece, by its number, and the next one: a grazing, a corner, for maps that tell. `None` for the last piece, and if a
+    /// gap lies between. At a grazing itself a model may not say on which side an orbit is: so narrow a gap does not count.
+    pub fn border<M: MapFamily + ?Sized>(&self, map: &M, piece: usize) -> Option<Border> {
+        let (own, next) = (self.pieces.get(piece)?, self.pieces.get(piece + 1)?);
+        let is_next = next.ends.0 - own.ends.1 <= NARROW * (self.window.1 - self.window.0);
+        let sides = (&own.itinerary[..], &next.itinerary[..]);
+        let place = first_difference(sides.0, sides.1);
+        let site = || map.border((&[own.ends.1], self.parameter), sides, place, BESIDE);
+        is_next.then(|| site().border)
+    }
+}
+
+/// A gap of this part of the window is one in which the map does not decide between two pieces.
+const NARROW: f64 = 1e-9;
+
+/// The largest distance of the end of a piece from the guard of its border, in parts of the size of the guard: the speed of an event that
+/// vanishes at a grazing is the root of rounding.
+const BESIDE: f64 = 1e-6;
 
 impl MapPiece {
     /// The laps: the intervals on which the map is monotone, each with the images of its ends.
