@@ -128,6 +128,19 @@ pub enum Error {
         /// The parameter.
         parameter: f64,
     },
+    /// No branch goes on behind a border.
+    #[error(
+        "no point of a branch with the pieces {beyond} was found beside the border at {point:?} and the parameter {parameter}: begin at one \
+         with `follow_branch`"
+    )]
+    NothingBehind {
+        /// The point on the border.
+        point: Vec<f64>,
+        /// The parameter.
+        parameter: f64,
+        /// The pieces behind it.
+        beyond: String,
+    },
     /// A map is not known beyond the border of a piece.
     #[error(
         "the map does not go on beyond the piece of {event:?}: it must be that of equations, and the piece a sequence of their events"
@@ -214,7 +227,7 @@ pub enum Error {
 
 impl Error {
     /// The same for a missing return, with the point at which it began.
-    pub(crate) fn from_point(self, point: &[f64], of: Option<f64>) -> Error {
+    pub(crate) fn at_start(self, point: &[f64], of: Option<f64>) -> Error {
         match self {
             Error::NoReturn { stop, surface, time, events, .. } => Error::NoReturn {
                 start: point.to_vec(),

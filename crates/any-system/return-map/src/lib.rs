@@ -19,6 +19,7 @@
 //! | [`follow_branch`], [`follow_equilibria`], [`Branch`] | how fixed points, periodic points and equilibria change with the parameter |
 //! | [`Bifurcation`], [`BifurcationKind`] | where they are born, change and end, located on the branch, with normal forms |
 //! | [`doubled_branch`], [`cascade`], [`bifurcation_curve`] | the branch behind a doubling, cascades, curves in two parameters |
+//! | [`follow_behind`] | the branch on the other side of a border |
 //! | [`continue_branch`] | goes on with a branch that was stopped, or read from a file (feature `serde`) |
 //! | [`bifurcation_diagram`], [`lyapunov_exponents`], [`rotation_number`] | where orbits end over a parameter; how fast neighbours part; how fast orbits turn |
 //! | [`orbit_fate`], [`orbit_fates`], [`OrbitEnd`] | how orbits end: on an attractor, at a surface, at a Zeno limit |
@@ -127,7 +128,7 @@ mod section;
 pub use branches::{
     Bifurcation, BifurcationCurve, BifurcationCurvePoint, BifurcationKind, Branch, BranchEnd,
     BranchPoint, BranchSteps, CurveEnd, bifurcation_curve, border_curve, cascade, continue_branch,
-    doubled_branch, follow_branch, follow_equilibria,
+    doubled_branch, follow_behind, follow_branch, follow_equilibria,
 };
 pub use error::Error;
 pub use families::{

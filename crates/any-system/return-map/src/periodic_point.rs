@@ -154,10 +154,20 @@ fn newton<const K: usize>(
         // step must be tiny too, unless the residual is exactly zero or no steps are left.
         if stuck || rest.amax() <= rounding && (tiny || rest.amax() == 0.0 || steps == NEWTON_STEPS)
         {
-            let (mut at, mut product) = sure(&x)?;
-            for _ in 1..period {
-                let (image, own) = sure(&at)?;
-                (at, product) = (image, product.after(&own));
+            let along = |x: &SVector<f64, K>| {
+                let (mut at, mut product) = sure(x)?;
+                for _ in 1..period {
+                    let (image, own) = sure(&at)?;
+                    (at, product) = (image, product.after(&own));
+                }
+                Ok::<_, Error>(product)
+            };
+            let mut product = along(&x)?;
+            // The rounding of the point grows on the way.
+            if period > 1
+                && let Ok(beside) = along(&(x * (1.0 + 4.0 * f64::EPSILON)))
+            {
+                product.errors += (beside.matrix - &product.matrix).abs();
             }
             let (multipliers, multiplier_errors) = product.eigenvalues();
             if multipliers.len() < K {

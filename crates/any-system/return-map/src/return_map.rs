@@ -98,7 +98,7 @@ where
                 see(&arc);
             },
         )
-        .map_err(|error| error.from_point(coordinates.as_slice(), None))?;
+        .map_err(|error| error.at_start(coordinates.as_slice(), None))?;
         Ok(Return { coordinates: image, time, events, certainty })
     }
 
@@ -156,7 +156,7 @@ where
             }
         }
         let none = no_return(execution.stop(), surface, time, events);
-        Err(none.from_point(coordinates.as_slice(), None))
+        Err(none.at_start(coordinates.as_slice(), None))
     }
 
     /// The image of a point of a one-dimensional section; `None` if the execution ends without a return.

@@ -1,5 +1,6 @@
 //! All tests of the crate, in one program.
 
+mod beside_borders;
 mod borders;
 mod branch_ends;
 mod branches;

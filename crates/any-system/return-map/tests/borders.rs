@@ -6,7 +6,7 @@ use example_systems::impact_oscillator::grazing_forcing;
 use hybrid_system::Equations;
 use return_map::{
     Border, Branch, BranchEnd, BranchSteps, CurveEnd, EquationReturns, Error, border_curve,
-    follow_branch, map_pieces, scalar_family,
+    follow_behind, follow_branch, map_pieces, scalar_family,
 };
 use std::ops::ControlFlow::Continue;
 
@@ -90,6 +90,32 @@ fn borders_between_pieces() {
     assert!((found.pieces[0].ends.1 - 2f64.sqrt()).abs() < 1e-12);
     assert_eq!(found.border(&map, 0), Some(grazing("flight: ceiling")));
     assert_eq!(found.border(&map, 1), None);
+}
+
+/// From one side of a border to the other, and back to it.
+#[test]
+fn behind_a_border() {
+    let touch = 0.9 * 2f64.sqrt();
+    let steps = BranchSteps { first: 0.1, longest: 0.4, ..BranchSteps::default() };
+    let window = (0.5, 2.0);
+    let map = throw();
+    let free = followed(&map, (&[1.0 / 0.9], 1.0), window);
+    let hits = follow_behind(&map, 1, &free.ends[1], window, steps, |_| Continue(())).unwrap();
+    assert!((border(&hits.ends[0]).1 - touch).abs() < 1e-12 && hits.ends[1] == BranchEnd::Window);
+    assert!(hits.points.iter().all(|at| at.itinerary.len() == 2));
+    let again = follow_behind(&map, 1, &hits.ends[0], window, steps, |_| Continue(())).unwrap();
+    assert!((border(&again.ends[1]).1 - touch).abs() < 1e-12 && again.ends[0] == BranchEnd::Window);
+    let none = follow_behind(&map, 1, &BranchEnd::Window, window, steps, |_| Continue(()));
+    assert!(matches!(none, Err(Error::OtherStart { .. })), "{none:?}");
+    // An orbit that ends at its border, without another one: x ↦ p + x/2 for x < 1, and x + 1 behind.
+    let ends = return_map::pieces(1, |x: &[f64], p| match x[0] < 1.0 {
+        true => Ok((vec![p + 0.5 * x[0]], "left")),
+        false => Ok((vec![x[0] + 1.0], "right")),
+    });
+    let left =
+        follow_branch(&ends, 1, (&[0.5], 0.25), (0.0, 1.0), steps, |_| Continue(())).unwrap();
+    let none = follow_behind(&ends, 1, &left.ends[1], (0.0, 1.0), steps, |_| Continue(()));
+    assert!(matches!(none, Err(Error::NothingBehind { .. })), "{none:?}");
 }
 
 /// A path from (c, 1) with the slope −p ends at the floor or at a wall. The next c is the part a of the place.

@@ -75,6 +75,28 @@ fn coinciding_manifolds() {
     assert!(found.is_empty(), "{} {:?}", found.len(), found.first());
 }
 
+/// A separatrix of an integrable map (E. McMillan): the unstable and the stable manifold are one curve.
+#[test]
+fn the_separatrix_of_an_integrable_map() {
+    for mu in [1.2, 2.0, 4.0] {
+        let forth = family(2, move |x: &[f64], _| {
+            Ok(vec![x[1], -x[0] + 2.0 * mu * x[1] / (1.0 + x[1] * x[1])])
+        });
+        let back = family(2, move |x: &[f64], _| {
+            Ok(vec![-x[1] + 2.0 * mu * x[0] / (1.0 + x[0] * x[0]), x[0]])
+        });
+        let one = UnstableManifold::new(&forth, 1, (&[0.0, 0.0], 0.0), 1.0).unwrap();
+        let two = UnstableManifold::new(&back, 1, (&[0.0, 0.0], 0.0), 1.0).unwrap();
+        let steps = ManifoldSteps { length: 6.0, ..ManifoldSteps::default() };
+        let curves = [
+            one.curve(&steps, |_| Continue(())).unwrap(),
+            two.curve(&steps, |_| Continue(())).unwrap(),
+        ];
+        let found = manifold_crossings((&one, &curves[0]), (&two, &curves[1])).unwrap();
+        assert!(found.is_empty(), "{mu}: {} {:?}", found.len(), found.first());
+    }
+}
+
 #[test]
 fn turns_without_a_sum() {
     let shift = scalar_family(|x, _| x);

@@ -60,13 +60,16 @@ fn check_boundary(
     assert_eq!(image.counts().len(), 2, "{:?}", image.counts());
     let pixels = region.map(|(low, high)| (high - low) / N as f64);
     let mut edges = 0;
-    for row in 0..N {
-        for column in 1..N {
-            if image.at(column, row) == image.at(column - 1, row) {
-                continue;
-            }
+    for (row, column, side) in (0..N * N * 2).map(|k| (k / 2 / N, k / 2 % N, k % 2)) {
+        // The pixel to the left, or below.
+        let other =
+            if side == 0 { (column.wrapping_sub(1), row) } else { (column, row.wrapping_sub(1)) };
+        if other.0 < N && other.1 < N && image.at(column, row) != image.at(other.0, other.1) {
             edges += 1;
-            let edge = [grid.x_at(column) - 0.5 * pixels[0], grid.y_at(row)];
+            let edge = [
+                0.5 * (grid.x_at(column) + grid.x_at(other.0)),
+                0.5 * (grid.y_at(row) + grid.y_at(other.1)),
+            ];
             let is_near = |p: &Vec<f64>| (0..2).all(|k| (p[k] - edge[k]).abs() <= pixels[k]);
             assert!(points.iter().any(is_near), "{edge:?}");
         }

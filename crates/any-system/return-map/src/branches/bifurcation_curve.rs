@@ -47,7 +47,10 @@ impl<M: MapFamily, F: Fn(f64) -> M> Condition for Smooth<'_, F> {
         let scales = DVector::from_element(last, 1.0);
         let orbit = Orbit { map: &map, kind: Kind::Periodic(self.period), scales };
         let at = at.rows(0, last).into_owned();
-        let lost = |error: Error| Some(CurveEnd::Lost { reason: error.to_string() });
+        let lost = |error: Error| match error {
+            Error::Stopped { .. } => Some(CurveEnd::Stopped),
+            error => Some(CurveEnd::Lost { reason: error.to_string() }),
+        };
         match orbit.itinerary(&at) {
             Ok(own) if own == self.itinerary => {}
             Ok(beyond) => return Some(CurveEnd::Border { beyond }),

@@ -5,10 +5,7 @@ use super::curve::{OnCurve, bordered, corrected, corrected_by};
 use super::follow::{ASIDE, Follower, point_of, predicted};
 use super::orbit::{Kind, Orbit, split};
 use crate::error::Error;
-use crate::families::{
-    Border, BorderSite, Clearance, Image, Linearized, MapFamily, first_difference,
-};
-use equations::Jet;
+use crate::families::{Border, BorderSite, Image, Linearized, MapFamily, first_difference};
 use nalgebra::{DMatrix, DVector};
 use std::ops::{AddAssign, ControlFlow};
 
@@ -18,19 +15,15 @@ use std::ops::{AddAssign, ControlFlow};
 const LOOKS_AHEAD: usize = 31;
 const NEAR_LOOKS: usize = 20;
 
-/// Where a cubic through two clearances with their slopes falls below this part of the smaller one, the clearance there is computed: the
-/// cubic is wrong by the fourth power of the step. A smaller number would trust it more.
-const TRUSTED: f64 = 0.25;
-
-/// How often a step is halved at such places.
-const MOST_HALVINGS: usize = 10;
-
 /// How far from the last point a border is looked for, in units of the scales. Beside a grazing a branch of orbits that meet the surface turns as
 /// a root does, and its last point is far off. Pieces on both sides tell if the border is that of the branch.
 const NEAR: f64 = 0.1;
 
 /// Before so many halvings the border is tried to be located.
 const TRIES: [usize; 4] = [1, 6, 18, 30];
+
+/// Tries of a search for a border: some fifty halvings, and as many steps.
+const MOST_TRIES: usize = 200;
 
 /// The largest distance from a border of a point beside it, in parts of the size of the guard. A point that was found by halving alone
 /// is beside its border to rounding; beside a grazing the speed of an event that vanishes is the root of that, and its square counts. A border
@@ -44,86 +37,7 @@ const BOTH_SIDES: f64 = 1e-7;
 /// Newton steps at a border.
 const MOST_STEPS: usize = 20;
 
-impl<M: MapFamily + ?Sized> Orbit<'_, M> {
-    /// How near the orbit of a point comes to surfaces that it does not meet, along the tangent. Where this cannot be computed there are
-    /// none, and the pieces alone tell where the branch ends.
-    pub(super) fn clearances(&self, of: &OnCurve) -> Vec<Clearance> {
-        let Kind::Periodic(period) = self.kind else { return Vec::new() };
-        let direction = of.tangent.component_mul(&self.scales);
-        let (mut curve, parameter) = self.line(&of.at, &direction);
-        let (mut all, mut before) = (Vec::new(), 0);
-        for image in 0..period {
-            let Ok(Some(found)) = self.map.clearances(&curve, parameter) else { return all };
-            all.extend(found.into_iter().map(|one| Clearance { place: before + one.place, ..one }));
-            if image + 1 < period {
-                let point: Vec<f64> = curve.iter().map(Jet::value).collect();
-                let Ok(here) = self.map.image(&point, parameter.value()) else { return all };
-                let Ok(pushed) = self.map.pushed(&curve, parameter) else { return all };
-                before += here.itinerary.len();
-                curve = pushed.curve;
-            }
-        }
-        all
-    }
-}
-
-/// The place in a step, from 0 to 1, at which a surface may be touched.
-fn suspicious(near: &Clearance, far: &Clearance, length: f64, turned: f64) -> Option<f64> {
-    let [from, rate] = near.value.0;
-    let [to, rate_there] = far.value.0;
-    let (m0, m1) = (rate * length, rate_there * length / turned);
-    let cubic = [from, m0, -3.0 * from + 3.0 * to - 2.0 * m0 - m1, 2.0 * from - 2.0 * to + m0 + m1];
-    let [c, b, a] = [cubic[1], cubic[2], 3.0 * cubic[3]];
-    // The root of c + 2 b t + a t² at which it rises.
-    let root = (b * b - a * c).sqrt();
-    let place = if b > 0.0 { -c / (b + root) } else { (root - b) / a };
-    let value = cubic.iter().rev().fold(0.0, |sum, term| sum * place + term);
-    (place > 0.0 && place < 1.0 && value < TRUSTED * from.min(to)).then_some(place)
-}
-
 impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<'_, M, S> {
-    /// The border that is met and left again between two points on the same pieces, if there is one.
-    pub(super) fn touched(
-        &self,
-        near: (&OnCurve, &[Clearance]),
-        far: (&OnCurve, &[Clearance]),
-        itinerary: &[String],
-    ) -> Option<BranchEnd> {
-        self.touched_within(near, far, itinerary, MOST_HALVINGS)
-    }
-
-    fn touched_within(
-        &self,
-        (last, near): (&OnCurve, &[Clearance]),
-        (next, far): (&OnCurve, &[Clearance]),
-        itinerary: &[String],
-        halvings: usize,
-    ) -> Option<BranchEnd> {
-        let off = (&next.at - &last.at).component_div(&self.orbit.scales);
-        let (length, turned) = (off.dot(&last.tangent), next.tangent.dot(&last.tangent));
-        let is_same = |a: &Clearance, b: &Clearance| {
-            (a.place, &a.surface, a.side) == (b.place, &b.surface, b.side)
-        };
-        let places = near.iter().filter_map(|own| {
-            let other = far.iter().find(|other| is_same(own, other))?;
-            suspicious(own, other, length, turned)
-        });
-        let place = places.min_by(f64::total_cmp).filter(|_| halvings > 0)?;
-        let between = self.step(last, place * length).ok().flatten()?;
-        match self.orbit.itinerary(&between.at) {
-            Ok(own) if own == itinerary => {
-                let here = self.orbit.clearances(&between);
-                let first =
-                    self.touched_within((last, near), (&between, &here), itinerary, halvings - 1);
-                first.or_else(|| {
-                    self.touched_within((&between, &here), (next, far), itinerary, halvings - 1)
-                })
-            }
-            Ok(other) => Some(self.border(last, itinerary, other, place * length)),
-            Err(_) => None,
-        }
-    }
-
     /// The end of a branch of which no further point was found: a border of the map, if other pieces are ahead.
     pub(super) fn lost(&self, last: &OnCurve, itinerary: &[String], reason: String) -> BranchEnd {
         let mut ahead = self.steps.shortest;
@@ -136,7 +50,13 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
                     return end;
                 }
                 if look < NEAR_LOOKS {
-                    return self.border(last, itinerary, other, ahead);
+                    let found = self.border(last, itinerary, other.clone(), ahead);
+                    // Where derivatives end before it, its place is that of the last point.
+                    return found.unwrap_or_else(|| {
+                        let place = first_difference(itinerary, &other);
+                        let at = point_of(&self.orbit, last, itinerary.to_vec());
+                        BranchEnd::Border { border: Border::Piece, at, beyond: other, place }
+                    });
                 }
             }
             ahead *= 2.0;
@@ -144,51 +64,72 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
         BranchEnd::Lost { reason }
     }
 
-    /// The border of the map within a step: by halving, and to rounding where the map goes on beyond it.
+    /// The border of the map within a step: by halving, and to rounding where the map goes on beyond it. `None` if the branch meets none: a
+    /// prediction has passed to other pieces beside it.
     pub(super) fn border(
         &self,
         last: &OnCurve,
         itinerary: &[String],
         mut beyond: Vec<String>,
         length: f64,
-    ) -> BranchEnd {
-        // Each half begins at the last point before the border: a prediction from further away could lie beyond it. The slopes are those of
-        // the last point that has them.
-        let (mut at, mut known, mut ahead) = (last.at.clone(), last.clone(), length);
-        for halving in 1.. {
-            let is_last = ahead <= f64::EPSILON * self.steps.longest;
+    ) -> Option<BranchEnd> {
+        // Each try begins at the last point before the border: a prediction from further away could lie beyond it. The slopes are those of
+        // the last point that has them. A try that leads nowhere is halved as well, and one that succeeds is made again: where slopes are
+        // steep the border may be further than all halves together.
+        let (mut at, mut known, mut ahead) = (last.at.clone(), last.clone(), 0.5 * length);
+        let (mut halving, mut tries) = (1, 0);
+        loop {
+            let is_last = ahead <= f64::EPSILON * self.steps.longest || tries == MOST_TRIES;
             if is_last || TRIES.contains(&halving) {
                 let here = corrected(&self.orbit, &at, &known.tangent).ok().flatten();
                 known = here.unwrap_or(OnCurve { at: at.clone(), ..known });
                 let within = if is_last { BESIDE } else { AROUND };
-                let found = self.border_beside(&known, (itinerary, &beyond), within);
-                if let Some(end) = found.filter(|end| is_last || end.1) {
-                    return end.0;
+                match self.border_beside(&known, (itinerary, &beyond), within) {
+                    Some((end, true)) => return Some(end),
+                    Some((end, false)) if is_last && self.is_beside(&known, itinerary) => {
+                        return Some(end);
+                    }
+                    _ => {}
                 }
             }
             if is_last {
                 break;
             }
-            ahead *= 0.5;
+            tries += 1;
             let from = OnCurve { at: at.clone(), ..known.clone() };
             let expected = predicted(&self.orbit.scales, &from, ahead);
-            match self.orbit.itinerary(&expected) {
+            let found = match self.orbit.itinerary(&expected) {
                 // Nearer to the border less is expected beyond it.
-                Ok(other) if other != itinerary => beyond = other,
-                _ => {
-                    let found = self.near_step(&from, &expected, ahead);
-                    match found.map(|found| (self.orbit.itinerary(&found), found)) {
-                        Some((Ok(own), found)) if own == itinerary => at = found,
-                        Some((Ok(other), _)) => beyond = other,
-                        _ => {}
+                Ok(other) if other != itinerary => Some(Err(other)),
+                _ => self.near_step(&from, &expected, ahead).and_then(|found| {
+                    let own = self.orbit.itinerary(&found).ok()?;
+                    Some(if own == itinerary { Ok(found) } else { Err(own) })
+                }),
+            };
+            match found {
+                Some(Ok(found)) => at = found,
+                other => {
+                    if let Some(Err(pieces)) = other {
+                        beyond = pieces;
                     }
+                    ahead *= 0.5;
+                    halving += 1;
                 }
             }
         }
-        let at = known;
+        if !self.is_beside(&known, itinerary) {
+            return None;
+        }
         let place = first_difference(itinerary, &beyond);
-        let at = point_of(&self.orbit, &at, itinerary.to_vec());
-        BranchEnd::Border { border: Border::Piece, at, beyond, place }
+        let at = point_of(&self.orbit, &known, itinerary.to_vec());
+        Some(BranchEnd::Border { border: Border::Piece, at, beyond, place })
+    }
+
+    /// True if other pieces, or none, lie next to a point along the branch.
+    fn is_beside(&self, at: &OnCurve, itinerary: &[String]) -> bool {
+        let ahead = BOTH_SIDES * self.steps.longest;
+        let next = self.orbit.itinerary(&predicted(&self.orbit.scales, at, ahead));
+        next.map_or(true, |next| next != itinerary)
     }
 
     /// A short step to a point near the expected one: by the slopes of a point nearby, or, where these are others, by the own ones.

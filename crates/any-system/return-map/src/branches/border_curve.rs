@@ -34,7 +34,11 @@ impl<M: MapFamily, F: Fn(f64) -> M> Condition for OnBorder<'_, F> {
         let map = (self.family)(at[last]);
         let scales = DVector::from_element(last, 1.0);
         let orbit = Orbit { map: &map, kind: Kind::Periodic(self.period), scales };
-        let beyond = orbit.itinerary(&at.rows(0, last).into_owned()).ok()?;
+        let beyond = match orbit.itinerary(&at.rows(0, last).into_owned()) {
+            Ok(beyond) => beyond,
+            Err(Error::Stopped { .. }) => return Some(CurveEnd::Stopped),
+            Err(_) => return None,
+        };
         (!self.sides.contains(&beyond)).then_some(CurveEnd::Border { beyond })
     }
 }
@@ -94,7 +98,7 @@ pub fn border_curve<M: MapFamily, F: Fn(f64) -> M>(
     let refused = || Error::BorderNotFollowed { border: format!("{border:?}") };
     let sides = [at.itinerary.clone(), beyond.clone()];
     let found = OrbitBorder::new(&orbit, &start, (&at.itinerary, beyond), *place, BESIDE)
-        .ok_or_else(refused)?;
+        .ok_or_else(|| map.stopped().unwrap_or_else(refused))?;
     let condition = OnBorder { family, period, border: found, sides };
     followed(&condition, &map, (at, second), windows, steps, see)
 }

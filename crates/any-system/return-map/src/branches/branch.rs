@@ -28,7 +28,7 @@ pub struct BranchPoint {
     /// The multipliers: the eigenvalues of the derivative of fⁿ. For an equilibrium the eigenvalues of the derivative of the field.
     pub multipliers: Vec<Complex<f64>>,
     /// How far each multiplier may be from the exact one: an estimate, to first order, from the [errors](crate::Linearized::errors) of the
-    /// derivatives.
+    /// derivatives, and of an orbit of several points from the rounding of its first one.
     pub multiplier_errors: Vec<f64>,
     /// True if the point attracts: all multipliers are inside the unit circle, all eigenvalues of a field left of the imaginary axis.
     pub is_stable: bool,
@@ -117,7 +117,8 @@ pub enum BranchEnd {
         /// What lies there.
         border: Border,
         /// The point on the border, to rounding where the map goes on smoothly beyond it; else the last one that was found on its own
-        /// pieces. Its multipliers are those of the last point before the border: at a grazing they may be infinite.
+        /// pieces: so near to the border as derivatives by differences lead, which at an infinite slope is some 10⁻⁵ of the window. Its
+        /// multipliers are those of the last point before the border: at a grazing they may be infinite.
         at: BranchPoint,
         /// The pieces behind the border, where they are known.
         beyond: Vec<String>,

@@ -45,7 +45,11 @@ pub fn continue_branch<M: MapFamily + ?Sized>(
     check_window(window)?;
     let Branch { period, mut points, mut bifurcations, mut ends } = branch.clone();
     // Both ends are found before one of them grows.
-    let goes_on = |end: usize| -> Result<Option<(Orbit<'_, M>, OnCurve, Vec<String>)>, Error> {
+    let orbit_of = |last: &BranchPoint| {
+        let scales = scales(last.point.len(), last.size, &[window]);
+        Orbit { map, kind, scales }
+    };
+    let goes_on = |end: usize| -> Result<Option<(&BranchPoint, OnCurve)>, Error> {
         let is_open = matches!(
             branch.ends[end],
             BranchEnd::Stopped | BranchEnd::PointLimit | BranchEnd::Window | BranchEnd::Lost { .. }
@@ -58,15 +62,12 @@ pub fn continue_branch<M: MapFamily + ?Sized>(
         let last = inwards(0).filter(|last| is_open && is_inside(last.parameter));
         let Some(last) = last else { return Ok(None) };
         check(map, (&last.point, last.parameter), window, steps)?;
-        let scales = scales(last.point.len(), last.size, &[window]);
-        let orbit = Orbit { map, kind, scales };
-        let first = at_end(&orbit, last, inwards(1))?;
-        Ok(Some((orbit, first, last.itinerary.clone())))
+        Ok(Some((last, at_end(&orbit_of(last), last, inwards(1))?)))
     };
     for (end, found) in [goes_on(0)?, goes_on(1)?].into_iter().enumerate() {
-        let Some((orbit, first, itinerary)) = found else { continue };
-        let mut follower = Follower { orbit, window, steps, see: &mut see };
-        let way = follower.one_way(first, &itinerary);
+        let Some((last, first)) = found else { continue };
+        let mut follower = Follower { orbit: orbit_of(last), window, steps, see: &mut see };
+        let way = follower.one_way(first, &last.itinerary);
         match end {
             0 => {
                 points.splice(0..0, way.points.into_iter().rev());

@@ -59,7 +59,7 @@ pub(super) const ROUNDING: f64 = 1e-14;
 const NOISE: f64 = 1e-8;
 
 /// The slopes of a curve, in units of the scales.
-fn scaled_slopes(curve: &impl Curve, at: &DVector<f64>) -> Result<Uncertain, Error> {
+pub(super) fn scaled_slopes(curve: &impl Curve, at: &DVector<f64>) -> Result<Uncertain, Error> {
     let mut slopes = curve.slopes(at)?;
     for matrix in [&mut slopes.matrix, &mut slopes.errors] {
         for (mut column, scale) in matrix.column_iter_mut().zip(curve.scales().iter()) {

@@ -117,7 +117,8 @@ fn check_doubling<M: MapFamily + ?Sized>(
 /// ```
 ///
 /// # Errors
-/// As [`follow_branch`]. A branch without a doubling ends the cascade, whose doublings stay.
+/// As [`follow_branch`]. A branch without a doubling ends the cascade, whose doublings stay. [`Error::Stopped`] by a watched map: `see` has
+/// received what was found.
 pub fn cascade<M: MapFamily + ?Sized>(
     map: &M,
     period: usize,
@@ -169,7 +170,7 @@ pub fn cascade<M: MapFamily + ?Sized>(
         period *= 2;
         next = branch.bifurcations.into_iter().find(|found| is_doubling(&found));
     }
-    Ok(doublings)
+    map.stopped().map_or(Ok(doublings), Err)
 }
 
 /// The longest step on a doubled branch, as a part of the distance of the last two doublings: some twenty steps up to the next one.

@@ -126,6 +126,9 @@ pub(super) struct Follower<'a, M: ?Sized, S> {
     pub(super) see: &'a mut S,
 }
 
+/// Bifurcations of one kind at the first point that are so close, in units of the scales, are one: a crossing is located to some 10⁻⁹.
+const SAME: f64 = 1e-7;
+
 /// What a step leads to.
 enum Step {
     /// The next point, with the clearances of its orbit and the bifurcations on the way; true if it is the last one, at the end of the window.
@@ -153,7 +156,7 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
         }
     }
 
-    fn both_ways(&mut self, first: OnCurve) -> Result<Branch, Error> {
+    pub(super) fn both_ways(&mut self, first: OnCurve) -> Result<Branch, Error> {
         let itinerary = self.orbit.itinerary(&first.at)?;
         let start = point_of(&self.orbit, &first, itinerary.clone());
         if (self.see)(&start).is_break() {
@@ -178,6 +181,13 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
         let mut backward = self.one_way(back, &itinerary);
         backward.points.reverse();
         backward.located.reverse();
+        // A bifurcation at the first point may be seen from both sides.
+        if let (Some(before), Some(behind)) = (backward.located.last(), forward.located.first())
+            && before.kind == behind.kind
+            && self.is_same(&before.at, &behind.at)
+        {
+            backward.located.pop();
+        }
         let points = backward.points.into_iter().chain([start]).chain(forward.points).collect();
         let bifurcations = backward.located.into_iter().chain(forward.located).collect();
         Ok(Branch {
@@ -267,7 +277,10 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
             Ok(own) if own == itinerary => {}
             Ok(other) => {
                 let length = self.off(last, &next.at).dot(&last.tangent);
-                return Step::Ends(self.border(last, itinerary, other, length));
+                return match self.border(last, itinerary, other, length) {
+                    Some(end) => Step::Ends(end),
+                    None => Step::TooLong(String::from("other pieces of the map are beside it")),
+                };
             }
             Err(error) => return Step::TooLong(error.to_string()),
         }
@@ -279,6 +292,13 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
             Some(located) => Step::To { next, clearances, located, leaves },
             None => Step::TooLong(String::from("another branch passes beside it")),
         }
+    }
+
+    /// True if two points are one.
+    fn is_same(&self, a: &BranchPoint, b: &BranchPoint) -> bool {
+        let of =
+            |point: &BranchPoint| DVector::from_column_slice(&point.point).push(point.parameter);
+        (of(a) - of(b)).component_div(&self.orbit.scales).norm() <= SAME
     }
 
     /// A step along the tangent; `None` if it is too long.
@@ -331,7 +351,9 @@ pub(super) fn point_of<M: MapFamily + ?Sized>(
     itinerary: Vec<String>,
 ) -> BranchPoint {
     let (point, parameter) = split(&found.at);
-    let (multipliers, multiplier_errors) = orbit.uncertain_derivative(found).eigenvalues();
+    let mut derivative = orbit.uncertain_derivative(found);
+    orbit.add_error_of_point(&mut derivative, &found.at);
+    let (multipliers, multiplier_errors) = derivative.eigenvalues();
     let is_stable = orbit.kind.is_stable(&multipliers);
     let (error, size) = (found.error, orbit.scales[0]);
     BranchPoint {

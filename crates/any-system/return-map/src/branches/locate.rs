@@ -8,7 +8,6 @@ use super::orbit::Orbit;
 use super::tests::{TESTS, Test};
 use crate::families::MapFamily;
 use interval_arithmetic::bracketed_root;
-use nalgebra::Complex;
 
 /// Where a test is zero.
 struct Located {
@@ -192,25 +191,39 @@ fn parameter_error<M: MapFamily + ?Sized>(
         return (apart + at.error) * width + rounding;
     }
     let length = (&to.at - &from.at).component_div(&orbit.scales).norm();
-    let (values, errors) = orbit.uncertain_derivative(at).eigenvalues();
+    let mut derivative = orbit.uncertain_derivative(at);
+    orbit.add_error_of_point(&mut derivative, &at.at);
+    let (values, errors) = derivative.eigenvalues();
     let critical = test.nearest(orbit.kind, &values);
     let Some((value, error)) = critical.map(|k| (values[k], errors[k])) else {
         return f64::INFINITY;
     };
-    // The same multiplier at both ends.
-    let near = |point: &OnCurve| {
-        let (values, _) = orbit.uncertain_derivative(point).eigenvalues();
-        let off = |other: &Complex<f64>| (other - value).norm();
-        values.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)))
-    };
-    let change = near(from).zip(near(to)).map_or(0.0, |(a, b)| (a - b).norm());
-    // How far along the branch, in parts of the step; and how the parameter moves there. At a fold it turns.
-    let part = (error / change).min(1.0);
-    let slopes = [from, to].map(|point| point.tangent[last]);
-    let turns = 0.5 * (slopes[1] - slopes[0]).abs() * part;
-    let moved = (at.tangent[last].abs().min(slopes[0].abs().max(slopes[1].abs())) + turns) * part;
-    (moved * length + at.error) * width + rounding
+    // The same multiplier at a distance from the bifurcation: as soon as it is surely another one there, the bifurcation is nearer.
+    let mut distance = NEAREST * length;
+    while distance < length {
+        let beside = [distance, -distance].map(|along| {
+            let expected = predicted(&orbit.scales, at, along);
+            let point = corrected(orbit, &expected, &at.tangent).ok().flatten()?;
+            let (values, _) = orbit.uncertain_derivative(&point).eigenvalues();
+            let off =
+                values.iter().map(|other| (other - value).norm()).fold(f64::INFINITY, f64::min);
+            Some((off, (point.at[last] - at.at[last]).abs()))
+        });
+        if let [Some((one, moved)), Some((two, back))] = beside
+            && one.min(two) > SURE * error
+        {
+            return moved.max(back) + at.error * width + rounding;
+        }
+        distance *= FURTHER;
+    }
+    (to.at[last] - from.at[last]).abs()
 }
+
+/// Beside a bifurcation its multiplier is looked at: from this part of the step on, each time so much further, until it differs by so many
+/// errors.
+const NEAREST: f64 = 1e-15;
+const FURTHER: f64 = 4.0;
+const SURE: f64 = 3.0;
 
 /// So many roundings are in a point that Newton's method has found.
 const SOLVED: f64 = 4.0;

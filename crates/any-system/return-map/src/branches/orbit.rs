@@ -124,6 +124,31 @@ impl<M: MapFamily + ?Sized> Curve for Orbit<'_, M> {
     }
 }
 
+/// So many roundings beside the point of an orbit its derivative is computed again.
+const ROUNDINGS: f64 = 4.0;
+
+impl<M: MapFamily + ?Sized> Orbit<'_, M> {
+    /// Adds what the derivative of an orbit of several points changes with the rounding of its first one, which grows on the way.
+    pub(super) fn add_error_of_point(&self, derivative: &mut Uncertain, at: &DVector<f64>) {
+        if self.times() < 2 {
+            return;
+        }
+        let mut beside = at.clone();
+        let last = beside.len() - 1;
+        for x in beside.iter_mut().take(last) {
+            *x += ROUNDINGS * f64::EPSILON * x.abs().max(self.scales[0] * f64::EPSILON);
+        }
+        let Ok(slopes) = self.slopes(&beside) else { return };
+        for row in 0..last {
+            for axis in 0..last {
+                let shift = self.kind.at_fold() * f64::from(row == axis);
+                let other = slopes.matrix[(row, axis)] + shift;
+                derivative.errors[(row, axis)] += (other - derivative.matrix[(row, axis)]).abs();
+            }
+        }
+    }
+}
+
 impl<M: ?Sized> Orbit<'_, M> {
     /// Dfⁿ, or that of the field, from the slopes of a point of the curve, in units of the scales.
     pub(super) fn derivative(&self, slopes: &DMatrix<f64>) -> DMatrix<f64> {

@@ -1,12 +1,13 @@
 //! Where a branch starts: the point of it near a given one, and what is refused.
 
 use super::branch::BranchPoint;
-use super::curve::{Curve, MOST_NEWTON_STEPS, OnCurve, ROUNDING, corrected};
+use super::curve::{Curve, MOST_NEWTON_STEPS, OnCurve, ROUNDING, corrected, scaled_slopes};
 use super::follow::{BranchSteps, point_of};
 use super::orbit::{Kind, Orbit, split};
 use crate::checks::{check_dimension, check_inside, check_period, check_positive, check_window};
 use crate::error::Error;
 use crate::families::MapFamily;
+use crate::multipliers::null_vector;
 use nalgebra::{DMatrix, DVector};
 
 /// The point of a branch near a start, at a parameter.
@@ -17,19 +18,18 @@ pub(super) fn solved<M: MapFamily + ?Sized>(
     let at = DVector::from_column_slice(start).push(parameter);
     let mut along = DVector::zeros(at.len());
     along[start.len()] = 1.0;
-    corrected(orbit, &at, &along)?.ok_or_else(|| none_near(orbit, &at))
-}
-
-/// An error for a start at which the slopes of the equations have not their full rank, within what is known of them.
-pub(super) fn check_direction<M: ?Sized>(orbit: &Orbit<'_, M>, at: &OnCurve) -> Result<(), Error> {
-    let smallest = at.slopes.clone().singular_values().min();
-    // The equations are fⁿ(x) − x: each rounds as x does.
-    let known = at.errors.norm() + f64::EPSILON * orbit.scales[0];
-    if smallest > known {
-        return Ok(());
+    if let Some(found) = corrected(orbit, &at, &along)? {
+        return Ok(found);
     }
-    let (point, parameter) = split(&at.at);
-    Err(Error::Singular { point, parameter })
+    // At a fold no point is found at a fixed parameter: across the branch there is one.
+    let slopes = scaled_slopes(orbit, &at)?;
+    let along = null_vector(&slopes.matrix.clone().insert_row(start.len(), 0.0));
+    let is_regular = slopes.matrix.singular_values().min() > known(orbit, &slopes.errors);
+    let found = match along.filter(|_| is_regular) {
+        Some(along) => corrected(orbit, &at, &along)?,
+        None => None,
+    };
+    found.ok_or_else(|| none_near(orbit, &at))
 }
 
 /// The error of a search by Newton's method that began at a point and a parameter. At a solution itself the equations are singular.
@@ -41,6 +41,20 @@ pub(super) fn none_near(curve: &impl Curve, at: &DVector<f64>) -> Error {
     }
     let (parameter, steps) = (Some(parameter), MOST_NEWTON_STEPS);
     Error::NoPeriodicPoint { point, parameter, residual, steps }
+}
+
+/// How far slopes in units of the scales are known. The equations of a periodic point are fⁿ(x) − x: each rounds as x does.
+fn known<M: ?Sized>(orbit: &Orbit<'_, M>, errors: &DMatrix<f64>) -> f64 {
+    errors.norm() + orbit.kind.at_fold() * f64::EPSILON * orbit.scales[0]
+}
+
+/// An error for a start at which the slopes of the equations have not their full rank, within what is known of them.
+pub(super) fn check_direction<M: ?Sized>(orbit: &Orbit<'_, M>, at: &OnCurve) -> Result<(), Error> {
+    if at.slopes.clone().singular_values().min() > known(orbit, &at.errors) {
+        return Ok(());
+    }
+    let (point, parameter) = split(&at.at);
+    Err(Error::Singular { point, parameter })
 }
 
 /// The periodic point near a start, and the derivative of fⁿ there.

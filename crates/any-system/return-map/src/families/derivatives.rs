@@ -41,7 +41,8 @@ pub struct Linearized {
     /// The derivatives by the components of the point, and in the last column by the parameter.
     pub slopes: DMatrix<f64>,
     /// How far each derivative may be from the exact one: an estimate. That of differences is what changes with their distance. That of an
-    /// integrated motion is its tolerance for each arc, which grows as neighbours part on the way. That of formulas is rounding.
+    /// integrated motion is its tolerance for each arc, which grows as neighbours part on the way. That of formulas is one rounding of the
+    /// largest: terms that cancel have more.
     pub errors: DMatrix<f64>,
 }
 

@@ -35,13 +35,22 @@ struct Estimated {
 }
 
 impl Estimated {
-    /// `rounding` is that of the value at a distance h, in first derivatives.
-    fn new(jets: Vec<Jet<4>>, change: f64, slopes: &[f64], (h, rounding): (f64, f64)) -> Estimated {
-        let of = |(jet, slope): (&Jet<4>, &f64)| {
+    /// `fine` are the derivatives at half of the distance. `rounding` is that of the value at a distance h, in first derivatives.
+    fn new(
+        (jets, fine): (Vec<Jet<4>>, &[Jet<4>]),
+        change: f64,
+        slopes: &[f64],
+        (h, rounding): (f64, f64),
+    ) -> Estimated {
+        let of = |((jet, fine), slope): ((&Jet<4>, &Jet<4>), &f64)| {
             let [value, first, ..] = jet.0.map(f64::abs);
-            change * slope.max(first) + rounding * f64::EPSILON * (value / h.abs() + first)
+            // Noise of some roundings does not count as a change of the derivative, but as an error of it.
+            let apart = (jet.0[1] - fine.0[1]).abs();
+            change * slope.max(first)
+                + 2.0 * apart
+                + rounding * f64::EPSILON * (value / h.abs() + first)
         };
-        let errors = jets.iter().zip(slopes).map(of).collect();
+        let errors = jets.iter().zip(fine).zip(slopes).map(of).collect();
         Estimated { jets, change, errors }
     }
 }
@@ -143,7 +152,7 @@ fn one_sided(of: &impl Fn(f64) -> Result<Image, Error>, here: &Image, h: f64) ->
     let (coarse, slopes) = seven_on_one_side(of, here, 0.5 * h)?;
     let (fine, _) = seven_on_one_side(of, here, 0.25 * h)?;
     let change = change(&coarse, &fine, &slopes, 0.5 * h);
-    Some(Estimated::new(coarse, change, &slopes, (0.5 * h, ONE_SIDE)))
+    Some(Estimated::new((coarse, &fine), change, &slopes, (0.5 * h, ONE_SIDE)))
 }
 
 /// The derivatives from seven values on one side, at multiples of h, and the slopes of the values.
@@ -194,7 +203,7 @@ fn difference(
     let off = sides.into_iter().try_fold(0.0, |off: f64, (s, found)| {
         Some(off.max(off_expected(&fine, &found?.point, &slopes, s)))
     })?;
-    Some(Estimated::new(coarse, change.max(off), &slopes, (h, BOTH_SIDES)))
+    Some(Estimated::new((coarse, &fine), change.max(off), &slopes, (h, BOTH_SIDES)))
 }
 
 /// The derivatives from the value and the pairs of values at ±4h, ±2h and ±h.

@@ -32,7 +32,7 @@ impl MapFamily for EquationReturns {
         let mut from = start.to_vec();
         for _ in 0..images {
             let arcs = self.next_return(&mut run);
-            let arcs = arcs.map_err(|error| error.from_point(&from, Some(parameter)))?;
+            let arcs = arcs.map_err(|error| error.at_start(&from, Some(parameter)))?;
             let way = Way { arcs, model: model.clone(), begin };
             let image = self.image_after(&way, parameter)?;
             match self.going_on((&way, &model), &run, (&image, parameter))? {

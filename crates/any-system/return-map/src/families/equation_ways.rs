@@ -187,7 +187,7 @@ impl EquationReturns {
         let model = self.model(Some(parameter))?;
         let (mut run, begin) = self.begin(&model, (point, parameter))?;
         let arcs = self.next_return(&mut run);
-        let arcs = arcs.map_err(|error| error.from_point(point, Some(parameter)))?;
+        let arcs = arcs.map_err(|error| error.at_start(point, Some(parameter)))?;
         Ok(Way { arcs, model, begin })
     }
 

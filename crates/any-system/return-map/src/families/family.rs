@@ -75,7 +75,8 @@ pub trait MapFamily: Sync {
     ///
     /// Default: by differences of order six, twice, at two distances. They are shortened until both first derivatives agree to ten
     /// digits; where no distance gives that many, the best one is taken, if it has three. On a smooth map with values to rounding, on
-    /// the scale of max(1, |x|), the first derivative has some twelve digits, the second and the third have eight.
+    /// the scale of max(1, |x|), the first derivative has some twelve digits, the second and the third have eight. A feature that is narrower
+    /// than 10⁻³ of this scale may be passed over: take units in which points, and what the map does to them, are of size 1.
     ///
     /// # Errors
     /// Those of the map. [`Error::Differences`] if it has several pieces there, or no derivative.

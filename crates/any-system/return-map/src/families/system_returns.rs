@@ -42,8 +42,9 @@ pub struct SystemReturns<S, P, C> {
 ///     Model::closed_form(|(), x: &DVector<f64>, t| {
 ///         DVector::from_vec(vec![x[0] + t * (x[1] - t / 2.0), x[1] - t])
 ///     })
-///     .falling("floor", |x: &DVector<f64>| x[0])
-///     .resets(move |_, x| DVector::from_vec(vec![0.0, 1.0 - r * x[1]]))
+///     .falling((), |x: &DVector<f64>| x[0], move |x: &DVector<f64>| {
+///         ((), DVector::from_vec(vec![0.0, 1.0 - r * x[1]]))
+///     })
 /// };
 /// let bounces = returns(1, ball, |v: &[f64], _| ((), DVector::from_vec(vec![0.0, v[0]])),
 ///     |event, _| Some(vec![event.after.as_ref()?.1[1]]), Limits::sampled(100.0, 10, 0.01));
@@ -111,7 +112,7 @@ fn image_of<T: HybridSystem>(
 ) -> Result<Image, Error> {
     let mut arcs = Vec::new();
     let point = next_return(system, start, (limits, false), coordinates, |arc| arcs.push(arc))
-        .map_err(|error| error.from_point(from, Some(parameter)))?;
+        .map_err(|error| error.at_start(from, Some(parameter)))?;
     if !point.iter().all(|x| x.is_finite()) {
         return Err(Error::NoImage { point: from.to_vec(), parameter });
     }

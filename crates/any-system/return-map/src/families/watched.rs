@@ -5,16 +5,28 @@ use super::derivatives::{Linearized, Pushed};
 use super::family::{Image, MapFamily};
 use crate::error::Error;
 use equations::Jet;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Deref};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// A map that is watched.
 #[derive(Debug)]
 pub struct Watched<M, W> {
     map: M,
+    counter: Counter<W>,
+}
+
+/// What counts the images of a map, and of its continuations beyond borders.
+#[derive(Debug)]
+struct Counter<W> {
     watch: W,
     images: AtomicUsize,
     stopped: AtomicBool,
+}
+
+/// A map with the counter of another one.
+struct Counted<'c, M, W> {
+    map: M,
+    counter: &'c Counter<W>,
 }
 
 /// The same map. `watch` receives the number of images so far, after each one, also from several threads. If it breaks, there are no further
@@ -35,18 +47,20 @@ pub fn watched<M: MapFamily, W: Fn(usize) -> ControlFlow<()> + Sync>(
     map: M,
     watch: W,
 ) -> Watched<M, W> {
-    Watched { map, watch, images: AtomicUsize::new(0), stopped: AtomicBool::new(false) }
+    let (images, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
+    Watched { map, counter: Counter { watch, images, stopped } }
 }
 
-impl<M: MapFamily, W: Fn(usize) -> ControlFlow<()> + Sync> Watched<M, W> {
-    fn error(&self) -> Error {
-        Error::Stopped { images: self.images.load(Ordering::Relaxed) }
+impl<W: Fn(usize) -> ControlFlow<()>> Counter<W> {
+    fn error(&self) -> Option<Error> {
+        let images = self.images.load(Ordering::Relaxed);
+        self.stopped.load(Ordering::Relaxed).then_some(Error::Stopped { images })
     }
 
     /// What `of` gives, unless the work was stopped.
     fn counted<R>(&self, of: impl FnOnce() -> Result<R, Error>) -> Result<R, Error> {
-        if self.stopped.load(Ordering::Relaxed) {
-            return Err(self.error());
+        if let Some(error) = self.error() {
+            return Err(error);
         }
         let result = of();
         self.count();
@@ -60,13 +74,19 @@ impl<M: MapFamily, W: Fn(usize) -> ControlFlow<()> + Sync> Watched<M, W> {
     }
 }
 
+impl<M: MapFamily, W> Watched<M, W> {
+    fn own(&self) -> Counted<'_, &M, W> {
+        Counted { map: &self.map, counter: &self.counter }
+    }
+}
+
 impl<M: MapFamily, W: Fn(usize) -> ControlFlow<()> + Sync> MapFamily for Watched<M, W> {
     fn dimension(&self) -> usize {
         self.map.dimension()
     }
 
     fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error> {
-        self.counted(|| self.map.image(point, parameter))
+        self.own().image(point, parameter)
     }
 
     fn orbit(
@@ -76,27 +96,15 @@ impl<M: MapFamily, W: Fn(usize) -> ControlFlow<()> + Sync> MapFamily for Watched
         images: usize,
         see: &mut dyn FnMut(Image) -> ControlFlow<()>,
     ) -> Result<(), Error> {
-        if self.stopped.load(Ordering::Relaxed) {
-            return Err(self.error());
-        }
-        let mut stopped = false;
-        self.map.orbit(start, parameter, images, &mut |image| {
-            self.count();
-            stopped = self.stopped.load(Ordering::Relaxed);
-            match stopped {
-                true => ControlFlow::Break(()),
-                false => see(image),
-            }
-        })?;
-        if stopped { Err(self.error()) } else { Ok(()) }
+        self.own().orbit(start, parameter, images, see)
     }
 
     fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Pushed, Error> {
-        self.counted(|| self.map.pushed(curve, parameter))
+        self.own().pushed(curve, parameter)
     }
 
     fn linearized(&self, point: &[f64], parameter: f64) -> Result<Linearized, Error> {
-        self.counted(|| self.map.linearized(point, parameter))
+        self.own().linearized(point, parameter)
     }
 
     fn clearances(
@@ -104,7 +112,7 @@ impl<M: MapFamily, W: Fn(usize) -> ControlFlow<()> + Sync> MapFamily for Watched
         curve: &[Jet<4>],
         parameter: Jet<4>,
     ) -> Result<Option<Vec<Clearance>>, Error> {
-        self.counted(|| self.map.clearances(curve, parameter))
+        self.own().clearances(curve, parameter)
     }
 
     fn border(
@@ -122,10 +130,65 @@ impl<M: MapFamily, W: Fn(usize) -> ControlFlow<()> + Sync> MapFamily for Watched
         itinerary: &[String],
         border: Option<&BorderSite>,
     ) -> Result<Box<dyn MapFamily + '_>, Error> {
-        self.map.along(itinerary, border)
+        let map = self.map.along(itinerary, border)?;
+        Ok(Box::new(Counted { map, counter: &self.counter }))
     }
 
     fn stopped(&self) -> Option<Error> {
-        self.stopped.load(Ordering::Relaxed).then(|| self.error())
+        self.counter.error()
+    }
+}
+
+impl<M: Deref<Target: MapFamily> + Sync, W: Fn(usize) -> ControlFlow<()> + Sync> MapFamily
+    for Counted<'_, M, W>
+{
+    fn dimension(&self) -> usize {
+        self.map.dimension()
+    }
+
+    fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error> {
+        self.counter.counted(|| self.map.image(point, parameter))
+    }
+
+    fn orbit(
+        &self,
+        start: &[f64],
+        parameter: f64,
+        images: usize,
+        see: &mut dyn FnMut(Image) -> ControlFlow<()>,
+    ) -> Result<(), Error> {
+        if let Some(error) = self.counter.error() {
+            return Err(error);
+        }
+        let mut stopped = None;
+        self.map.orbit(start, parameter, images, &mut |image| {
+            self.counter.count();
+            stopped = self.counter.error();
+            match stopped {
+                Some(_) => ControlFlow::Break(()),
+                None => see(image),
+            }
+        })?;
+        stopped.map_or(Ok(()), Err)
+    }
+
+    fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Pushed, Error> {
+        self.counter.counted(|| self.map.pushed(curve, parameter))
+    }
+
+    fn linearized(&self, point: &[f64], parameter: f64) -> Result<Linearized, Error> {
+        self.counter.counted(|| self.map.linearized(point, parameter))
+    }
+
+    fn clearances(
+        &self,
+        curve: &[Jet<4>],
+        parameter: Jet<4>,
+    ) -> Result<Option<Vec<Clearance>>, Error> {
+        self.counter.counted(|| self.map.clearances(curve, parameter))
+    }
+
+    fn stopped(&self) -> Option<Error> {
+        self.counter.error()
     }
 }

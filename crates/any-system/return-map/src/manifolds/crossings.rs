@@ -1,7 +1,7 @@
 //! Where two manifolds meet: homoclinic and heteroclinic points.
 
 use super::chords::meeting;
-use super::curve::{ManifoldCurve, distance};
+use super::curve::ManifoldCurve;
 use super::manifold::UnstableManifold;
 use crate::checks::check_dimension;
 use crate::error::Error;
@@ -57,15 +57,61 @@ pub fn manifold_crossings<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
             [curve.numbers[k + 1] - curve.numbers[k], other.numbers[j + 1] - other.numbers[j]];
         let shorter = (b - a).norm().min((d - c).norm());
         let crossing = solved((first, second), start, widths, shorter);
+        // Found from two pairs of chords it is one, at the same place of both curves.
         let is_known = |new: &ManifoldCrossing| {
-            let near = |old: &ManifoldCrossing| {
-                distance(&old.point, &new.point) <= 10.0 * (old.error + new.error)
+            let same = |old: &ManifoldCrossing| {
+                (0..2).all(|k| (old.numbers[k] - new.numbers[k]).abs() <= SAME * widths[k])
             };
-            found.iter().any(near)
+            found.iter().any(same)
         };
-        found.extend(crossing.filter(|new| !is_known(new)));
+        let is_new =
+            |new: &ManifoldCrossing| !is_known(new) && passes((first, second), new, widths);
+        found.extend(crossing.filter(is_new));
     }
     first.stopped().or_else(|| second.stopped()).map_or(Ok(found), Err)
+}
+
+/// Crossings at numbers that are so close, in parts of the distance of neighbouring points, are one.
+const SAME: f64 = 1e-4;
+
+/// So far from a crossing, in units of the error of both curves, the first one must be on two sides of the second one.
+const APART: f64 = 100.0;
+
+/// True if the first manifold passes from one side of the second one to the other: manifolds that coincide touch everywhere.
+fn passes<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
+    (first, second): (&UnstableManifold<'_, A>, &UnstableManifold<'_, B>),
+    crossing: &ManifoldCrossing,
+    widths: [f64; 2],
+) -> bool {
+    let exact = exactness(&crossing.point);
+    let [t, r] = crossing.numbers;
+    let side = |by: f64| {
+        let (x, _) = moving(first, t + by)?;
+        // The nearest point of the second one, by Newton's steps along it.
+        let mut at = r;
+        for _ in 0..MOST_STEPS {
+            let (y, v) = moving(second, at)?;
+            let step = (x - y).dot(&v) / v.norm_squared();
+            at += step;
+            if step.abs() <= f64::EPSILON * at.abs().max(1.0) || (at - r).abs() > widths[1] {
+                break;
+            }
+        }
+        let (y, v) = moving(second, at)?;
+        Some(v.perp(&(x - y)) / v.norm())
+    };
+    let Some((_, u)) = moving(first, t) else { return false };
+    let by = APART * exact / (u.norm() * pxfm::f_sin(crossing.angle));
+    let by = by.min(0.5 * widths[0]);
+    match (side(by), side(-by)) {
+        (Some(a), Some(b)) => a * b < 0.0 && a.abs().min(b.abs()) > 0.1 * APART * exact,
+        _ => false,
+    }
+}
+
+/// How far both curves are known at a point.
+fn exactness(point: &[f64; 2]) -> f64 {
+    EXACT * point.iter().fold(1.0, |size: f64, x| size.max(x.abs()))
 }
 
 fn plane(point: &[f64]) -> Option<Vector2<f64>> {
@@ -126,7 +172,7 @@ fn solved<A: MapFamily + ?Sized, B: MapFamily + ?Sized>(
         (t, r) = (t + step[0], r + step[1]);
     }
     best.filter(|best| {
-        let exact = EXACT * best.point.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
+        let exact = exactness(&best.point);
         // Both curves are known to this distance: at a smaller angle the crossing could be anywhere between the points.
         best.error <= exact && best.angle * shorter > exact
     })

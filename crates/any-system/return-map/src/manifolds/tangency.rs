@@ -93,7 +93,8 @@ pub fn manifold_tangency<'m, A: MapFamily + ?Sized + 'm, B: MapFamily + ?Sized +
         }
         _ => {
             let none = Error::NoTangency { parameter: at[2], residual: off.norm() };
-            Err(one.stopped().unwrap_or(none))
+            let stopped = one.stopped().or_else(|| second(at[2]).ok()?.stopped());
+            Err(stopped.unwrap_or(none))
         }
     }
 }

@@ -181,7 +181,8 @@ fn tests(root: &DMatrix<f64>) -> Option<Vec<(f64, DVector<f64>)>> {
 
 /// The attracting periodic orbits, of periods up to `longest`, on which the orbits of some seeds settle after `transient` images. Each is
 /// found once, in the order of the seeds. A seed whose orbit has no image, or settles on none of them, adds none: [`orbit_fate`] says
-/// what becomes of it. `progress` receives the number of finished seeds; if it breaks, no further one begins.
+/// what becomes of it. `progress` receives the number of finished seeds; if it breaks, no further one begins. Seeds
+/// after a stop of a watched map add none: `MapFamily::stopped` tells.
 ///
 /// ```
 /// use return_map::{periodic_attractors, scalar_family};

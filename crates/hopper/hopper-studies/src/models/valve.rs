@@ -7,8 +7,8 @@ use example_systems::valve::{LARGEST_FLOW, SMALLEST_FLOW, valve_equations};
 use hybrid_system::{Label, Tolerances};
 use journal_figures::{Frame, LabelledBranch, Svg, csv_file, ticks};
 use return_map::{
-    Branch, BranchEnd, BranchSteps, EquationReturns, FormulaMap, OrbitLength, Seeds,
-    bifurcation_diagram, doubled_branch, follow_branch, follow_equilibria,
+    Branch, BranchSteps, EquationReturns, FormulaMap, OrbitLength, Seeds, bifurcation_diagram,
+    doubled_branch, follow_branch, follow_equilibria,
 };
 use std::ops::ControlFlow::Continue;
 
@@ -76,12 +76,9 @@ pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
         branches.push(drawn(&doubled_branch(&returns, (1, doubling), RATES, steps, see)?));
     }
     // Behind the grazing the disc does not hit its seat.
-    if let BranchEnd::Border { at, .. } = &once.ends[1] {
-        let start = (&at.point[..], at.parameter + BESIDE);
-        let free = follow_branch(&returns, 1, start, (at.parameter, RATES.1), steps, see)?;
-        // It ends where the orbit shrinks to the equilibrium, whose name is there.
-        branches.push(LabelledBranch { marks: Vec::new(), ..drawn(&free) });
-    }
+    let free = follow_behind(&returns, 1, &once.ends[1], RATES, steps, see)?;
+    // It ends where the orbit shrinks to the equilibrium, whose name is there.
+    branches.push(LabelledBranch { marks: Vec::new(), ..drawn(&free) });
     let field = valve.field(Label::new("open")?)?;
     let field = FormulaMap::new(field, "flow")?;
     let rest = (&REST[..], REST[0] * REST[2].sqrt());
@@ -117,6 +114,3 @@ fn drawn(branch: &Branch) -> LabelledBranch {
 
 const BRANCH: &str = "#1f4e96";
 const MARKED: &str = "#d03a2b";
-
-/// How far behind the grazing the branch of free orbits begins.
-const BESIDE: f64 = 0.02;
