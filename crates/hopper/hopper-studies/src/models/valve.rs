@@ -8,7 +8,7 @@ use hybrid_system::{Label, Tolerances};
 use journal_figures::{Frame, LabelledBranch, Svg, csv_file, ticks};
 use return_map::{
     Branch, BranchSteps, EquationReturns, FormulaMap, OrbitLength, Seeds, bifurcation_diagram,
-    doubled_branch, follow_branch, follow_equilibria,
+    doubled_branch, follow_behind, follow_branch, follow_equilibria,
 };
 use std::ops::ControlFlow::Continue;
 
