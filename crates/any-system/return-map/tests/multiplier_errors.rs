@@ -167,6 +167,39 @@ fn beside_a_saddle() {
     }
 }
 
+/// Orbits of the logistic map at r = 4 from sin²(πk/(2ⁿ − 1)) have the multiplier ±2ⁿ. The rounding of the first point grows as much on
+/// the way, and the derivative along the orbit is another one.
+#[test]
+fn of_long_orbits() {
+    let names = equations::Names::new(&["x"], &[("r", "4")]).unwrap();
+    let formulas = equations::Formulas::from_text(names, &["r*x*(1 - x)"]).unwrap();
+    let formula = FormulaMap::new(&formulas, "r").unwrap();
+    let closure = scalar_family(|x, r| r * x * (1.0 - x));
+    for (n, k) in [(2, 1.0f64), (5, 1.0), (8, 1.0), (12, 1.0), (16, 1.0), (12, 1001.0), (20, 1.0)] {
+        let x = (std::f64::consts::PI * k / (2f64.powi(n) - 1.0)).sin().powi(2);
+        for map in [&formula as &dyn MapFamily, &closure] {
+            let found = point_at(&map, n as usize, &[x], 4.0);
+            let off = (found.multipliers[0].norm() - 2f64.powi(n)).abs();
+            assert!(off <= found.multiplier_errors[0], "{n} {k}: {off:e} {found:?}");
+        }
+    }
+}
+
+/// A multiplier that passes −1 as p³ or p⁵: where is known to the root of its error.
+#[test]
+fn of_flat_bifurcations() {
+    for power in [1, 3, 5] {
+        let map = scalar_family(move |x, p: f64| -x + p.powi(power) * x - x * x * x);
+        let steps = BranchSteps::default();
+        for (start, window) in [(-0.5, (-1.0, 1.0)), (-0.09, (-0.1, 0.1))] {
+            let start = (&[0.0][..], start);
+            let branch = follow_branch(&map, 1, start, window, steps, |_| Continue(())).unwrap();
+            let [found] = &branch.bifurcations[..] else { panic!("{:?}", branch.bifurcations) };
+            assert!(found.at.parameter.abs() <= found.error && found.error < 0.02, "{found:?}");
+        }
+    }
+}
+
 /// Closed forms: of closures, whose derivatives are differences.
 #[test]
 fn bifurcations_are_where_they_say() {

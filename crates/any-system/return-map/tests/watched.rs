@@ -2,14 +2,16 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
+use hybrid_system::Equations;
 use return_map::{
-    ApproximateMap, BifurcationKind, BranchEnd, BranchSteps, Error, Image, ManifoldEnd,
-    ManifoldSteps, MapFamily, OrbitLength, PeriodicAttractor, Seeds, UnstableManifold,
-    bifurcation_diagram, cascade, continue_branch, doubled_branch, family, follow_branch,
-    lyapunov_exponents, manifold_crossings, map_pieces, periodic_attractors, rotation_number,
-    scalar_family, watched,
+    ApproximateMap, BifurcationKind, BranchEnd, BranchSteps, CurveEnd, EquationReturns, Error,
+    Image, ManifoldEnd, ManifoldSteps, MapFamily, OrbitLength, PeriodicAttractor, Seeds,
+    UnstableManifold, bifurcation_diagram, border_curve, cascade, continue_branch, doubled_branch,
+    family, follow_branch, lyapunov_exponents, manifold_crossings, map_pieces, periodic_attractors,
+    rotation_number, scalar_family, watched,
 };
 use std::ops::ControlFlow::{self, Break, Continue};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn up_to(most: usize) -> impl Fn(usize) -> ControlFlow<()> + Sync {
     move |images| if images < most { Continue(()) } else { Break(()) }
@@ -60,6 +62,50 @@ fn branches() {
     };
     let found = cascade(&logistic, 1, (&[0.6], 2.8), (2.5, 4.0), steps, 9, see).unwrap();
     assert_eq!(found.len(), 2);
+}
+
+/// The curve of a grazing follows the map beyond it, which is watched as well.
+#[test]
+fn curves_of_borders() {
+    let throw = |ceiling: f64| {
+        let ball =
+            Equations::new(&["height", "speed"], &[("p", "1"), ("top", &format!("{ceiling:?}"))])
+                .mode_text("flight", &["speed", "-1"])
+                .rising_text("ceiling", "height - top")
+                .falling_text("floor", "height")
+                .resets_text(&["0", "p - speed/10"]);
+        EquationReturns::new(&ball, "p", ("flight", "floor"), &["speed"]).unwrap()
+    };
+    let steps = BranchSteps { first: 0.1, longest: 0.4, ..BranchSteps::default() };
+    let start = (&[1.0 / 0.9][..], 1.0);
+    let branch = follow_branch(&throw(1.0), 1, start, (0.5, 2.0), steps, |_| Continue(())).unwrap();
+    let end = (&branch.ends[1], 1.0);
+    let windows = ((0.5, 2.0), (0.6, 1.4));
+    let curve = border_curve(&throw, 1, end, windows, steps, |_| Continue(())).unwrap();
+    for found in &curve.points {
+        let [p, ceiling] = found.parameters;
+        assert!((p - 0.9 * (2.0 * ceiling).sqrt()).abs() < 1e-9, "{found:?}");
+    }
+    let images = AtomicUsize::new(0);
+    let curve = |most: usize| {
+        images.store(0, Ordering::Relaxed);
+        let count = |_| match images.fetch_add(1, Ordering::Relaxed) < most {
+            true => Continue(()),
+            false => Break(()),
+        };
+        let map = |ceiling: f64| watched(throw(ceiling), count);
+        border_curve(&map, 1, end, windows, steps, |_| Continue(()))
+    };
+    let whole = curve(usize::MAX).unwrap();
+    assert_eq!(whole.ends, [CurveEnd::Window, CurveEnd::Window]);
+    let all = images.load(Ordering::Relaxed);
+    assert!(all > 20, "{all}");
+    for most in (0..all).step_by(1 + all / 40) {
+        match curve(most) {
+            Err(error) => assert!(matches!(error, Error::Stopped { .. }), "{most}: {error:?}"),
+            Ok(curve) => assert!(curve.ends.contains(&CurveEnd::Stopped), "{most}: {curve:?}"),
+        }
+    }
 }
 
 #[test]

@@ -176,21 +176,24 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
     }
 }
 
-/// The image of a point, and its parameter. On a border the map may refuse to say on which side a point is: then a point beside it, at
-/// another parameter, on the pieces `own`.
+/// The image of a point, with the point and its parameter. On a border the map may refuse to say on which side a point is: then a point
+/// beside it, at another parameter or with another component, on the pieces `own`.
 fn beside<M: MapFamily + ?Sized>(
     map: &M,
     point: &[f64],
     parameter: f64,
     own: &[String],
-) -> Option<(Image, f64)> {
+) -> Option<(Image, Vec<f64>, f64)> {
     if let Ok(image) = map.image(point, parameter) {
-        return Some((image, parameter));
+        return Some((image, point.to_vec(), parameter));
     }
-    let by = BOTH_SIDES * parameter.abs().max(1.0);
-    [parameter - by, parameter + by].into_iter().find_map(|parameter| {
-        let image = map.image(point, parameter).ok()?;
-        own.starts_with(&image.itinerary).then_some((image, parameter))
+    (0..2 * (point.len() + 1)).find_map(|k| {
+        let (mut point, mut parameter) = (point.to_vec(), parameter);
+        // The parameter comes first.
+        let moved = if k < 2 { &mut parameter } else { &mut point[k / 2 - 1] };
+        *moved += if k % 2 == 0 { -BOTH_SIDES } else { BOTH_SIDES } * moved.abs().max(1.0);
+        let image = map.image(&point, parameter).ok()?;
+        own.starts_with(&image.itinerary).then_some((image, point, parameter))
     })
 }
 
@@ -218,14 +221,15 @@ impl OrbitBorder {
         let (mut pieces, mut found, mut before) = (Vec::new(), None, 0);
         for image in 0..period {
             let rest = own.get(before..)?;
-            let (next, parameter) = beside(orbit.map, &point, parameter, rest)?;
+            let (next, point_beside, parameter) = beside(orbit.map, &point, parameter, rest)?;
             // On the border itself the map does not tell which pieces it meets.
             let is_behind = place >= before + next.itinerary.len().max(1);
             if found.is_some() || is_behind && rest.starts_with(&next.itinerary) {
                 pieces.push(next.itinerary.clone());
             } else {
                 let sides = (rest, beyond.get(before..)?);
-                let site = orbit.map.border((&point, parameter), sides, place - before, within);
+                let at = (&point_beside[..], parameter);
+                let site = orbit.map.border(at, sides, place - before, within);
                 pieces.push(site.itinerary.clone());
                 found = Some((image, site));
             }

@@ -352,7 +352,7 @@ pub(super) fn point_of<M: MapFamily + ?Sized>(
 ) -> BranchPoint {
     let (point, parameter) = split(&found.at);
     let mut derivative = orbit.uncertain_derivative(found);
-    orbit.add_error_of_point(&mut derivative, &found.at);
+    orbit.add_error_of_point(&mut derivative, found);
     let (multipliers, multiplier_errors) = derivative.eigenvalues();
     let is_stable = orbit.kind.is_stable(&multipliers);
     let (error, size) = (found.error, orbit.scales[0]);

@@ -192,7 +192,7 @@ fn parameter_error<M: MapFamily + ?Sized>(
     }
     let length = (&to.at - &from.at).component_div(&orbit.scales).norm();
     let mut derivative = orbit.uncertain_derivative(at);
-    orbit.add_error_of_point(&mut derivative, &at.at);
+    orbit.add_error_of_point(&mut derivative, at);
     let (values, errors) = derivative.eigenvalues();
     let critical = test.nearest(orbit.kind, &values);
     let Some((value, error)) = critical.map(|k| (values[k], errors[k])) else {

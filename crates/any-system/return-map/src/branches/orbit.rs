@@ -124,19 +124,21 @@ impl<M: MapFamily + ?Sized> Curve for Orbit<'_, M> {
     }
 }
 
-/// So many roundings beside the point of an orbit its derivative is computed again.
-const ROUNDINGS: f64 = 4.0;
+/// So many roundings beside the point of an orbit its derivative is computed again, at least.
+const ROUNDINGS: f64 = 16.0;
 
 impl<M: MapFamily + ?Sized> Orbit<'_, M> {
     /// Adds what the derivative of an orbit of several points changes with the rounding of its first one, which grows on the way.
-    pub(super) fn add_error_of_point(&self, derivative: &mut Uncertain, at: &DVector<f64>) {
+    pub(super) fn add_error_of_point(&self, derivative: &mut Uncertain, of: &OnCurve) {
         if self.times() < 2 {
             return;
         }
-        let mut beside = at.clone();
+        let mut beside = of.at.clone();
         let last = beside.len() - 1;
+        // Some Newton steps, or some roundings.
+        let step = 4.0 * of.error * self.scales[0];
         for x in beside.iter_mut().take(last) {
-            *x += ROUNDINGS * f64::EPSILON * x.abs().max(self.scales[0] * f64::EPSILON);
+            *x += step.max(ROUNDINGS * f64::EPSILON * x.abs());
         }
         let Ok(slopes) = self.slopes(&beside) else { return };
         for row in 0..last {

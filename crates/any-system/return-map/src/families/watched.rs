@@ -64,7 +64,8 @@ impl<W: Fn(usize) -> ControlFlow<()>> Counter<W> {
         }
         let result = of();
         self.count();
-        result
+        // The image at which the watch breaks is not used: a family of maps, each of which is new, stops at once.
+        self.error().map_or(result, Err)
     }
 
     fn count(&self) {
