@@ -92,6 +92,22 @@ fn borders_between_pieces() {
     assert_eq!(found.border(&map, 1), None);
 }
 
+/// An observer, which changes nothing, is touched all the same: a ball that reaches the height 1 where v²/2 = 1.
+#[test]
+fn an_observer_is_grazed() {
+    let ball = Equations::new(&["height", "speed"], &[("p", "1")])
+        .mode_text("flight", &["speed", "-1"])
+        .rising_text("mark", "height - 1")
+        .crossing()
+        .falling_text("floor", "height")
+        .resets_text(&["0", "p - speed/10"]);
+    let map = EquationReturns::new(&ball, "p", ("flight", "floor"), &["speed"]).unwrap();
+    let branch = followed(&map, (&[1.0 / 0.9], 1.0), (0.5, 2.0));
+    let (kind, at) = border(&branch.ends[1]);
+    assert_eq!(kind, grazing("flight: mark"));
+    assert!((at - 0.9 * 2f64.sqrt()).abs() < 1e-12, "{at}");
+}
+
 /// From one side of a border to the other, and back to it.
 #[test]
 fn behind_a_border() {

@@ -10,6 +10,30 @@ use return_map::{
 };
 use std::ops::ControlFlow::{Break, Continue};
 
+/// A cart with a saddle ẋ = x, ẏ = −y, once in a time unit: at x = 4 it is thrown to x = 6. Its manifold has a gap there.
+#[test]
+fn a_manifold_is_cut_at_a_surface() {
+    let cart = Equations::new(&["x", "v"], &[("p", "0")])
+        .mode_text("near", &["x", "p - v"])
+        .rising_text("ramp", "x - 4")
+        .resets_text(&["x + 2", "v"])
+        .to("far")
+        .clock_text("strobe", "1", "1")
+        .mode_text("far", &["x - 2", "p - v"])
+        .clock_text("strobe", "1", "1");
+    let map = EquationReturns::new(&cart, "p", ("near", "strobe"), &["x", "v"]).unwrap();
+    let manifold = UnstableManifold::new(&map, 1, (&[0.0, 0.0], 0.0), 1.0).unwrap();
+    let steps = ManifoldSteps { length: 6.0, ..ManifoldSteps::default() };
+    let curve = manifold.curve(&steps, |_| Continue(())).unwrap();
+    let [cut] = &curve.cuts[..] else { panic!("{:?} {:?}", curve.cuts, curve.end) };
+    let [before, behind] = &curve.points[cut.after..=cut.after + 1] else { panic!() };
+    assert!(
+        (before[0] - 4.0).abs() < 1e-9 && (behind[0] - 6.0).abs() < 1e-9,
+        "{before:?} {behind:?}"
+    );
+    assert_eq!(cut.pieces[1], Some(String::from("near: ramp")));
+}
+
 /// The basins of two attractors on a raster, whose edges must be within a pixel of the stable manifold of a saddle; from the saddle orbits
 /// lead to both.
 fn check_boundary(

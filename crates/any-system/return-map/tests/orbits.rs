@@ -38,6 +38,27 @@ fn infinitely_many_returns() {
     assert!(exponents.is_err(), "{exponents:?}");
 }
 
+/// Fates and diagrams have the same bits on one and on three threads.
+#[cfg(feature = "parallel")]
+#[test]
+fn the_same_bits_on_any_number_of_threads() {
+    let logistic = scalar_family(|x, r| r * x * (1.0 - x));
+    let starts: Vec<Vec<f64>> = (1..200).map(|k| vec![f64::from(k) / 200.0]).collect();
+    let parameters: Vec<f64> = (0..100).map(|k| 3.5 + 0.005 * f64::from(k)).collect();
+    let length = OrbitLength { transient: 50, keep: 20 };
+    let all = || {
+        let seeds = &starts[..3];
+        let diagrams = [Seeds::Fresh, Seeds::Carried].map(|from| {
+            bifurcation_diagram(&logistic, &parameters, (seeds, from), length, |_| Continue(()))
+        });
+        (orbit_fates(&logistic, (&starts, 3.9), &[], 100, |_| Continue(())), diagrams)
+    };
+    let on = |threads: usize| {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(all)
+    };
+    assert_eq!(on(1), on(3));
+}
+
 /// A rod falls from the upright to one side or to the other, by events that end the run, after some returns.
 #[test]
 fn two_surfaces_that_end_a_run() {

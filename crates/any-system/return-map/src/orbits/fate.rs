@@ -51,8 +51,28 @@ pub enum OrbitEnd {
 /// # Ok::<(), return_map::Error>(())
 /// ```
 ///
-/// Attractors are those of this parameter. For basins take it as labels, say of a region:
-/// `|x| match orbit_fate(&map, (x, p), &known, 1000).end { OrbitEnd::Attractor(k) => Label::from(k as u8), … }`.
+/// Attractors are those of this parameter. For basins fates are labels:
+///
+/// ```
+/// use basin_of_attraction::{Grid, Interval, Label, raster};
+/// use return_map::{OrbitEnd, PeriodicAttractor, family, orbit_fate};
+/// // Two wells: ẋ = x − x³, by the map of a time step.
+/// let wells = family(2, |x: &[f64], p| Ok(vec![x[0] + p * (x[0] - x[0].powi(3)), 0.5 * x[1]]));
+/// let known = [
+///     PeriodicAttractor::new(&wells, 1, (&[-1.0, 0.0], 0.1))?,
+///     PeriodicAttractor::new(&wells, 1, (&[1.0, 0.0], 0.1))?,
+/// ];
+/// let label = |&x: &f64, y: f64| match orbit_fate(&wells, (&[x, y], 0.1), &known, 1000).end {
+///     OrbitEnd::Attractor(0) => Label::from(0),
+///     OrbitEnd::Attractor(_) => Label::from(1),
+///     _ => Label::UNDECIDED,
+/// };
+/// let side = Interval::new(-1.5, 1.5)?;
+/// let grid = Grid { x: side, y: side, columns: 10, rows: 10 };
+/// let image = raster(grid, |x| x, label, |_| std::ops::ControlFlow::Continue(()))?;
+/// assert_eq!(image.counts(), [(Label::from(0), 50), (Label::from(1), 50)]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn orbit_fate<M: MapFamily + ?Sized>(
     map: &M,
     (start, parameter): (&[f64], f64),
