@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 /// The first point is no further from the border than this, in units of the size of the point: others belong to other branches.
 const NEAR: f64 = 0.1;
 
-/// How often the distance from the border is doubled, from the shortest step on: up to a tenth of the window for the default steps.
+/// How often the distance from the border is doubled, from the shortest step on: up to a twentieth of the window for the default steps.
 const DOUBLINGS: i32 = 30;
 
 /// The branch with the pieces that lie behind a border at which another one has ended: in the direction in which there is one, where the orbit
