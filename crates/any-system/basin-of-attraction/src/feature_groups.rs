@@ -56,6 +56,27 @@ impl FeatureGroups {
         }
     }
 
+    /// Groups dense vectors, each of an orbit of its own: a vector is dense if `fewest` of them are within the radius of it, its own among
+    /// them. Dense vectors within the radius of one another are of one group; the others are of none. Groups are numbered from 1 in the order of
+    /// their first vectors. [`suggested_radius`](crate::suggested_radius) has a radius.
+    ///
+    /// ```
+    /// use basin_of_attraction::{FeatureGroups, Label};
+    /// let features: Vec<Vec<f64>> = [0.0, 0.1, 5.0, 5.1, 0.05, 9.0].map(|x| vec![x]).to_vec();
+    /// let groups = FeatureGroups::dense(&features, 0.5, 2)?;
+    /// assert_eq!(groups.label(&[0.2]), Label::from(1));
+    /// assert_eq!(groups.label(&[9.0]), Label::UNDECIDED);
+    /// assert_eq!(groups.nearest(&[9.0]), Some((Label::from(2), 3.9000000000000004)));
+    /// # Ok::<(), basin_of_attraction::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`from_templates`](Self::from_templates); [`Error::TooManySamples`] for more than 20 000 vectors.
+    pub fn dense(vectors: &[Vec<f64>], radius: f64, fewest: usize) -> Result<Self, Error> {
+        let numbered: Vec<(usize, Vec<f64>)> = vectors.iter().cloned().enumerate().collect();
+        FeatureGroups::by_density(&numbered, radius, fewest)
+    }
+
     /// Groups dense vectors. Vector k comes from `orbits[k].0`.
     ///
     /// A vector is dense if vectors of `fewest` orbits are within the radius of it, its own among them. Dense
@@ -121,6 +142,13 @@ impl FeatureGroups {
         }
     }
 
+    /// The label of the nearest vector, however far it is, and its distance; `None` without vectors, and for a feature that is not finite or of
+    /// another length. Of several ones at the same distance the first counts.
+    pub fn nearest(&self, feature: &[f64]) -> Option<(Label, f64)> {
+        let all = self.vectors.iter().map(|(label, vector)| (*label, distance(vector, feature)));
+        all.filter(|(_, off)| off.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
     /// The labels of the groups.
     pub fn labels(&self) -> BTreeSet<Label> {
         self.vectors.iter().map(|(label, _)| *label).collect()
@@ -154,7 +182,7 @@ fn label_of(number: usize) -> Result<Label, Error> {
 }
 
 /// The Euclidean distance; NaN for vectors of different lengths.
-fn distance(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn distance(a: &[f64], b: &[f64]) -> f64 {
     if a.len() != b.len() {
         return f64::NAN;
     }
@@ -162,7 +190,10 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Tests the radius, and that all vectors are finite and of one length.
-fn check<'a>(vectors: impl Iterator<Item = &'a Vec<f64>>, radius: f64) -> Result<(), Error> {
+pub(crate) fn check<'a>(
+    vectors: impl Iterator<Item = &'a Vec<f64>>,
+    radius: f64,
+) -> Result<(), Error> {
     if !(radius > 0.0 && radius.is_finite()) {
         return Err(Error::BadSearch { name: "a radius", value: radius, remedy: "" });
     }

@@ -29,7 +29,7 @@
 //! | [`uncertain_pairs`], [`uncertainty_exponent`] | final-state uncertainty in a region of any dimension |
 //! | [`Attractors`], [`Unmatched`] | attractors of maps and flows of several variables, found by recurrences and tested as traps |
 //! | [`KnownAttractors`] | attractors that the caller knows by points: basins by the distance from them, and the time to convergence |
-//! | [`FeatureAttractors`], [`FeatureGroups`] | the same by features of orbits, grouped by density or beside templates |
+//! | [`FeatureAttractors`], [`FeatureGroups`], [`suggested_radius`] | the same by features of orbits, grouped by density with a suggested radius, or beside templates |
 //! | [`fractions_along`], [`FractionsAlong`], [`Fractions`] | fractions along a curve of parameters, refined where they change, with their jumps |
 //! | [`match_attractors`], [`Matching`] | which attractors at two parameters are the same |
 //! | [`IntervalBasins::tipping_to`], [`Tipping`] | the probability that a state of basin a is in basin b after a change of parameters, with bounds |
@@ -129,6 +129,7 @@ mod smooth_boundary;
 mod split_mix;
 mod state_grid;
 mod state_map;
+mod suggested_radius;
 mod tipping;
 mod uncertainty;
 mod uncertainty_fit;
@@ -189,6 +190,7 @@ pub use smooth_boundary::{
 };
 pub use split_mix::SplitMix64;
 pub use state_map::{OrbitFeature, StateMap};
+pub use suggested_radius::{SuggestedRadius, suggested_radius};
 pub use tipping::{Tipping, TippingCounts, label_after_drift, random_tipping};
 pub use uncertainty::uncertain_fraction;
 pub use undecided_reason::UndecidedReason;
