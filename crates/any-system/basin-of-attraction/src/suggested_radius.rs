@@ -167,7 +167,7 @@ mod tests {
         /// Planted groups are found at any scale, with some lone vectors: as many as there are, each with its own.
         #[test]
         fn planted_groups_are_found(count in 1usize..6, seed in 0u64..1000, scale in -8.0..8.0f64) {
-            let unit = 10f64.powf(scale);
+            let unit = pxfm::f_pow(10.0, scale);
             let centres: Vec<[f64; 2]> =
                 (0..count).map(|k| [unit * 4.0 * k as f64, unit * (k % 2) as f64]).collect();
             let mut vectors = around(&centres, unit, 80, seed);
