@@ -16,6 +16,7 @@
 //! | [`interval_basins`], [`IntervalBasins`] | all basins in a window as intervals, with the undecided length |
 //! | [`check_trap`], [`TrapGround`], [`check_branches`] | tests of what a caller gives; `interval_basins` makes them |
 //! | [`Refinement`], [`StopReason`] | when that search stops, and why it stopped |
+//! | [`repeller`](fn@repeller), [`Repeller`] | dimension and escape rate of the Cantor set that full branches leave, to rounding (Bowen's equation) |
 //! | [`PreimageTree`], [`ResidualSet`], [`geometric_limit`] | which branch leads where; whether a Cantor set or a countable set remains |
 //! | [`equally_spaced_fractions`], [`random_fractions`], [`low_discrepancy_fractions`] | basin fractions from sample points, each with its uncertainty |
 //! | [`ConfidenceInterval`], [`proportion_interval`], [`wilson_interval`], [`student_interval`] | an estimate with a 95 % confidence interval |
@@ -123,6 +124,7 @@ mod refinement;
 mod region_boxes;
 mod region_fractions;
 mod region_uncertainty;
+mod repeller;
 mod sampling;
 mod scalar_map;
 mod smooth_boundary;
@@ -181,6 +183,7 @@ pub use region_fractions::{LabelCounts, region_fractions};
 pub use region_uncertainty::{
     PairCount, UncertaintyExponent, uncertain_pairs, uncertainty_exponent,
 };
+pub use repeller::{Repeller, repeller};
 pub use sampling::{
     EquallySpacedFraction, equally_spaced_counts, equally_spaced_fractions, random_fractions,
 };
