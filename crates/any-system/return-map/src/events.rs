@@ -1,7 +1,7 @@
 //! What modes and surfaces are called, and how certain events are.
 
 use hybrid_system::Certainty;
-use std::fmt::{self, Debug};
+use std::fmt::Debug;
 
 /// The less certain one of two.
 pub(crate) fn less_certain(a: Certainty, b: Certainty) -> Certainty {
@@ -22,13 +22,9 @@ pub(crate) fn less_certain(a: Certainty, b: Certainty) -> Certainty {
 
 /// What a mode or a surface is called, without the quotation marks of a label.
 pub(crate) fn plain(thing: &impl Debug) -> String {
-    struct Written<'t, T>(&'t T);
-    impl<T: Debug> fmt::Display for Written<'_, T> {
-        fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
-            Debug::fmt(self.0, to)
-        }
+    let written = format!("{thing:?}");
+    match written.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')) {
+        Some(inner) => inner.to_owned(),
+        None => written,
     }
-    let written = Written(thing).to_string();
-    let inner = written.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
-    inner.map_or(written.clone(), str::to_owned)
 }

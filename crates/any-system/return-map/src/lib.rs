@@ -133,8 +133,8 @@ pub use branches::{
 pub use error::Error;
 pub use families::{
     Border, BorderSite, Clearance, Closure, EquationReturns, FormulaMap, Image, Linearized,
-    MapFamily, Pushed, SmoothReturns, SystemReturns, Watched, family, pieces, returns,
-    scalar_family, smooth_returns, watched,
+    MapFamily, Pushed, SmoothReturns, SystemReturns, family, pieces, returns, scalar_family,
+    smooth_returns, watched,
 };
 pub use manifolds::{
     ManifoldCrossing, ManifoldCurve, ManifoldCut, ManifoldEnd, ManifoldSteps, ManifoldTangency,

@@ -52,11 +52,7 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
                 if look < NEAR_LOOKS {
                     let found = self.border(last, itinerary, other.clone(), ahead);
                     // Where derivatives end before it, its place is that of the last point.
-                    return found.unwrap_or_else(|| {
-                        let place = first_difference(itinerary, &other);
-                        let at = point_of(&self.orbit, last, itinerary.to_vec());
-                        BranchEnd::Border { border: Border::Piece, at, beyond: other, place }
-                    });
+                    return found.unwrap_or_else(|| self.unlocated(last, itinerary, other));
                 }
             }
             ahead *= 2.0;
@@ -117,12 +113,15 @@ impl<M: MapFamily + ?Sized, S: FnMut(&BranchPoint) -> ControlFlow<()>> Follower<
                 }
             }
         }
-        if !self.is_beside(&known, itinerary) {
-            return None;
-        }
+        let is_beside = self.is_beside(&known, itinerary);
+        is_beside.then(|| self.unlocated(&known, itinerary, beyond))
+    }
+
+    /// The end at the last point before a border of which no more is known.
+    fn unlocated(&self, last: &OnCurve, itinerary: &[String], beyond: Vec<String>) -> BranchEnd {
         let place = first_difference(itinerary, &beyond);
-        let at = point_of(&self.orbit, &known, itinerary.to_vec());
-        Some(BranchEnd::Border { border: Border::Piece, at, beyond, place })
+        let at = point_of(&self.orbit, last, itinerary.to_vec());
+        BranchEnd::Border { border: Border::Piece, at, beyond, place }
     }
 
     /// True if other pieces, or none, lie next to a point along the branch.

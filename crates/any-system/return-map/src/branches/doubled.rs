@@ -2,7 +2,7 @@
 
 use super::branch::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint};
 use super::continued::SAME;
-use super::curve::{Curve, OnCurve, corrected};
+use super::curve::{Curve, OnCurve, corrected, scaled_slopes};
 use super::follow::{BranchSteps, Follower, follow_branch, point_of, predicted};
 use super::orbit::{Kind, Orbit, split};
 use super::start::{none_near, scales};
@@ -86,10 +86,7 @@ fn check_doubling<M: MapFamily + ?Sized>(
 ) -> Result<(), Error> {
     let off = single.values(at)?.push(0.0).component_div(&single.scales).norm();
     let flips = |m: &Complex<f64>| (m + 1.0).norm() < CRITICAL;
-    let mut slopes = single.slopes(at)?.matrix;
-    for (mut column, scale) in slopes.column_iter_mut().zip(single.scales.iter()) {
-        column *= *scale;
-    }
+    let slopes = scaled_slopes(single, at)?.matrix;
     let (point, parameter) = split(at);
     match off <= SAME && eigenvalues(&single.derivative(&slopes)).iter().any(flips) {
         true => Ok(()),

@@ -7,7 +7,9 @@ use super::normal_form::normal_form;
 use super::orbit::Orbit;
 use super::tests::{TESTS, Test};
 use crate::families::MapFamily;
+use crate::multipliers::eigenvalues;
 use interval_arithmetic::bracketed_root;
+use nalgebra::Complex;
 
 /// Where a test is zero.
 struct Located {
@@ -47,8 +49,7 @@ pub(super) fn between<M: MapFamily + ?Sized>(
         let Some(Located { place, apart, at }) = located else { continue };
         let small = ZERO * before.abs().max(behind.abs());
         let jumps = test == Test::Turn && !(test.value(&at, orbit).abs() <= small);
-        if let Some(mut bifurcation) = bifurcation(orbit, test, &at, itinerary) {
-            bifurcation.error = parameter_error(orbit, test, (from, to), (&at, apart));
+        if let Some(bifurcation) = bifurcation(orbit, test, (from, to), (&at, apart), itinerary) {
             found.push((place, jumps, bifurcation));
         }
     }
@@ -177,12 +178,13 @@ fn crossing<M: MapFamily + ?Sized>(
     Some(Located { place: place + zero * unit, apart: apart * BESIDE * unit, at: found })
 }
 
-/// How far the parameter of a bifurcation between two points may be off.
+/// How far the parameter of a bifurcation between two points may be off. `multipliers` are those there, with their errors.
 fn parameter_error<M: MapFamily + ?Sized>(
     orbit: &Orbit<'_, M>,
     test: Test,
     (from, to): (&OnCurve, &OnCurve),
     (at, apart): (&OnCurve, f64),
+    (multipliers, errors): (&[Complex<f64>], &[f64]),
 ) -> f64 {
     let last = at.at.len() - 1;
     let width = orbit.scales[last];
@@ -191,11 +193,8 @@ fn parameter_error<M: MapFamily + ?Sized>(
         return (apart + at.error) * width + rounding;
     }
     let length = (&to.at - &from.at).component_div(&orbit.scales).norm();
-    let mut derivative = orbit.uncertain_derivative(at);
-    orbit.add_error_of_point(&mut derivative, at);
-    let (values, errors) = derivative.eigenvalues();
-    let critical = test.nearest(orbit.kind, &values);
-    let Some((value, error)) = critical.map(|k| (values[k], errors[k])) else {
+    let critical = test.nearest(orbit.kind, multipliers);
+    let Some((value, error)) = critical.map(|k| (multipliers[k], errors[k])) else {
         return f64::INFINITY;
     };
     // The same multiplier at a distance from the bifurcation: as soon as it is surely another one there, the bifurcation is nearer.
@@ -204,7 +203,7 @@ fn parameter_error<M: MapFamily + ?Sized>(
         let beside = [distance, -distance].map(|along| {
             let expected = predicted(&orbit.scales, at, along);
             let point = corrected(orbit, &expected, &at.tangent).ok().flatten()?;
-            let (values, _) = orbit.uncertain_derivative(&point).eigenvalues();
+            let values = eigenvalues(&orbit.derivative(&point.slopes));
             let off =
                 values.iter().map(|other| (other - value).norm()).fold(f64::INFINITY, f64::min);
             Some((off, (point.at[last] - at.at[last]).abs()))
@@ -231,7 +230,8 @@ const SOLVED: f64 = 4.0;
 fn bifurcation<M: MapFamily + ?Sized>(
     orbit: &Orbit<'_, M>,
     test: Test,
-    at: &OnCurve,
+    ends: (&OnCurve, &OnCurve),
+    (at, apart): (&OnCurve, f64),
     itinerary: &[String],
 ) -> Option<Bifurcation> {
     let point = point_of(orbit, at, itinerary.to_vec());
@@ -245,5 +245,7 @@ fn bifurcation<M: MapFamily + ?Sized>(
         BifurcationKind::Transcritical if is_symmetric => BifurcationKind::Pitchfork,
         kind => kind,
     };
-    Some(Bifurcation { kind, at: point, error: 0.0, direction, coefficient })
+    let multipliers = (&point.multipliers[..], &point.multiplier_errors[..]);
+    let error = parameter_error(orbit, test, ends, (at, apart), multipliers);
+    Some(Bifurcation { kind, at: point, error, direction, coefficient })
 }

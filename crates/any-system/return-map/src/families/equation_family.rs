@@ -33,13 +33,13 @@ impl MapFamily for EquationReturns {
         for _ in 0..images {
             let arcs = self.next_return(&mut run);
             let arcs = arcs.map_err(|error| error.at_start(&from, Some(parameter)))?;
-            let way = Way { arcs, model: model.clone(), begin };
+            let way = Way { arcs, from, model: model.clone(), begin };
             let image = self.image_after(&way, parameter)?;
             match self.going_on((&way, &model), &run, (&image, parameter))? {
                 Some(next) => run = next,
                 None => (run, begin) = self.begin(&model, (&image.point, parameter))?,
             }
-            from.clone_from(&image.point);
+            from = image.point.clone();
             if see(image).is_break() {
                 break;
             }

@@ -14,6 +14,8 @@ use std::sync;
 #[derive(Debug)]
 pub(super) struct Way {
     pub(super) arcs: ReturnArcs,
+    /// The point from which it begins.
+    pub(super) from: Vec<f64>,
     pub(super) model: sync::Arc<ReturnModel>,
     /// The time at which it begins. That of the arcs counts from there.
     pub(super) begin: f64,
@@ -188,7 +190,7 @@ impl EquationReturns {
         let (mut run, begin) = self.begin(&model, (point, parameter))?;
         let arcs = self.next_return(&mut run);
         let arcs = arcs.map_err(|error| error.at_start(point, Some(parameter)))?;
-        Ok(Way { arcs, model, begin })
+        Ok(Way { arcs, from: point.to_vec(), model, begin })
     }
 
     /// The image at the end of a return.
@@ -203,9 +205,7 @@ impl EquationReturns {
         let (point, certainty): (Vec<f64>, _) =
             (image.iter().map(Jet::value).collect(), least_certain(arcs));
         if !point.iter().all(|x| x.is_finite()) {
-            // The start is not known here: the state is as good.
-            let point = state.iter().map(Jet::value).collect();
-            return Err(Error::NoImage { point, parameter });
+            return Err(Error::NoImage { point: way.from.clone(), parameter });
         }
         Ok(Image {
             point,

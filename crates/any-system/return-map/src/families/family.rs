@@ -6,7 +6,7 @@ use super::differences::differences;
 use crate::error::Error;
 use equations::Jet;
 use hybrid_system::Certainty;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Deref};
 
 /// The image of a point.
 #[derive(Debug, Clone, PartialEq)]
@@ -148,7 +148,8 @@ pub trait MapFamily: Sync {
     }
 }
 
-impl<T: MapFamily + ?Sized> MapFamily for &T {
+/// A reference or a box of a map is this map.
+impl<P: Deref<Target: MapFamily> + Sync> MapFamily for P {
     fn dimension(&self) -> usize {
         (**self).dimension()
     }

@@ -2,7 +2,9 @@
 //!
 //! A [`MapFamily`] gives images, and the images of curves to third order (`family`). `closures` are functions of numbers,
 //! whose derivatives are `differences`. `formula_map` has exact ones, and so have the
-//! return maps of equations, `equation_returns`, which `equation_ways` computes and `equation_family` makes a family. `iterated` applies a map several times. `border` says what lies between pieces of a map,
+//! return maps of equations, `equation_returns`, which `equation_ways` computes and `equation_family` makes a family. `system_returns` are those of
+//! any hybrid system. `derivatives` are results with errors. `iterated` applies a map several times, `watched` counts its images and stops it.
+//! `border` says what lies between pieces of a map,
 //! and `equation_borders` finds it for equations, whose arcs `return_arcs` reads and whose formulas `formula_values` evaluates.
 
 mod border;
@@ -33,4 +35,4 @@ pub(crate) use iterated::{
     curve_after, first_difference, image_of, orbit_after, orbit_end, point_after,
 };
 pub use system_returns::{SmoothReturns, SystemReturns, returns, smooth_returns};
-pub use watched::{Watched, watched};
+pub use watched::watched;

@@ -1,7 +1,7 @@
 //! Return maps of hybrid systems that depend on a parameter, with a section by two closures.
 
 use super::border::{Border, BorderSite};
-use super::derivatives::{Linearized, Pushed};
+use super::derivatives::Linearized;
 use super::differences::differences;
 use super::family::{Image, MapFamily};
 use super::return_arcs::{elapsed, itinerary, least_certain, named_border, sliding_name};
@@ -12,7 +12,7 @@ use crate::return_map::{ReturnMap, next_return};
 use crate::section::SmoothSection;
 use equations::Jet;
 use hybrid_system::{Differentiable, Event, HybridSystem, Limits, State};
-use nalgebra::SVector;
+use nalgebra::{DMatrix, SVector};
 
 /// The return map of a hybrid system by closures, whose derivatives are differences.
 #[derive(Debug, Clone, Copy)]
@@ -177,17 +177,15 @@ where
         let (system, section) = ((self.system)(parameter), (self.section)(parameter));
         let map = ReturnMap::new(&system, &section, self.limits);
         let found = map.next_with_derivative(&SVector::from_column_slice(point))?;
-        let own = found.derivative;
-        let by_parameter = |curve: &[Jet<4>], moving: Jet<4>| match moving.0[1] == 0.0 {
-            true => {
-                let axis = curve.iter().position(|jet| jet.0[1] != 0.0).unwrap_or(0);
-                let column = own.column(axis);
-                let jets = column.iter().map(|slope| Jet([0.0, *slope, 0.0, 0.0])).collect();
-                Ok(Pushed::within(jets, found.error))
-            }
-            false => differences(&|point: &[f64], p| self.image(point, p), curve, moving),
-        };
-        Linearized::along_axes(image.clone(), (point, parameter), by_parameter)
+        let still: Vec<Jet<4>> = point.iter().copied().map(Jet::number).collect();
+        let moving = Jet::moving(parameter, 1.0);
+        let beside = differences(&|point: &[f64], p| self.image(point, p), &still, moving)?;
+        let by_parameter = beside.curve.iter().map(|jet| jet.0[1]);
+        let slopes = found.derivative.iter().copied().chain(by_parameter);
+        let errors = std::iter::repeat_n(found.error, K * K).chain(beside.errors);
+        let [slopes, errors] =
+            [slopes.collect(), errors.collect()].map(|all| DMatrix::from_vec(K, K + 1, all));
+        Ok(Linearized { image, slopes, errors })
     }
 
     fn border(

@@ -5,29 +5,8 @@ use super::derivatives::{Linearized, Pushed};
 use super::family::{Image, MapFamily};
 use crate::error::Error;
 use equations::Jet;
-use std::ops::{ControlFlow, Deref};
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-
-/// A map that is watched.
-#[derive(Debug)]
-pub struct Watched<M, W> {
-    map: M,
-    counter: Counter<W>,
-}
-
-/// What counts the images of a map, and of its continuations beyond borders.
-#[derive(Debug)]
-struct Counter<W> {
-    watch: W,
-    images: AtomicUsize,
-    stopped: AtomicBool,
-}
-
-/// A map with the counter of another one.
-struct Counted<'c, M, W> {
-    map: M,
-    counter: &'c Counter<W>,
-}
 
 /// The same map. `watch` receives the number of images so far, after each one, also from several threads. If it breaks, there are no further
 /// images, and the work that asks for them ends with [`Error::Stopped`]; work whose result has an end ends there, with what it has found.
@@ -43,29 +22,40 @@ struct Counted<'c, M, W> {
 /// let stopped = map_pieces(&impatient, 3.9, (0.0, 1.0), 1000);
 /// assert_eq!(stopped, Err(Error::Stopped { images: 100 }));
 /// ```
-pub fn watched<M: MapFamily, W: Fn(usize) -> ControlFlow<()> + Sync>(
-    map: M,
-    watch: W,
-) -> Watched<M, W> {
+pub fn watched(
+    map: impl MapFamily,
+    watch: impl Fn(usize) -> ControlFlow<()> + Sync,
+) -> impl MapFamily {
     let (images, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
     Watched { map, counter: Counter { watch, images, stopped } }
 }
 
-impl<W: Fn(usize) -> ControlFlow<()>> Counter<W> {
+/// A map that is watched: by a counter of its own, or by that of the map that it continues beyond a border.
+struct Watched<M, C> {
+    map: M,
+    counter: C,
+}
+
+/// What counts the images of a map, and of its continuations beyond borders.
+struct Counter<W> {
+    watch: W,
+    images: AtomicUsize,
+    stopped: AtomicBool,
+}
+
+trait Counts: Sync {
+    /// Why there are no further images.
+    fn error(&self) -> Option<Error>;
+    /// Counts an image.
+    fn count(&self);
+    /// The counter itself, for a continuation.
+    fn shared(&self) -> &dyn Counts;
+}
+
+impl<W: Fn(usize) -> ControlFlow<()> + Sync> Counts for Counter<W> {
     fn error(&self) -> Option<Error> {
         let images = self.images.load(Ordering::Relaxed);
         self.stopped.load(Ordering::Relaxed).then_some(Error::Stopped { images })
-    }
-
-    /// What `of` gives, unless the work was stopped.
-    fn counted<R>(&self, of: impl FnOnce() -> Result<R, Error>) -> Result<R, Error> {
-        if let Some(error) = self.error() {
-            return Err(error);
-        }
-        let result = of();
-        self.count();
-        // The image at which the watch breaks is not used: a family of maps, each of which is new, stops at once.
-        self.error().map_or(result, Err)
     }
 
     fn count(&self) {
@@ -73,82 +63,46 @@ impl<W: Fn(usize) -> ControlFlow<()>> Counter<W> {
             self.stopped.store(true, Ordering::Relaxed);
         }
     }
-}
 
-impl<M: MapFamily, W> Watched<M, W> {
-    fn own(&self) -> Counted<'_, &M, W> {
-        Counted { map: &self.map, counter: &self.counter }
+    fn shared(&self) -> &dyn Counts {
+        self
     }
 }
 
-impl<M: MapFamily, W: Fn(usize) -> ControlFlow<()> + Sync> MapFamily for Watched<M, W> {
+impl Counts for &dyn Counts {
+    fn error(&self) -> Option<Error> {
+        (**self).error()
+    }
+
+    fn count(&self) {
+        (**self).count();
+    }
+
+    fn shared(&self) -> &dyn Counts {
+        *self
+    }
+}
+
+impl<M, C: Counts> Watched<M, C> {
+    /// What `of` gives, unless the work was stopped.
+    fn counted<R>(&self, of: impl FnOnce() -> Result<R, Error>) -> Result<R, Error> {
+        if let Some(error) = self.counter.error() {
+            return Err(error);
+        }
+        let result = of();
+        self.counter.count();
+        // The image at which the watch breaks is not used: a family of maps, each of which is new, stops at once.
+        self.counter.error().map_or(result, Err)
+    }
+}
+
+impl<M: MapFamily, C: Counts> MapFamily for Watched<M, C> {
     fn dimension(&self) -> usize {
         self.map.dimension()
     }
 
     fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error> {
-        self.own().image(point, parameter)
-    }
-
-    fn orbit(
-        &self,
-        start: &[f64],
-        parameter: f64,
-        images: usize,
-        see: &mut dyn FnMut(Image) -> ControlFlow<()>,
-    ) -> Result<(), Error> {
-        self.own().orbit(start, parameter, images, see)
-    }
-
-    fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Pushed, Error> {
-        self.own().pushed(curve, parameter)
-    }
-
-    fn linearized(&self, point: &[f64], parameter: f64) -> Result<Linearized, Error> {
-        self.own().linearized(point, parameter)
-    }
-
-    fn clearances(
-        &self,
-        curve: &[Jet<4>],
-        parameter: Jet<4>,
-    ) -> Result<Option<Vec<Clearance>>, Error> {
-        self.own().clearances(curve, parameter)
-    }
-
-    fn border(
-        &self,
-        at: (&[f64], f64),
-        pieces: (&[String], &[String]),
-        place: usize,
-        within: f64,
-    ) -> BorderSite {
-        self.map.border(at, pieces, place, within)
-    }
-
-    fn along(
-        &self,
-        itinerary: &[String],
-        border: Option<&BorderSite>,
-    ) -> Result<Box<dyn MapFamily + '_>, Error> {
-        let map = self.map.along(itinerary, border)?;
-        Ok(Box::new(Counted { map, counter: &self.counter }))
-    }
-
-    fn stopped(&self) -> Option<Error> {
-        self.counter.error()
-    }
-}
-
-impl<M: Deref<Target: MapFamily> + Sync, W: Fn(usize) -> ControlFlow<()> + Sync> MapFamily
-    for Counted<'_, M, W>
-{
-    fn dimension(&self) -> usize {
-        self.map.dimension()
-    }
-
-    fn image(&self, point: &[f64], parameter: f64) -> Result<Image, Error> {
-        self.counter.counted(|| self.map.image(point, parameter))
+        self.counted(|| self.map.image(point, parameter))
     }
 
     fn orbit(
@@ -174,11 +128,11 @@ impl<M: Deref<Target: MapFamily> + Sync, W: Fn(usize) -> ControlFlow<()> + Sync>
     }
 
     fn pushed(&self, curve: &[Jet<4>], parameter: Jet<4>) -> Result<Pushed, Error> {
-        self.counter.counted(|| self.map.pushed(curve, parameter))
+        self.counted(|| self.map.pushed(curve, parameter))
     }
 
     fn linearized(&self, point: &[f64], parameter: f64) -> Result<Linearized, Error> {
-        self.counter.counted(|| self.map.linearized(point, parameter))
+        self.counted(|| self.map.linearized(point, parameter))
     }
 
     fn clearances(
@@ -186,7 +140,26 @@ impl<M: Deref<Target: MapFamily> + Sync, W: Fn(usize) -> ControlFlow<()> + Sync>
         curve: &[Jet<4>],
         parameter: Jet<4>,
     ) -> Result<Option<Vec<Clearance>>, Error> {
-        self.counter.counted(|| self.map.clearances(curve, parameter))
+        self.counted(|| self.map.clearances(curve, parameter))
+    }
+
+    fn border(
+        &self,
+        at: (&[f64], f64),
+        pieces: (&[String], &[String]),
+        place: usize,
+        within: f64,
+    ) -> BorderSite {
+        self.map.border(at, pieces, place, within)
+    }
+
+    fn along(
+        &self,
+        itinerary: &[String],
+        border: Option<&BorderSite>,
+    ) -> Result<Box<dyn MapFamily + '_>, Error> {
+        let map = self.map.along(itinerary, border)?;
+        Ok(Box::new(Watched { map, counter: self.counter.shared() }))
     }
 
     fn stopped(&self) -> Option<Error> {

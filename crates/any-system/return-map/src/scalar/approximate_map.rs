@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::families::{Image, Linearized, MapFamily, Pushed};
 use equations::Jet;
 use interval_arithmetic::bracketed_root;
+use nalgebra::DMatrix;
 
 /// A map of one variable at one value of its parameter, by Chebyshev polynomials on cells: an iteration evaluates one of
 /// them, whatever the flow behind it takes.
@@ -222,11 +223,11 @@ impl MapFamily for ApproximateMap {
     /// It is known at one value of the parameter: the last column is zero.
     fn linearized(&self, point: &[f64], parameter: f64) -> Result<Linearized, Error> {
         let image = self.image(point, parameter)?;
-        let of = |curve: &[Jet<4>], moving: Jet<4>| match moving.0[1] == 0.0 {
-            true => self.pushed(curve, moving),
-            false => Ok(Pushed::exact(vec![Jet::number(image.point[0])])),
-        };
-        Linearized::along_axes(image.clone(), (point, parameter), of)
+        let line: Vec<Jet<4>> = point.iter().map(|x| Jet::moving(*x, 1.0)).collect();
+        let Pushed { curve, errors } = self.pushed(&line, Jet::number(parameter))?;
+        let slopes = DMatrix::from_row_slice(1, 2, &[curve[0].0[1], 0.0]);
+        let errors = DMatrix::from_row_slice(1, 2, &[errors[0], 0.0]);
+        Ok(Linearized { image, slopes, errors })
     }
 }
 
