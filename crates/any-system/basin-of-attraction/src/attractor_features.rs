@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::feature_groups::{FeatureGroups, check_feature_count};
 use crate::label::Label;
 use crate::split_mix::SplitMix64;
-use crate::state_map::{OrbitFeature, StateMap};
+use crate::state_map::{Moving, OrbitFeature, StateMap};
 use crate::unmatched::{Unmatched, UnmatchedReason};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -164,7 +164,7 @@ impl FeatureAttractors {
     /// stretches of more than 10⁷ steps, a transient and a budget of more than 10⁹ steps together, and more than 10⁶
     /// tests; [`Error::TooManyAttractors`] beyond 65 000.
     pub fn search(
-        map: &StateMap<'_>,
+        map: &dyn StateMap,
         feature: &OrbitFeature<'_>,
         starts: &[Vec<f64>],
         limits: FeatureLimits,
@@ -262,7 +262,7 @@ impl FeatureAttractors {
     /// the budget.
     ///
     /// No attractor is added, so that points can be labelled in parallel.
-    pub fn label(&self, map: &StateMap<'_>, feature: &OrbitFeature<'_>, start: &[f64]) -> Label {
+    pub fn label(&self, map: &dyn StateMap, feature: &OrbitFeature<'_>, start: &[f64]) -> Label {
         self.follow(map, feature, start).unwrap_or_else(|reason| match reason {
             UnmatchedReason::Stopped => Label::UNDECIDED_MAP,
             _ => Label::UNDECIDED,
@@ -281,7 +281,7 @@ impl FeatureAttractors {
     /// Follows an orbit until `agree` successive stretches have one label.
     fn follow(
         &self,
-        map: &StateMap<'_>,
+        map: &dyn StateMap,
         feature: &OrbitFeature<'_>,
         start: &[f64],
     ) -> Result<Label, UnmatchedReason> {
@@ -305,7 +305,7 @@ impl FeatureAttractors {
     /// Whether orbits from random states beside those of a group come to the group.
     fn is_trap(
         &self,
-        map: &StateMap<'_>,
+        map: &dyn StateMap,
         feature: &OrbitFeature<'_>,
         orbits: &[&Beginning],
         label: Label,
@@ -330,7 +330,7 @@ impl FeatureAttractors {
 
 /// The first stretches of an orbit; `None` if it stops, or has features that are not finite.
 fn beginning(
-    map: &StateMap<'_>,
+    map: &dyn StateMap,
     feature: &OrbitFeature<'_>,
     start: &[f64],
     limits: FeatureLimits,
@@ -349,17 +349,22 @@ fn beginning(
 }
 
 /// The state after some steps; `None` if the orbit stops or is not finite.
-fn after(map: &StateMap<'_>, start: &[f64], steps: usize) -> Option<Vec<f64>> {
-    let finite = |at: Vec<f64>| at.iter().all(|x| x.is_finite()).then_some(at);
-    (0..steps).try_fold(finite(start.to_vec())?, |at, _| finite(map(&at)?))
+fn after(map: &dyn StateMap, start: &[f64], steps: usize) -> Option<Moving> {
+    let mut point = Moving::from(start);
+    let is_finite = |at: &[f64]| at.iter().all(|x| x.is_finite());
+    for _ in 0..steps {
+        if !is_finite(&point.at) || !point.step(map) {
+            return None;
+        }
+    }
+    is_finite(&point.at).then_some(point)
 }
 
 /// The next states of an orbit, which moves to the last of them.
-fn stretch(map: &StateMap<'_>, at: &mut Vec<f64>, steps: usize) -> Option<Vec<Vec<f64>>> {
-    let mut points = Vec::new();
-    for _ in 0..steps {
-        *at = after(map, at, 1)?;
-        points.push(at.clone());
-    }
-    Some(points)
+fn stretch(map: &dyn StateMap, point: &mut Moving, steps: usize) -> Option<Vec<Vec<f64>>> {
+    let next = |_| {
+        let found = point.step(map) && point.at.iter().all(|x| x.is_finite());
+        found.then(|| point.at.clone())
+    };
+    (0..steps).map(next).collect()
 }

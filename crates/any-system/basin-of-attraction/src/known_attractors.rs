@@ -4,8 +4,9 @@ use crate::attractor_features::MOST_TESTS;
 use crate::boundary_between::distance;
 use crate::error::Error;
 use crate::label::Label;
+use crate::many_orbits::{FollowedOrbit, follow_many};
 use crate::split_mix::SplitMix64;
-use crate::state_map::StateMap;
+use crate::state_map::{Moving, StateMap};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -77,7 +78,7 @@ impl KnownAttractors {
     /// [`Error::BadSearch`] for a label that is no basin, a point or a distance that is not finite, a distance that reaches more than half of
     /// the way to another attractor, no steps or tests, and a distance from which a test does not come back.
     pub fn new(
-        map: &StateMap<'_>,
+        map: &dyn StateMap,
         points: &BTreeMap<Label, Vec<Vec<f64>>>,
         distance: f64,
         limits: KnownLimits,
@@ -105,7 +106,7 @@ impl KnownAttractors {
     /// # Errors
     /// As [`new`](Self::new). No distance may pass: the points may be none of attractors, or too few of them.
     pub fn suggested(
-        map: &StateMap<'_>,
+        map: &dyn StateMap,
         points: &BTreeMap<Label, Vec<Vec<f64>>>,
         limits: KnownLimits,
     ) -> Result<KnownAttractors, Error> {
@@ -180,7 +181,7 @@ impl KnownAttractors {
     }
 
     /// The label of the attractor to which the orbit of a point comes; undecided if it comes to none of them within the budget.
-    pub fn label(&self, map: &StateMap<'_>, start: &[f64]) -> Label {
+    pub fn label(&self, map: &dyn StateMap, start: &[f64]) -> Label {
         self.convergence(map, start).map_or(Label::UNDECIDED, |(label, _)| label)
     }
 
@@ -189,22 +190,39 @@ impl KnownAttractors {
     ///
     /// # Errors
     /// [`Error::WrongDimension`] for a point of another dimension.
-    pub fn convergence(&self, map: &StateMap<'_>, start: &[f64]) -> Result<(Label, usize), Error> {
+    pub fn convergence(&self, map: &dyn StateMap, start: &[f64]) -> Result<(Label, usize), Error> {
         let (dimension, expected) = (start.len(), self.points[0].0.len());
         if dimension != expected {
             return Err(Error::WrongDimension { dimension, expected });
         }
-        let mut at = start.to_vec();
-        for steps in 0..self.limits.budget {
-            if let Some((label, _)) = self.nearest(&at, self.distance) {
-                return Ok((label, steps));
+        let mut orbit = Approach::new(self);
+        orbit.restart(start);
+        loop {
+            if let Some(end) = orbit.see() {
+                return Ok(end);
             }
-            match map(&at) {
-                Some(next) if next.len() == expected => at = next,
-                _ => return Ok((Label::UNDECIDED_MAP, steps)),
-            }
+            let has_image = orbit.point.step(map);
+            orbit.moved(has_image);
         }
-        Ok((Label::UNDECIDED, self.limits.budget))
+    }
+
+    /// The labels and times of many starts, as [`convergence`](Self::convergence) gives them: in parallel, and some orbits at a time where
+    /// the map moves them together. `start` writes the start with a number.
+    ///
+    /// # Errors
+    /// [`Error::WrongDimension`] for a map of another dimension.
+    pub fn convergences(
+        &self,
+        map: &dyn StateMap,
+        count: usize,
+        start: impl Fn(usize, &mut [f64]) + Sync,
+    ) -> Result<Vec<(Label, usize)>, Error> {
+        let expected = self.points[0].0.len();
+        let dimension = map.dimension().unwrap_or(expected);
+        if dimension != expected {
+            return Err(Error::WrongDimension { dimension, expected });
+        }
+        Ok(follow_many(map, dimension, count, || Approach::new(self), start))
     }
 
     /// The nearest point within a distance: its label, and how far it is.
@@ -234,7 +252,7 @@ impl KnownAttractors {
 
     /// Whether orbits from random states within the distance of each attractor come back to it, in each of three stretches, at last within
     /// half of the distance, and to no other one.
-    fn is_trap(&self, map: &StateMap<'_>) -> bool {
+    fn is_trap(&self, map: &dyn StateMap) -> bool {
         let mut own: BTreeMap<Label, Vec<&Vec<f64>>> = BTreeMap::new();
         for (point, label) in &self.points {
             own.entry(*label).or_default().push(point);
@@ -257,19 +275,18 @@ impl KnownAttractors {
         point.iter().zip(aside).map(|(x, off)| x + self.distance * off / length).collect()
     }
 
-    fn stays(&self, map: &StateMap<'_>, start: Vec<f64>, label: Label) -> bool {
-        let mut at = start;
+    fn stays(&self, map: &dyn StateMap, start: Vec<f64>, label: Label) -> bool {
+        let mut point = Moving::from(&start);
         for stretch in 0..STRETCHES {
             let mut smallest = f64::INFINITY;
             for _ in 0..self.limits.stretch {
-                match self.nearest(&at, self.distance) {
+                match self.nearest(&point.at, self.distance) {
                     Some((other, _)) if other != label => return false,
                     Some((_, d)) => smallest = smallest.min(d),
                     None => {}
                 }
-                match map(&at) {
-                    Some(next) if next.len() == at.len() => at = next,
-                    _ => return false,
+                if !point.step(map) {
+                    return false;
                 }
             }
             // The first one may lead away before the orbit comes back.
@@ -279,6 +296,49 @@ impl KnownAttractors {
             }
         }
         true
+    }
+}
+
+/// An orbit on its way to one of the attractors.
+struct Approach<'a> {
+    known: &'a KnownAttractors,
+    point: Moving,
+    steps: usize,
+    is_stopped: bool,
+}
+
+impl<'a> Approach<'a> {
+    fn new(known: &'a KnownAttractors) -> Self {
+        Approach { known, point: Moving::from(&known.points[0].0), steps: 0, is_stopped: false }
+    }
+}
+
+impl FollowedOrbit for Approach<'_> {
+    type End = (Label, usize);
+
+    fn restart(&mut self, start: &[f64]) {
+        self.point.at.copy_from_slice(start);
+        (self.steps, self.is_stopped) = (0, false);
+    }
+
+    fn see(&mut self) -> Option<(Label, usize)> {
+        let label = if self.is_stopped {
+            Label::UNDECIDED_MAP
+        } else if self.steps >= self.known.limits.budget {
+            Label::UNDECIDED
+        } else {
+            self.known.nearest(&self.point.at, self.known.distance)?.0
+        };
+        Some((label, self.steps))
+    }
+
+    fn at(&mut self) -> &mut [f64] {
+        &mut self.point.at
+    }
+
+    fn moved(&mut self, has_image: bool) {
+        self.is_stopped = !has_image;
+        self.steps += usize::from(has_image);
     }
 }
 

@@ -1,10 +1,9 @@
 //! The cells of the attractors that are known, on grids of several sizes.
 
-use crate::error::Error;
-use crate::hyperrectangle::Hyperrectangle;
 use crate::state_grid::StateGrid;
 use crate::unmatched::Border;
-use std::collections::BTreeMap;
+use std::collections::{HashMap, HashSet};
+use std::hash::{BuildHasherDefault, Hasher};
 
 /// Finer grids than that of the caller. An attractor that comes within a cell or two of the boundary of its basin
 /// is no trap at the scale of the first grid, and is one at the scale of a finer one. With four of them, up to 16
@@ -13,30 +12,47 @@ use std::collections::BTreeMap;
 const FINER: u32 = 4;
 
 /// Grids of n, 2n + 1, 4n + 3, … cells a side, and for each the attractors that own cells.
-///
-/// The odd numbers matter: cells of n and of 2n share their corners, and a fixed point on a corner belongs to one
-/// of four cells, which orbits in the others never enter.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct KnownCells {
     grids: Vec<StateGrid>,
     /// For each grid, the index of the attractor that owns a cell.
-    owners: Vec<BTreeMap<u64, usize>>,
+    owners: Vec<HashMap<u64, usize, ByCell>>,
+}
+
+/// Cells that are looked up once a step. They have no order.
+pub(crate) type CellSet = HashSet<u64, ByCell>;
+
+type ByCell = BuildHasherDefault<CellHasher>;
+
+/// The number of a cell, spread over all bits by one multiplication: a step of a map takes as long as a few of them. Users give cells by
+/// their own maps, so that a hash against forged numbers is not needed.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct CellHasher(u64);
+
+impl Hasher for CellHasher {
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|byte| self.write_u64(u64::from(*byte)));
+    }
+
+    fn write_u64(&mut self, cell: u64) {
+        /// 2⁶⁴ over the golden ratio, odd: D. E. Knuth, The Art of Computer Programming 3, Section 6.4.
+        const SPREAD: u64 = 0x9E37_79B9_7F4A_7C15;
+        let spread = (self.0 ^ cell).wrapping_mul(SPREAD);
+        self.0 = spread ^ (spread >> 32);
+    }
+
+    fn finish(&self) -> u64 {
+        self.0
+    }
 }
 
 impl KnownCells {
     /// No attractor is known. Finer grids whose cells could not be numbered are left out.
-    ///
-    /// # Errors
-    /// [`Error::BadStateGrid`] for the first grid.
-    pub(crate) fn new(region: &Hyperrectangle, cells: usize) -> Result<Self, Error> {
-        let first = StateGrid::new(region.clone(), cells)?;
-        let finer = (1..=FINER).map_while(|k| {
-            let cells = cells.checked_mul(1 << k)?.checked_add((1 << k) - 1)?;
-            StateGrid::new(region.clone(), cells).ok()
-        });
+    pub(crate) fn new(first: StateGrid) -> Self {
+        let finer = (1..=FINER).map_while(|k| first.finer(k)).collect::<Vec<_>>();
         let grids: Vec<StateGrid> = std::iter::once(first).chain(finer).collect();
-        let owners = vec![BTreeMap::new(); grids.len()];
-        Ok(KnownCells { grids, owners })
+        let owners = vec![HashMap::default(); grids.len()];
+        KnownCells { grids, owners }
     }
 
     /// All grids, the coarsest first.
@@ -51,6 +67,11 @@ impl KnownCells {
     /// The cell of the coarsest grid that contains a point.
     pub(crate) fn cell(&self, point: &[f64]) -> Option<u64> {
         self.grids[0].cell(point)
+    }
+
+    /// Moves a state into the periods of its coordinates.
+    pub(crate) fn wrap(&self, state: &mut [f64]) {
+        self.grids[0].wrap(state);
     }
 
     /// Where a point is farthest outside the region; `None` inside.
@@ -80,6 +101,6 @@ impl KnownCells {
 
     /// Each attractor gets a new index.
     pub(crate) fn renumber(&mut self, index: &[usize]) {
-        self.owners.iter_mut().flat_map(BTreeMap::values_mut).for_each(|own| *own = index[*own]);
+        self.owners.iter_mut().flat_map(HashMap::values_mut).for_each(|own| *own = index[*own]);
     }
 }

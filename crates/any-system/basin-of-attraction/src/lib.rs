@@ -28,6 +28,7 @@
 //! | [`Hyperrectangle`], [`region_fractions`] | regions of any dimension, and the fractions of the basins in them |
 //! | [`region_boxes`] | boxes with more than one basin, and entropies, in a region of any dimension |
 //! | [`uncertain_pairs`], [`uncertainty_exponent`] | final-state uncertainty in a region of any dimension |
+//! | [`StateMap`], [`array_map`], [`StateGrid`] | maps of several variables, and cells of their states |
 //! | [`Attractors`], [`Unmatched`] | attractors of maps and flows of several variables, found by recurrences and tested as traps |
 //! | [`KnownAttractors`] | attractors that the caller knows by points: basins by the distance from them, and the time to convergence |
 //! | [`FeatureAttractors`], [`FeatureGroups`], [`suggested_radius`] | the same by features of orbits, grouped by density with a suggested radius, or beside templates |
@@ -92,6 +93,7 @@ mod boundary_distance;
 mod bounds;
 mod boxes;
 mod branches;
+mod candidate;
 mod confidence_interval;
 mod edge_tracking;
 mod entropy;
@@ -112,6 +114,7 @@ mod label;
 mod least_squares;
 mod ln_2_criterion;
 mod low_discrepancy;
+mod many_orbits;
 mod pixel_shares;
 mod power_law;
 mod preimage;
@@ -192,7 +195,8 @@ pub use smooth_boundary::{
     BallEntropy, BoundaryShape, RandomBalls, ball_entropy, smooth_boundary_entropy,
 };
 pub use split_mix::SplitMix64;
-pub use state_map::{OrbitFeature, StateMap};
+pub use state_grid::StateGrid;
+pub use state_map::{ArrayMap, OrbitFeature, StateMap, array_map};
 pub use suggested_radius::{SuggestedRadius, suggested_radius};
 pub use tipping::{Tipping, TippingCounts, label_after_drift, random_tipping};
 pub use uncertainty::uncertain_fraction;

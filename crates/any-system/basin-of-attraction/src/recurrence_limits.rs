@@ -3,9 +3,6 @@
 /// How attractors are searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RecurrenceLimits {
-    /// Cells along every side of the region. Attractors less than three cells apart are not separated, unless a
-    /// finer grid, of up to 16 times as many cells, finds them.
-    pub cells: usize,
     /// Consecutive steps to cells that the orbit has visited, after which these cells are a candidate.
     pub recurrences: usize,
     /// Fewest steps of a stretch: an oscillation should not be longer. A candidate is confirmed over ten stretches
@@ -23,14 +20,11 @@ pub struct RecurrenceLimits {
 }
 
 impl Default for RecurrenceLimits {
-    /// A hundred cells a side, a hundred recurrences, stretches of 1000 steps, 10⁵ steps to a candidate, 1000
-    /// outside, and 200 tests.
+    /// A hundred recurrences, stretches of 1000 steps, 10⁵ steps to a candidate, 1000 outside, and 200 tests.
     ///
-    /// More cells separate closer attractors, and take longer to be visited again by chaotic orbits. Fewer
-    /// recurrences take more transients for candidates, which are then refused.
+    /// Fewer recurrences take more transients for candidates, which are then refused.
     fn default() -> Self {
         RecurrenceLimits {
-            cells: 100,
             recurrences: 100,
             locate: 1000,
             budget: 100_000,

@@ -5,33 +5,31 @@
 //! does the same. Here the cells are a candidate only. It is followed for long (`followed_orbit`), and tested
 //! before it is called an attractor; an orbit without a tested attractor is reported.
 
+use crate::candidate::Candidate;
 use crate::error::Error;
 use crate::followed_orbit::{End, Orbit, Settled, drift};
-use crate::hyperrectangle::Hyperrectangle;
 use crate::known_cells::KnownCells;
 use crate::label::Label;
+use crate::many_orbits::{FollowedOrbit, follow_many};
 use crate::recurrence_limits::RecurrenceLimits;
-use crate::split_mix::SplitMix64;
 use crate::state_grid::StateGrid;
-use crate::state_map::StateMap;
+use crate::state_map::{Moving, Repeats, StateMap};
 use crate::unmatched::{Remedy, Unmatched, UnmatchedReason, remedy};
-use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
-
-/// With fewer cells a side each of them is at the border of the region, and no orbit can be seen to stay away from it.
-const FEWEST_CELLS: usize = 3;
-
-/// Fewest orbits that test a candidate. With 10 a slow spiral of a factor 1 − 10⁻⁶ passed as an attractor, with 50
-/// it does not. More take longer: a test is three stretches.
-const FEWEST_TESTS: usize = 50;
+use std::collections::BTreeMap;
 
 /// An attractor, located to the cells of a grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attractor {
     /// Its label: basin 1 for the first that was found, and so on.
     pub label: Label,
-    /// Successive points of an orbit on it, as many as the limits locate, and then one point of each other cell.
+    /// Successive points of an orbit on it. Of a cycle these are all of them, one period; else as many as the limits locate, and then one
+    /// point of each other cell.
     pub points: Vec<Vec<f64>>,
+    /// The smallest number of steps after which it comes back to each of its points, to 10⁻⁹ of the sides of the region: 1 for a fixed
+    /// point. `None` if there is none up to half of the steps that the limits locate.
+    pub period: Option<usize>,
+    /// How many of the starts came to it.
+    pub starts: usize,
 }
 
 /// The attractors of a map in a region, and the orbits that belong to none.
@@ -67,16 +65,18 @@ impl Attractors {
     /// would help.
     ///
     /// ```
-    /// use basin_of_attraction::{Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits};
+    /// use basin_of_attraction::{Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits, StateGrid, array_map};
     /// // Newton's method for z² = −1 in the plane converges to ±i.
-    /// let newton = |z: &[f64]| {
-    ///     let (x, y, square) = (z[0], z[1], z[0] * z[0] + z[1] * z[1]);
-    ///     (square > 0.0).then(|| vec![0.5 * (x - x / square), 0.5 * (y + y / square)])
-    /// };
+    /// let newton = array_map(|[x, y]| {
+    ///     let square = x * x + y * y;
+    ///     (square > 0.0).then(|| [0.5 * (x - x / square), 0.5 * (y + y / square)])
+    /// });
     /// let region = Hyperrectangle::new(vec![Interval::new(-3.1, 3.0)?; 2])?;
     /// let starts = [vec![1.0, 2.0], vec![0.5, -0.1], vec![-2.0, 0.7], vec![1.0, 0.0]];
-    /// let found = Attractors::search(&newton, region, &starts, RecurrenceLimits::default())?;
+    /// let grid = StateGrid::uniform(region, 100)?;
+    /// let found = Attractors::search(&newton, grid, &starts, RecurrenceLimits::default())?;
     /// assert_eq!(found.attractors().len(), 2);
+    /// assert_eq!(found.attractors()[0].period, Some(1));
     /// assert!((found.attractors()[0].points[0][1] - 1.0).abs() < 1e-9);
     /// assert_eq!(found.label(&newton, &[0.0, -7.0]), Label::from(2));
     /// // On the line y = 0 between the basins the orbit is chaotic. It belongs to no attractor.
@@ -85,21 +85,20 @@ impl Attractors {
     /// ```
     ///
     /// # Errors
-    /// [`Error::BadStateGrid`] for a grid without cells, of more than ten dimensions, or with more than 2⁶⁴ cells;
-    /// [`Error::BadSearch`] for fewer than three cells a side, and for a distance of escape that is not positive and
-    /// finite; [`Error::WrongDimension`] for a start of another dimension than the region;
-    /// [`Error::TooManyAttractors`] beyond 65 000.
+    /// [`Error::BadSearch`] for a distance of escape that is not positive and finite; [`Error::WrongDimension`] for a map or a start of
+    /// another dimension than the states of the grid; [`Error::TooManyAttractors`] beyond 65 000.
     pub fn search(
-        map: &StateMap<'_>,
-        region: Hyperrectangle,
+        map: &dyn StateMap,
+        grid: StateGrid,
         starts: &[Vec<f64>],
         limits: RecurrenceLimits,
     ) -> Result<Attractors, Error> {
-        if limits.cells < FEWEST_CELLS {
-            let (name, remedy) = ("a number of cells a side", "; give 3 or more");
-            return Err(Error::BadSearch { name, value: limits.cells as f64, remedy });
+        let known = KnownCells::new(grid);
+        let expected = known.dimension();
+        let lengths = map.dimension().into_iter().chain(starts.iter().map(Vec::len));
+        if let Some(dimension) = lengths.into_iter().find(|length| *length != expected) {
+            return Err(Error::WrongDimension { dimension, expected });
         }
-        let known = KnownCells::new(&region, limits.cells)?;
         if let Some(value) = limits.escape.filter(|escape| !(*escape > 0.0 && escape.is_finite())) {
             let (name, remedy) = ("a distance of escape", "; give none if there is none");
             return Err(Error::BadSearch { name, value, remedy });
@@ -108,10 +107,6 @@ impl Attractors {
         // The end of the orbit that found each attractor, and for each unmatched start the attractors that were known.
         let (mut ends, mut known_then) = (Vec::new(), Vec::new());
         for start in starts {
-            let (expected, dimension) = (found.known.dimension(), start.len());
-            if dimension != expected {
-                return Err(Error::WrongDimension { dimension, expected });
-            }
             if let Some(reason) = found.search_from(map, start, &mut ends)? {
                 found.unmatched.push(Unmatched { start: start.clone(), reason });
                 known_then.push(found.attractors.len());
@@ -120,39 +115,44 @@ impl Attractors {
         let last = found.attractors.len();
         found.merge(map, &ends);
         // An attractor that was found later may be that of an earlier start.
-        let still_unmatched: Vec<bool> = found
-            .unmatched
-            .iter()
-            .zip(known_then)
-            .map(|(own, then)| then == last || found.label(map, &own.start).is_undecided())
-            .collect();
-        let mut still = still_unmatched.into_iter();
-        found.unmatched.retain(|_| still.next().unwrap_or(true));
+        for (own, then) in std::mem::take(&mut found.unmatched).into_iter().zip(known_then) {
+            let label = if then == last { Label::UNDECIDED } else { found.label(map, &own.start) };
+            match found.attractors.iter_mut().find(|attractor| attractor.label == label) {
+                Some(attractor) => attractor.starts += 1,
+                None if label.is_escaped() => {}
+                None => found.unmatched.push(own),
+            }
+        }
         Ok(found)
     }
 
     /// Follows one start, and adds its attractor if it is new. Returns the reason if it belongs to none.
     fn search_from(
         &mut self,
-        map: &StateMap<'_>,
+        map: &dyn StateMap,
         start: &[f64],
         ends: &mut Vec<Vec<f64>>,
     ) -> Result<Option<UnmatchedReason>, Error> {
-        let mut orbit = Orbit::new(start);
+        let mut orbit = Orbit::new(&self.known, start);
         loop {
             return Ok(match orbit.follow(&self.known, &self.limits, map) {
-                End::Known(_) | End::Escaped => None,
+                End::Known(own) => {
+                    self.attractors[own].starts += 1;
+                    None
+                }
+                End::Escaped => None,
                 End::Unmatched(reason) => Some(reason),
                 End::Budget => {
-                    let drift = drift(map, &orbit.at, self.limits.locate);
+                    let drift = drift(map, orbit.at(), self.limits.locate);
                     Some(UnmatchedReason::NotSettled { drift })
                 }
                 End::Settled(settled) => {
                     if self.add_attractor(map, &settled)? {
-                        ends.push(orbit.at);
+                        ends.push(orbit.at().to_vec());
                         None
                     } else if settled.drifts {
                         // A slow passage: the search goes on from its end.
+                        orbit.go_on();
                         continue;
                     } else {
                         Some(UnmatchedReason::NoTrap)
@@ -181,137 +181,92 @@ impl Attractors {
     /// What would help if no attractor was found: a larger region, more cells, or longer orbits, by the reason of
     /// most starts. `None` if there is an attractor, or if no start has such a reason.
     pub fn remedy(&self) -> Option<Remedy> {
-        let finest = self.known.grids().last().map_or(0, StateGrid::cells) as usize;
+        let finest = self.known.grids().last().map_or(0, StateGrid::most_cells) as usize;
         let none = self.attractors.is_empty();
         none.then(|| remedy(&self.unmatched, self.limits.budget, finest)).flatten()
     }
 
     /// The label of the attractor to which the orbit of a point comes; undecided if it comes to none of them.
     ///
-    /// The label is the same for each call: no attractor is added. So the points of a raster or of a sample can be
-    /// labelled in parallel: `|x| attractors.label(&map, x)`. A point of another dimension is undecided.
-    pub fn label(&self, map: &StateMap<'_>, start: &[f64]) -> Label {
-        if start.len() != self.known.dimension() {
-            return Label::UNDECIDED;
-        }
-        let mut orbit = Orbit::new(start);
-        loop {
-            return match orbit.follow(&self.known, &self.limits, map) {
-                End::Known(own) => self.attractors[own].label,
-                End::Escaped => Label::ESCAPED,
-                End::Unmatched(UnmatchedReason::Stopped) => Label::UNDECIDED_MAP,
-                // It moves on, and may come to an attractor.
-                End::Settled(Settled { drifts: true, .. }) => continue,
-                End::Unmatched(_) | End::Budget | End::Settled(_) => Label::UNDECIDED,
-            };
-        }
+    /// The label is the same for each call: no attractor is added. A point of another dimension is undecided.
+    /// [`convergences`](Self::convergences) takes less time for many points.
+    pub fn label(&self, map: &dyn StateMap, start: &[f64]) -> Label {
+        self.convergence(map, start).map_or(Label::UNDECIDED, |(label, _)| label)
     }
 
-    /// Locates and tests a candidate, on one grid after the other; `false` if the tests refuse it on all of them.
-    fn add_attractor(&mut self, map: &StateMap<'_>, settled: &Settled) -> Result<bool, Error> {
-        for grid in 0..self.known.grids().len() {
-            let Some((cells, last)) = self.visited(map, grid, settled) else { return Ok(false) };
-            let own: BTreeSet<u64> = cells.keys().copied().collect();
-            // No test can start beyond the region, where an orbit that moves on may lead.
-            let moves_to_border = settled.drifts
-                && own.iter().any(|&cell| self.known.grids()[grid].is_at_border(cell));
-            if moves_to_border || !self.is_trap(map, &self.known.grids()[grid], &own, settled.pace)
-            {
-                continue;
-            }
-            let index = self.attractors.len();
-            let label = label_of(index)?;
-            let of_grid = &self.known.grids()[grid];
-            let seen: BTreeSet<u64> = last.iter().filter_map(|point| of_grid.cell(point)).collect();
-            let others = cells.into_iter().filter(|(cell, _)| !seen.contains(cell));
-            let points = Vec::from(last).into_iter().chain(others.map(|(_, point)| point));
-            self.attractors.push(Attractor { label, points: points.collect() });
-            self.known.add(grid, own.into_iter(), index);
-            return Ok(true);
-        }
-        Ok(false)
+    /// The label, and the number of steps after which the orbit is in a cell of the attractor, or has escaped: the time to convergence. Of
+    /// an undecided orbit it is the number of steps that were made.
+    ///
+    /// # Errors
+    /// [`Error::WrongDimension`] for a point of another dimension.
+    pub fn convergence(&self, map: &dyn StateMap, start: &[f64]) -> Result<(Label, usize), Error> {
+        self.check_dimension(start.len())?;
+        Ok(Labelled { attractors: self, orbit: Orbit::new(&self.known, start) }.follow(map))
     }
 
-    /// The cells of a grid that the orbit visits in the second half of its confirmation, each with its first point,
-    /// and the last points. `None` if it leaves the region or stops.
-    fn visited(
+    /// The labels and times of many starts, as [`convergence`](Self::convergence) gives them: in parallel, and some orbits at a time where
+    /// the map moves them together. `start` writes the start with a number.
+    ///
+    /// ```
+    /// # use basin_of_attraction::{Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits, StateGrid, array_map};
+    /// let cubic = array_map(|[x]| Some([1.5 * x - 0.5 * x * x * x]));
+    /// let grid = StateGrid::uniform(Interval::new(-1.7, 1.6)?.try_into()?, 100)?;
+    /// let found = Attractors::search(&cubic, grid, &[vec![0.3], vec![-0.3]], RecurrenceLimits::default())?;
+    /// let all = found.convergences(&cubic, 1000, |k, state| state[0] = 1e-3 * (k as f64 + 0.5))?;
+    /// assert!(all.iter().all(|(label, steps)| *label == Label::from(1) && *steps < 30));
+    /// # Ok::<(), basin_of_attraction::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::WrongDimension`] for a map of another dimension.
+    pub fn convergences(
         &self,
-        map: &StateMap<'_>,
-        grid: usize,
-        settled: &Settled,
-    ) -> Option<(FirstPoints, VecDeque<Vec<f64>>)> {
-        /// Half of the confirmation.
-        const PACES: usize = 5;
-        let (grid, most) = (&self.known.grids()[grid], self.limits.locate.max(1));
-        let (mut cells, mut last) = (BTreeMap::new(), VecDeque::new());
-        let mut at = settled.half.clone();
-        for _ in 0..settled.pace.saturating_mul(PACES) {
-            cells.entry(grid.cell(&at)?).or_insert_with(|| at.clone());
-            if last.len() >= most {
-                last.pop_front();
-            }
-            let next = map(&at)?;
-            last.push_back(std::mem::replace(&mut at, next));
-        }
-        Some((cells, last))
+        map: &dyn StateMap,
+        count: usize,
+        start: impl Fn(usize, &mut [f64]) + Sync,
+    ) -> Result<Vec<(Label, usize)>, Error> {
+        let dimension = self.known.dimension();
+        self.check_dimension(map.dimension().unwrap_or(dimension))?;
+        let orbit =
+            || Labelled { attractors: self, orbit: Orbit::new(&self.known, &vec![0.0; dimension]) };
+        Ok(follow_many(map, dimension, count, orbit, start))
     }
 
-    /// Whether orbits from random points of the cells and of the cells beside them come to the cells, and come back
-    /// to them.
-    fn is_trap(
-        &self,
-        map: &StateMap<'_>,
-        grid: &StateGrid,
-        cells: &BTreeSet<u64>,
-        pace: usize,
-    ) -> bool {
-        /// Seed of the points. Another one tests other points.
-        const SEED: u64 = 1;
-        /// Successive stretches of `locate` steps in each of which an orbit must visit the cells. A passage that is
-        /// left within some thousand steps shows itself in one of three. More would take longer.
-        const STRETCHES: usize = 3;
-        /// The time that an orbit may take to come to the cells, in units of the time that the candidate took to be
-        /// found.
-        const PACES: usize = 4;
-        let mut near: BTreeSet<u64> = cells.clone();
-        near.extend(cells.iter().flat_map(|&cell| grid.neighbours(cell)));
-        let beside: Vec<u64> = near.difference(cells).copied().collect();
-        let inside: Vec<u64> = cells.iter().copied().collect();
-        let random = SplitMix64::from_seed(SEED);
-        let dimension = grid.dimension() as u64;
-        let stretch = self.limits.locate.max(1);
-        let most = STRETCHES + pace.saturating_mul(PACES).div_ceil(stretch);
-        let stays = |test: usize| {
-            // Every second point is beside the cells: from there a slow passage shows itself first.
-            let among =
-                if test.is_multiple_of(2) && !beside.is_empty() { &beside } else { &inside };
-            let first = test as u64 * (dimension + 1);
-            let pick = (random.uniform(first) * among.len() as f64) as usize;
-            let Some(&cell) = among.get(pick) else { return false };
-            let start = grid.point(cell, |k| random.uniform(first + 1 + k));
-            // A map may expand before it contracts: excursions are allowed at first.
-            let Some(mut at) = (0..stretch).try_fold(start, |at, _| map(&at)) else { return false };
-            let mut visits = 0;
-            for _ in 0..most {
-                let mut comes = false;
-                for _ in 0..stretch {
-                    comes |= grid.cell(&at).is_some_and(|cell| cells.contains(&cell));
-                    let Some(next) = map(&at) else { return false };
-                    at = next;
-                }
-                visits = if comes { visits + 1 } else { 0 };
-                if visits >= STRETCHES {
-                    return true;
-                }
-            }
-            false
+    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        let expected = self.known.dimension();
+        if dimension == expected {
+            return Ok(());
+        }
+        Err(Error::WrongDimension { dimension, expected })
+    }
+
+    /// The label at the end of an orbit; `None` if it moves on, and may come to an attractor.
+    fn label_at(&self, end: &End) -> Option<Label> {
+        match end {
+            End::Known(own) => Some(self.attractors[*own].label),
+            End::Escaped => Some(Label::ESCAPED),
+            End::Unmatched(UnmatchedReason::Stopped) => Some(Label::UNDECIDED_MAP),
+            End::Settled(Settled { drifts: true, .. }) => None,
+            End::Unmatched(_) | End::Budget | End::Settled(_) => Some(Label::UNDECIDED),
+        }
+    }
+
+    /// Locates and tests a candidate; `false` if the tests refuse it.
+    fn add_attractor(&mut self, map: &dyn StateMap, settled: &Settled) -> Result<bool, Error> {
+        let (known, limits) = (&self.known, &self.limits);
+        let Some(located) = (Candidate { map, known, limits, settled }).located() else {
+            return Ok(false);
         };
-        (0..self.limits.tests.max(FEWEST_TESTS)).into_par_iter().all(stays)
+        let index = self.attractors.len();
+        let (label, points, period) = (label_of(index)?, located.points, located.period);
+        self.attractors.push(Attractor { label, points, period, starts: 1 });
+        self.known.add(located.grid, located.cells.into_iter(), index);
+        Ok(true)
     }
 
     /// Makes one of attractors whose orbits enter each other, and gives the labels again. `ends` are points of
     /// their orbits.
-    fn merge(&mut self, map: &StateMap<'_>, ends: &[Vec<f64>]) {
+    fn merge(&mut self, map: &dyn StateMap, ends: &[Vec<f64>]) {
         if self.attractors.len() < 2 {
             return;
         }
@@ -334,35 +289,75 @@ impl Attractors {
             // The orbit that enters no other one has come to the attractor.
             let members = || (0..first.len()).filter(|&own| first[own] == class);
             let own = members().find(|&own| enters[own].is_none()).unwrap_or(class);
-            let points = self.attractors[own].points.clone();
-            Attractor { label: self.attractors[at].label, points }
+            let starts = members().map(|own| self.attractors[own].starts).sum();
+            Attractor { label: self.attractors[at].label, starts, ..self.attractors[own].clone() }
         });
         self.attractors = kept.collect();
         self.known.renumber(&index);
     }
 
     /// The attractor that the orbit of another one enters within the budget.
-    fn entered(&self, map: &StateMap<'_>, own: usize, end: &[f64]) -> Option<usize> {
-        let (mut at, mut anchor) = (end.to_vec(), end.to_vec());
-        for step in 1..=self.limits.budget {
-            if let Some(other) = self.known.other_owner(&at, own) {
+    fn entered(&self, map: &dyn StateMap, own: usize, end: &[f64]) -> Option<usize> {
+        let (mut point, mut repeats) = (Moving::from(end), Repeats::default());
+        for _ in 0..self.limits.budget {
+            if let Some(other) = self.known.other_owner(&point.at, own) {
                 return Some(other);
             }
-            at = map(&at)?;
             // An orbit that repeats itself to the last bit enters nothing more.
-            if at == anchor {
+            if repeats.see(&point.at) || !point.step(map) {
                 return None;
             }
-            if step.is_power_of_two() {
-                anchor.clone_from(&at);
-            }
+            self.known.wrap(&mut point.at);
         }
         None
     }
 }
 
-/// The first point of an orbit in each cell.
-type FirstPoints = BTreeMap<u64, Vec<f64>>;
+/// An orbit that comes to an attractor, or to none.
+struct Labelled<'a> {
+    attractors: &'a Attractors,
+    orbit: Orbit,
+}
+
+impl Labelled<'_> {
+    fn follow(mut self, map: &dyn StateMap) -> (Label, usize) {
+        let Attractors { known, limits, .. } = self.attractors;
+        loop {
+            let end = self.orbit.follow(known, limits, map);
+            if let Some(label) = self.attractors.label_at(&end) {
+                return (label, self.orbit.steps());
+            }
+            self.orbit.go_on();
+        }
+    }
+}
+
+impl FollowedOrbit for Labelled<'_> {
+    type End = (Label, usize);
+
+    fn restart(&mut self, start: &[f64]) {
+        self.orbit.restart(&self.attractors.known, start);
+    }
+
+    fn see(&mut self) -> Option<(Label, usize)> {
+        let Attractors { known, limits, .. } = self.attractors;
+        while let Some(end) = self.orbit.see(known, limits) {
+            if let Some(label) = self.attractors.label_at(&end) {
+                return Some((label, self.orbit.steps()));
+            }
+            self.orbit.go_on();
+        }
+        None
+    }
+
+    fn at(&mut self) -> &mut [f64] {
+        self.orbit.at_mut()
+    }
+
+    fn moved(&mut self, has_image: bool) {
+        self.orbit.moved(&self.attractors.known, has_image);
+    }
+}
 
 /// Attractors beyond this number would take labels that mean other things.
 const MOST_ATTRACTORS: u16 = 65_000;

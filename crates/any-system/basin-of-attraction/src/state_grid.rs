@@ -2,122 +2,314 @@
 
 use crate::error::Error;
 use crate::hyperrectangle::Hyperrectangle;
+use crate::interval::Interval;
 use crate::unmatched::Border;
 
-/// Cells of a region, by number.
+/// Cells of a region: along each axis as many as are asked for, of equal or of given lengths.
+///
+/// ```
+/// use basin_of_attraction::{Hyperrectangle, Interval, StateGrid};
+/// use std::f64::consts::PI;
+/// // Angle and rate of a pendulum. The angle is periodic: it has no border.
+/// let region = Hyperrectangle::new(vec![Interval::new(-PI, PI)?, Interval::new(-3.0, 3.0)?])?;
+/// let grid = StateGrid::new(region, &[200, 60])?.periodic(0)?;
+/// # assert_eq!(grid.dimension(), 2);
+/// # Ok::<(), basin_of_attraction::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct StateGrid {
-    region: Hyperrectangle,
-    /// Cells along every side.
-    cells: u64,
+pub struct StateGrid {
+    axes: Vec<Axis>,
+    /// The number of coordinates of a state.
+    dimension: usize,
 }
 
-/// The largest number of coordinates: a cell of a region of d dimensions has 3^d − 1 neighbours, 59 048 for ten.
-const MOST_DIMENSIONS: usize = 10;
+/// The cells along one coordinate.
+#[derive(Debug, Clone, PartialEq)]
+struct Axis {
+    coordinate: usize,
+    side: Interval,
+    cells: u64,
+    is_periodic: bool,
+    /// The ends of cells of given lengths; empty for equal ones.
+    edges: Vec<f64>,
+}
+
+/// The largest number of axes: a cell of a region of d dimensions has 3^d − 1 neighbours, 59 048 for ten.
+const MOST_AXES: usize = 10;
+
+/// With fewer cells along an axis each of them is at the border of the region, and no orbit can be seen to stay away from it.
+const FEWEST_CELLS: usize = 3;
 
 impl StateGrid {
-    /// `cells` along every side of the region.
-    pub(crate) fn new(region: Hyperrectangle, cells: usize) -> Result<Self, Error> {
-        let dimension = region.dimension();
-        let number = (cells as u64).checked_pow(dimension.min(64) as u32);
-        if cells == 0 || dimension > MOST_DIMENSIONS || number.is_none() {
-            return Err(Error::BadStateGrid { cells, dimension, most: MOST_DIMENSIONS });
+    /// So many cells along each side of a region, of equal lengths.
+    ///
+    /// # Errors
+    /// [`Error::BadStateGrid`] for more than ten sides, and more than 2⁶⁴ cells; [`Error::WrongDimension`] for another number of numbers
+    /// than sides; [`Error::BadSearch`] for fewer than three cells along a side.
+    pub fn new(region: Hyperrectangle, cells: &[usize]) -> Result<StateGrid, Error> {
+        let (dimension, expected) = (cells.len(), region.dimension());
+        if dimension != expected {
+            return Err(Error::WrongDimension { dimension, expected });
         }
-        Ok(StateGrid { region, cells: cells as u64 })
+        let axis = |(coordinate, (&side, &cells)): (usize, (&Interval, &usize))| Axis {
+            coordinate,
+            side,
+            cells: cells as u64,
+            is_periodic: false,
+            edges: Vec::new(),
+        };
+        let axes: Vec<Axis> = region.sides().iter().zip(cells).enumerate().map(axis).collect();
+        StateGrid { dimension: axes.len(), axes }.checked()
     }
 
-    /// The number of coordinates.
-    pub(crate) fn dimension(&self) -> usize {
-        self.region.dimension()
+    /// So many cells along every side.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn uniform(region: Hyperrectangle, cells: usize) -> Result<StateGrid, Error> {
+        let all = vec![cells; region.dimension()];
+        StateGrid::new(region, &all)
     }
 
-    /// The number of the cell that contains a point; `None` outside the region.
-    pub(crate) fn cell(&self, point: &[f64]) -> Option<u64> {
-        if !self.region.contains(point) {
-            return None;
+    /// Cells with these ends, for each coordinate a list that increases. Short cells separate attractors where these are small.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); [`Error::BadInterval`] for ends that do not increase.
+    pub fn from_edges(edges: Vec<Vec<f64>>) -> Result<StateGrid, Error> {
+        let side = |edges: &Vec<f64>| {
+            let (left, right) = (edges.first().copied(), edges.last().copied());
+            let increases = |pair: &[f64]| pair[0] < pair[1];
+            if let Some(pair) = edges.windows(2).find(|pair| !increases(pair)) {
+                return Err(Error::BadInterval { left: pair[0], right: pair[1] });
+            }
+            Interval::new(left.unwrap_or(f64::NAN), right.unwrap_or(f64::NAN))
+        };
+        let region = Hyperrectangle::new(edges.iter().map(side).collect::<Result<_, _>>()?)?;
+        let cells: Vec<usize> = edges.iter().map(|edges| edges.len() - 1).collect();
+        let mut grid = StateGrid::new(region, &cells)?;
+        grid.axes.iter_mut().zip(edges).for_each(|(axis, edges)| axis.edges = edges);
+        Ok(grid)
+    }
+
+    /// The same grid with a periodic coordinate, such as an angle: its side is one period. The map must take states that differ by a period
+    /// to states that do. Orbits are moved into the period after each step.
+    ///
+    /// # Errors
+    /// [`Error::WrongDimension`] for a coordinate that the grid does not have.
+    pub fn periodic(mut self, coordinate: usize) -> Result<StateGrid, Error> {
+        let expected = self.dimension;
+        let axis = self.axes.iter_mut().find(|axis| axis.coordinate == coordinate);
+        axis.ok_or(Error::WrongDimension { dimension: coordinate + 1, expected })?.is_periodic =
+            true;
+        Ok(self)
+    }
+
+    /// The same cells of some coordinates of states with `dimension` coordinates: axis k has coordinate `coordinates[k]`. The others do not
+    /// tell attractors apart: two that agree in all of these are one.
+    ///
+    /// To project by a function, follow states that have its values as further coordinates.
+    ///
+    /// # Errors
+    /// [`Error::WrongDimension`] for another number of coordinates than axes, and for a coordinate that is not below `dimension`;
+    /// [`Error::BadSearch`] for one that is there twice.
+    pub fn of_coordinates(
+        mut self,
+        coordinates: &[usize],
+        dimension: usize,
+    ) -> Result<StateGrid, Error> {
+        let (given, expected) = (coordinates.len(), self.axes.len());
+        if given != expected {
+            return Err(Error::WrongDimension { dimension: given, expected });
         }
-        let sides = self.region.sides().iter().zip(point);
-        Some(sides.rev().fold(0, |number, (side, &x)| {
-            let at = (x - side.left) / side.length() * self.cells as f64;
-            // The right end of the region belongs to the last cell.
-            number * self.cells + (at as u64).min(self.cells - 1)
-        }))
+        for (place, &coordinate) in coordinates.iter().enumerate() {
+            if coordinate >= dimension {
+                let (dimension, expected) = (coordinate + 1, dimension);
+                return Err(Error::WrongDimension { dimension, expected });
+            }
+            if coordinates[..place].contains(&coordinate) {
+                let (name, remedy) = ("a coordinate", "; give each of them once");
+                return Err(Error::BadSearch { name, value: coordinate as f64, remedy });
+            }
+            self.axes[place].coordinate = coordinate;
+        }
+        self.dimension = dimension;
+        Ok(self)
     }
 
-    /// Cells along a side.
-    pub(crate) fn cells(&self) -> u64 {
-        self.cells
+    fn checked(self) -> Result<StateGrid, Error> {
+        if let Some(axis) = self.axes.iter().find(|axis| axis.cells < FEWEST_CELLS as u64) {
+            let (name, remedy) = ("a number of cells along a side", "; give 3 or more");
+            return Err(Error::BadSearch { name, value: axis.cells as f64, remedy });
+        }
+        let number = self.axes.iter().try_fold(1u64, |all, axis| all.checked_mul(axis.cells));
+        if self.axes.len() > MOST_AXES || number.is_none() {
+            let cells = self.most_cells() as usize;
+            let (dimension, most) = (self.axes.len(), MOST_AXES);
+            return Err(Error::BadStateGrid { cells, dimension, most });
+        }
+        Ok(self)
     }
 
-    /// Where a point is farthest outside the region, in lengths of its sides; `None` inside.
-    pub(crate) fn beyond(&self, point: &[f64]) -> Option<Border> {
-        let sides = self.region.sides();
-        let excess = |own: &Border| own.excess() / sides[own.coordinate].length();
-        let outside =
-            |(coordinate, (&reached, side)): (usize, (&f64, &crate::interval::Interval))| {
-                let border = match reached {
-                    x if x < side.left => side.left,
-                    x if x > side.right => side.right,
-                    _ => return None,
-                };
-                Some(Border { coordinate, border, reached })
+    /// The grid with n, 2n + 1, 4n + 3, … cells for n; `None` if they cannot be numbered.
+    ///
+    /// The odd numbers matter: cells of n and of 2n share their corners, and a fixed point on a corner belongs to one
+    /// of four cells, which orbits in the others never enter.
+    pub(crate) fn finer(&self, halvings: u32) -> Option<StateGrid> {
+        let mut finer = self.clone();
+        let parts = 1u64.checked_shl(halvings)?;
+        for axis in &mut finer.axes {
+            axis.cells = axis.cells.checked_mul(parts)?.checked_add(parts - 1)?;
+        }
+        finer.checked().ok()
+    }
+
+    /// The number of coordinates of a state.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// The largest number of cells along an axis.
+    pub(crate) fn most_cells(&self) -> u64 {
+        self.axes.iter().map(|axis| axis.cells).max().unwrap_or(0)
+    }
+
+    /// The length of the side of a coordinate; `None` if the grid has no cells along it.
+    pub(crate) fn side(&self, coordinate: usize) -> Option<f64> {
+        let axis = self.axes.iter().find(|axis| axis.coordinate == coordinate);
+        axis.map(|axis| axis.side.length())
+    }
+
+    /// Moves a state into the periods of its coordinates.
+    pub(crate) fn wrap(&self, state: &mut [f64]) {
+        for axis in self.axes.iter().filter(|axis| axis.is_periodic) {
+            let (x, side) = (&mut state[axis.coordinate], axis.side);
+            if !(side.left <= *x && *x < side.right) && x.is_finite() {
+                let turns = ((*x - side.left) / side.length()).floor();
+                *x = (*x - turns * side.length()).clamp(side.left, side.right);
+            }
+        }
+    }
+
+    /// The number of the cell that contains a state, moved into its periods; `None` outside the region.
+    pub(crate) fn cell(&self, state: &[f64]) -> Option<u64> {
+        let mut number = 0;
+        for axis in self.axes.iter().rev() {
+            number = number * axis.cells + axis.cell(state[axis.coordinate])?;
+        }
+        Some(number)
+    }
+
+    /// Where a state is farthest outside the region, in lengths of its sides; `None` inside.
+    pub(crate) fn beyond(&self, state: &[f64]) -> Option<Border> {
+        let excess = |own: &(Border, f64)| own.0.excess() / own.1;
+        let outside = |axis: &Axis| {
+            let (reached, side) = (state[axis.coordinate], axis.side);
+            let border = match reached {
+                x if x < side.left => side.left,
+                x if x > side.right => side.right,
+                _ => return None,
             };
-        let all = point.iter().zip(sides).enumerate().filter_map(outside);
-        all.max_by(|a, b| excess(a).total_cmp(&excess(b)))
+            Some((Border { coordinate: axis.coordinate, border, reached }, side.length()))
+        };
+        let all = self.axes.iter().filter_map(outside);
+        all.max_by(|a, b| excess(a).total_cmp(&excess(b))).map(|(border, _)| border)
     }
 
     /// The cells that share at least a corner with a cell.
     pub(crate) fn neighbours(&self, cell: u64) -> Vec<u64> {
-        let mut found = vec![(0, 1)];
-        let mut rest = cell;
-        for _ in 0..self.dimension() {
-            let at = rest % self.cells;
-            rest /= self.cells;
-            let around = at.saturating_sub(1)..=(at + 1).min(self.cells - 1);
-            found = around
-                .flat_map(|at| found.iter().map(move |&(number, unit)| (number + at * unit, unit)))
-                .collect();
-            found.iter_mut().for_each(|(_, unit)| *unit = unit.saturating_mul(self.cells));
+        let mut found = vec![0];
+        let (mut rest, mut unit) = (cell, 1u64);
+        for axis in &self.axes {
+            let at = rest % axis.cells;
+            rest /= axis.cells;
+            let beside = |by: i64| {
+                let next = at as i64 + by;
+                match axis.is_periodic {
+                    true => Some(next.rem_euclid(axis.cells as i64) as u64),
+                    false => u64::try_from(next).ok().filter(|next| *next < axis.cells),
+                }
+            };
+            let around: Vec<u64> = [-1, 0, 1].into_iter().filter_map(beside).collect();
+            found = around.iter().flat_map(|at| found.iter().map(move |n| n + at * unit)).collect();
+            unit = unit.saturating_mul(axis.cells);
         }
-        found.into_iter().map(|(number, _)| number).filter(|&number| number != cell).collect()
+        found.retain(|&number| number != cell);
+        found
     }
 
     /// Whether a cell lies at the border of the region.
     pub(crate) fn is_at_border(&self, cell: u64) -> bool {
-        let places = std::iter::successors(Some(cell), |rest| Some(rest / self.cells));
-        let mut places = places.take(self.dimension()).map(|rest| rest % self.cells);
-        places.any(|at| at == 0 || at + 1 == self.cells)
+        let mut rest = cell;
+        self.axes.iter().any(|axis| {
+            let at = rest % axis.cells;
+            rest /= axis.cells;
+            !axis.is_periodic && (at == 0 || at + 1 == axis.cells)
+        })
     }
 
-    /// The point of a cell with these coordinates between 0 and 1 in it.
-    pub(crate) fn point(&self, cell: u64, within: impl Fn(u64) -> f64) -> Vec<f64> {
+    /// Moves a state into a cell, to the place with these coordinates between 0 and 1 in it.
+    pub(crate) fn move_into(&self, cell: u64, within: impl Fn(u64) -> f64, state: &mut [f64]) {
         let mut rest = cell;
-        let coordinate = |(k, side): (u64, &crate::interval::Interval)| {
-            let at = rest % self.cells;
-            rest /= self.cells;
-            side.left + side.length() * ((at as f64 + within(k)) / self.cells as f64)
+        for (k, axis) in (0..).zip(&self.axes) {
+            let at = rest % axis.cells;
+            rest /= axis.cells;
+            state[axis.coordinate] = axis.place((at as f64 + within(k)) / axis.cells as f64);
+        }
+    }
+}
+
+impl Axis {
+    fn cell(&self, x: f64) -> Option<u64> {
+        if !self.side.contains(x) {
+            return None;
+        }
+        // The right end of the region belongs to the last cell.
+        Some(((self.part(x) * self.cells as f64) as u64).min(self.cells - 1))
+    }
+
+    /// How far along the axis a place is, from 0 to 1: cells of given lengths are equal parts.
+    fn part(&self, x: f64) -> f64 {
+        let Some(last) = self.edges.len().checked_sub(1) else {
+            return (x - self.side.left) / self.side.length();
         };
-        (0..).zip(self.region.sides()).map(coordinate).collect()
+        let at = self.edges.partition_point(|edge| *edge <= x).clamp(1, last);
+        let (left, right) = (self.edges[at - 1], self.edges[at]);
+        ((at - 1) as f64 + (x - left) / (right - left)) / last as f64
+    }
+
+    /// The place so far along the axis.
+    fn place(&self, part: f64) -> f64 {
+        let Some(last) = self.edges.len().checked_sub(1) else {
+            return self.side.left + self.side.length() * part;
+        };
+        let at = ((part * last as f64) as usize).min(last - 1);
+        self.edges[at] + (self.edges[at + 1] - self.edges[at]) * (part * last as f64 - at as f64)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::interval::Interval;
+
+    fn cube(dimension: usize) -> Hyperrectangle {
+        Hyperrectangle::new(vec![Interval { left: -1.0, right: 2.0 }; dimension]).unwrap()
+    }
 
     #[test]
     fn cells_points_and_neighbours_agree() {
-        let sides = vec![Interval { left: -1.0, right: 2.0 }; 3];
-        let grid = StateGrid::new(Hyperrectangle::new(sides).unwrap(), 4).unwrap();
+        let grid = StateGrid::uniform(cube(3), 4).unwrap();
+        let middle = |cell| {
+            let mut middle = vec![f64::NAN; 3];
+            grid.move_into(cell, |_| 0.5, &mut middle);
+            middle
+        };
         for cell in 0..64 {
-            let middle = grid.point(cell, |_| 0.5);
-            assert_eq!(grid.cell(&middle), Some(cell));
+            assert_eq!(grid.cell(&middle(cell)), Some(cell));
             let near = grid.neighbours(cell);
             let length = 0.75;
             for other in (0..64).filter(|&other| other != cell) {
-                let there = grid.point(other, |_| 0.5);
-                let beside = middle.iter().zip(&there).all(|(a, b)| (a - b).abs() < 1.5 * length);
+                let (here, there) = (middle(cell), middle(other));
+                let beside = here.iter().zip(&there).all(|(a, b)| (a - b).abs() < 1.5 * length);
                 assert_eq!(near.contains(&other), beside, "{cell} {other}");
             }
         }
@@ -128,7 +320,49 @@ mod tests {
         assert_eq!(grid.beyond(&[2.5, 0.0, -3.0]), Some(border));
         assert_eq!(grid.beyond(&[2.0, 0.0, -1.0]), None);
         assert_eq!(grid.cell(&[f64::NAN, 0.0, 0.0]), None);
-        let wide = Hyperrectangle::new(vec![Interval { left: 0.0, right: 1.0 }; 10]).unwrap();
-        assert!(StateGrid::new(wide.clone(), 100).is_err() && StateGrid::new(wide, 0).is_err());
+        assert!(StateGrid::uniform(cube(10), 100).is_err());
+        assert!(
+            StateGrid::uniform(cube(11), 3).is_err() && StateGrid::uniform(cube(1), 2).is_err()
+        );
+        assert!(StateGrid::new(cube(2), &[4]).is_err());
+    }
+
+    /// A periodic axis has no border, and its first and last cells are neighbours.
+    #[test]
+    fn periodic_axes_have_no_border() {
+        let grid = StateGrid::new(cube(2), &[6, 4]).unwrap().periodic(0).unwrap();
+        let mut state = [2.25, 0.0];
+        grid.wrap(&mut state);
+        assert_eq!(state, [-0.75, 0.0]);
+        for turns in [-7.0, -1.0, 1e6] {
+            let mut state = [0.3 + 3.0 * turns, 0.0];
+            grid.wrap(&mut state);
+            assert!((state[0] - 0.3).abs() < 1e-9, "{turns} {state:?}");
+        }
+        assert_eq!(grid.neighbours(6).len(), 8);
+        assert!(grid.neighbours(6).contains(&11) && !grid.is_at_border(6) && grid.is_at_border(0));
+        assert!(grid.clone().periodic(2).is_err());
+        assert_eq!(grid.finer(2).unwrap().most_cells(), 27);
+    }
+
+    /// Cells of given lengths, of two coordinates of three.
+    #[test]
+    fn given_edges_and_some_coordinates() {
+        let edges = vec![vec![0.0, 1.0, 1.5, 1.75, 4.0], vec![-1.0, 0.0, 1.0, 5.0]];
+        let grid = StateGrid::from_edges(edges).unwrap().of_coordinates(&[2, 0], 3).unwrap();
+        assert_eq!((grid.dimension(), grid.cell(&[3.0, f64::NAN, 1.6])), (3, Some(2 + 2 * 4)));
+        assert_eq!(grid.cell(&[5.0, 0.0, 4.0]), Some(11));
+        for cell in 0..12 {
+            let mut state = [0.0; 3];
+            grid.move_into(cell, |k| [0.3, 0.9][k as usize], &mut state);
+            assert_eq!((grid.cell(&state), state[1]), (Some(cell), 0.0));
+        }
+        assert!(StateGrid::from_edges(vec![vec![0.0, 2.0, 1.0, 3.0]]).is_err());
+        assert!(StateGrid::from_edges(vec![Vec::new()]).is_err());
+        let line = || StateGrid::uniform(cube(2), 5).unwrap();
+        assert!(line().of_coordinates(&[0, 0], 3).is_err());
+        assert!(
+            line().of_coordinates(&[0], 3).is_err() && line().of_coordinates(&[0, 3], 3).is_err()
+        );
     }
 }

@@ -1,10 +1,122 @@
-//! What a search for attractors calls: a map of states, and a feature of a stretch of an orbit.
+//! What a search for attractors follows: a map of states, and a feature of a stretch of an orbit.
 //!
-//! They are called through a pointer. The vector that they return costs more than the call, and a search is compiled
-//! once, not for each map.
+//! Maps are called through a pointer: a search is compiled once, not for each map.
 
-/// A map of states: the next point, or `None` where the map has no value. It may be called from several threads.
-pub type StateMap<'a> = dyn Fn(&[f64]) -> Option<Vec<f64>> + Sync + 'a;
+/// A map of states: a map, a return map, or a flow over some time. It is called from several threads.
+///
+/// Closures `Fn(&[f64]) -> Option<Vec<f64>>` are maps, for any number of coordinates. [`array_map`] makes one of a closure on arrays, which
+/// needs no memory for an image.
+pub trait StateMap: Sync {
+    /// The number of coordinates of a state, if only states of this number have images.
+    fn dimension(&self) -> Option<usize> {
+        None
+    }
+
+    /// Writes the image of a state; `false` where the map has no value. `image` has as many coordinates as `state`.
+    fn image(&self, state: &[f64], image: &mut [f64]) -> bool;
+
+    /// Moves many states to their images. `states` has a column for each coordinate, and `has_image` says which of them have one. The images
+    /// must have the bits of [`image`](Self::image): so a map that computes several at once is free to do so.
+    ///
+    /// Default: one after the other.
+    fn images(&self, states: &mut [Vec<f64>], has_image: &mut [bool]) {
+        let mut point = Moving::from(&vec![0.0; states.len()]);
+        for (k, has_image) in has_image.iter_mut().enumerate() {
+            point.at.iter_mut().zip(states.iter()).for_each(|(x, column)| *x = column[k]);
+            *has_image = self.image(&point.at, &mut point.next);
+            states.iter_mut().zip(&point.next).for_each(|(column, x)| column[k] = *x);
+        }
+    }
+}
+
+impl<F: Fn(&[f64]) -> Option<Vec<f64>> + Sync> StateMap for F {
+    fn image(&self, state: &[f64], image: &mut [f64]) -> bool {
+        let next = self(state).filter(|next| next.len() == image.len());
+        next.is_some_and(|next| {
+            image.copy_from_slice(&next);
+            true
+        })
+    }
+}
+
+/// See [`array_map`].
+#[derive(Debug, Clone, Copy)]
+pub struct ArrayMap<F, const N: usize>(F);
+
+/// The map of states with N coordinates by a closure on arrays; `None` where it has no value.
+///
+/// ```
+/// use basin_of_attraction::{StateMap, array_map};
+/// let henon = array_map(|[x, y]| Some([1.0 - 1.4 * x * x + y, 0.3 * x]));
+/// let mut image = [0.0; 2];
+/// assert!(henon.image(&[0.5, 0.1], &mut image) && image[1] == 0.15);
+/// ```
+pub fn array_map<const N: usize, F>(map: F) -> ArrayMap<F, N>
+where
+    F: Fn([f64; N]) -> Option<[f64; N]> + Sync,
+{
+    ArrayMap(map)
+}
+
+impl<F: Fn([f64; N]) -> Option<[f64; N]> + Sync, const N: usize> StateMap for ArrayMap<F, N> {
+    fn dimension(&self) -> Option<usize> {
+        Some(N)
+    }
+
+    fn image(&self, state: &[f64], image: &mut [f64]) -> bool {
+        let next = <[f64; N]>::try_from(state).ok().and_then(&self.0);
+        match next.filter(|_| image.len() == N) {
+            Some(next) => {
+                image.copy_from_slice(&next);
+                true
+            }
+            None => false,
+        }
+    }
+}
 
 /// Numbers that tell attractors apart, made of the successive points of a stretch of an orbit.
 pub type OrbitFeature<'a> = dyn Fn(&[Vec<f64>]) -> Vec<f64> + Sync + 'a;
+
+/// A state that moves, with memory for its image.
+#[derive(Debug, Clone)]
+pub(crate) struct Moving {
+    pub(crate) at: Vec<f64>,
+    next: Vec<f64>,
+}
+
+impl Moving {
+    pub(crate) fn from(start: &[f64]) -> Moving {
+        Moving { at: start.to_vec(), next: vec![0.0; start.len()] }
+    }
+
+    /// To the image; `false` if there is none.
+    pub(crate) fn step(&mut self, map: &dyn StateMap) -> bool {
+        let found = map.image(&self.at, &mut self.next);
+        std::mem::swap(&mut self.at, &mut self.next);
+        found
+    }
+}
+
+/// Finds that an orbit repeats itself to the last bit, within twice its period and what comes before it (R. P. Brent,
+/// BIT 20, 176, 1980).
+#[derive(Debug, Default)]
+pub(crate) struct Repeats {
+    anchor: Vec<f64>,
+    steps: usize,
+}
+
+impl Repeats {
+    /// Whether the orbit was at this point before. The points of one orbit are given one after the other.
+    pub(crate) fn see(&mut self, at: &[f64]) -> bool {
+        if self.anchor == at {
+            return true;
+        }
+        self.steps += 1;
+        if self.steps.is_power_of_two() {
+            self.anchor.clear();
+            self.anchor.extend_from_slice(at);
+        }
+        false
+    }
+}

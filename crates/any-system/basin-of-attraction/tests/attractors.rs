@@ -1,13 +1,17 @@
 //! Attractors found by recurrences: known ones are found, and slow passages are not attractors.
 
 use basin_of_attraction::{
-    Attractors, Error, Hyperrectangle, Interval, Label, RecurrenceLimits, SplitMix64,
+    Attractors, Error, Hyperrectangle, Interval, Label, RecurrenceLimits, SplitMix64, StateGrid,
     UnmatchedReason, region_fractions,
 };
 
 fn region(sides: &[(f64, f64)]) -> Hyperrectangle {
     let side = |&(left, right): &(f64, f64)| Interval::new(left, right).unwrap();
     Hyperrectangle::new(sides.iter().map(side).collect()).unwrap()
+}
+
+fn grid(region: &Hyperrectangle, cells: usize) -> StateGrid {
+    StateGrid::uniform(region.clone(), cells).unwrap()
 }
 
 fn starts(region: &Hyperrectangle, count: u64) -> Vec<Vec<f64>> {
@@ -22,10 +26,9 @@ fn a_slow_passage_is_no_attractor() {
     let line = region(&[(-1.5, 0.5)]);
     let limits = RecurrenceLimits { escape: Some(10.0), ..RecurrenceLimits::default() };
     for cells in [10, 100, 999, 10_000] {
-        let limits = RecurrenceLimits { cells, ..limits };
         let mut points = starts(&line, 25);
         points.extend([vec![1e-3], vec![1e-4], vec![-0.5], vec![-1e-3]]);
-        let found = Attractors::search(&map, line.clone(), &points, limits).unwrap();
+        let found = Attractors::search(&map, grid(&line, cells), &points, limits).unwrap();
         assert!(found.attractors().is_empty(), "{cells}");
         // No start of [−1, 0] is called escaped, and each is reported.
         for point in &points {
@@ -47,7 +50,7 @@ fn fixed_points_cycles_and_chaotic_attractors_are_found() {
     let cubic = |x: &[f64]| Some(vec![1.5 * x[0] - 0.5 * x[0] * x[0] * x[0]]);
     let line = region(&[(-1.7, 1.6)]);
     let limits = RecurrenceLimits::default();
-    let found = Attractors::search(&cubic, line.clone(), &starts(&line, 50), limits).unwrap();
+    let found = Attractors::search(&cubic, grid(&line, 100), &starts(&line, 50), limits).unwrap();
     assert_eq!((found.attractors().len(), found.unmatched().len()), (2, 0));
     for attractor in found.attractors() {
         let sign = attractor.points[0][0].signum();
@@ -59,7 +62,7 @@ fn fixed_points_cycles_and_chaotic_attractors_are_found() {
         let logistic = move |x: &[f64]| Some(vec![r * x[0] * (1.0 - x[0])]);
         let unit = region(&[(0.0, 1.0)]);
         let found =
-            Attractors::search(&logistic, unit.clone(), &starts(&unit, 20), limits).unwrap();
+            Attractors::search(&logistic, grid(&unit, 100), &starts(&unit, 20), limits).unwrap();
         assert_eq!((found.attractors().len(), found.unmatched().len()), (1, 0), "{r}");
         let mut cells: Vec<i64> =
             found.attractors()[0].points.iter().map(|x| (100.0 * x[0]) as i64).collect();
@@ -74,9 +77,9 @@ fn fixed_points_cycles_and_chaotic_attractors_are_found() {
 fn henons_attractor_is_found_and_other_orbits_escape() {
     let henon = |p: &[f64]| Some(vec![1.0 - 1.4 * p[0] * p[0] + p[1], 0.3 * p[0]]);
     let square = region(&[(-2.0, 2.0), (-2.0, 2.0)]);
-    let limits =
-        RecurrenceLimits { cells: 400, escape: Some(100.0), ..RecurrenceLimits::default() };
-    let found = Attractors::search(&henon, square.clone(), &starts(&square, 100), limits).unwrap();
+    let limits = RecurrenceLimits { escape: Some(100.0), ..RecurrenceLimits::default() };
+    let found =
+        Attractors::search(&henon, grid(&square, 400), &starts(&square, 100), limits).unwrap();
     assert_eq!((found.attractors().len(), found.unmatched().len()), (1, 0));
     let counts = region_fractions(&square, 20_000, 3, |x| found.label(&henon, x)).unwrap();
     let area = counts.fraction(Label::from(1)).unwrap();
@@ -105,7 +108,8 @@ fn duffing(start: &[f64]) -> Option<Vec<f64>> {
 fn duffings_oscillator_has_its_two_basins() {
     let square = region(&[(-2.2, 2.2), (-2.2, 2.2)]);
     let limits = RecurrenceLimits { locate: 200, budget: 10_000, ..RecurrenceLimits::default() };
-    let found = Attractors::search(&duffing, square.clone(), &starts(&square, 50), limits).unwrap();
+    let found =
+        Attractors::search(&duffing, grid(&square, 100), &starts(&square, 50), limits).unwrap();
     assert_eq!((found.attractors().len(), found.unmatched().len()), (2, 0), "{found:?}");
     let counts = region_fractions(&square, 5000, 3, |x| found.label(&duffing, x)).unwrap();
     assert_eq!(counts.undecided(), 0);
@@ -120,16 +124,16 @@ fn points_without_a_value_and_of_another_dimension_are_reported() {
     let away = |x: &[f64]| Some(vec![x[0] + 1.0]);
     let line = region(&[(-1.0, 1.0)]);
     let limits = RecurrenceLimits::default();
-    let found = Attractors::search(&stops, line.clone(), &[vec![0.5]], limits).unwrap();
+    let found = Attractors::search(&stops, grid(&line, 100), &[vec![0.5]], limits).unwrap();
     assert_eq!(found.unmatched()[0].reason, UnmatchedReason::Stopped);
     assert_eq!(found.label(&stops, &[0.5]), Label::UNDECIDED_MAP);
-    let found = Attractors::search(&away, line.clone(), &[vec![0.5]], limits).unwrap();
+    let found = Attractors::search(&away, grid(&line, 100), &[vec![0.5]], limits).unwrap();
     assert!(matches!(found.unmatched()[0].reason, UnmatchedReason::LeftRegion(_)));
-    let error = Attractors::search(&away, line.clone(), &[vec![0.5, 0.5]], limits).unwrap_err();
+    let error = Attractors::search(&away, grid(&line, 100), &[vec![0.5, 0.5]], limits).unwrap_err();
     assert_eq!(error, Error::WrongDimension { dimension: 2, expected: 1 });
     for escape in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
         let limits = RecurrenceLimits { escape: Some(escape), ..limits };
-        let error = Attractors::search(&away, line.clone(), &[vec![0.5]], limits).unwrap_err();
+        let error = Attractors::search(&away, grid(&line, 100), &[vec![0.5]], limits).unwrap_err();
         assert!(matches!(error, Error::BadSearch { .. }), "{escape}: {error}");
     }
 }

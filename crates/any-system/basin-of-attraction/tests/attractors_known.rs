@@ -91,7 +91,7 @@ fn cycles_and_clouds() {
 #[test]
 fn what_is_no_attractor_is_refused() {
     let limits = KnownLimits { tests: 50, ..KnownLimits::default() };
-    let refused = |map: &basin_of_attraction::StateMap<'_>, point: [f64; 2]| {
+    let refused = |map: &dyn basin_of_attraction::StateMap, point: [f64; 2]| {
         let found = KnownAttractors::suggested(map, &points(&[&[point]]), limits);
         assert!(matches!(found, Err(Error::BadSearch { .. })), "{found:?}");
     };

@@ -1,7 +1,7 @@
 //! Each attractor is found once: slow ones, long ones, ones beside a basin's boundary or cut by the region.
 
 use basin_of_attraction::{
-    Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits, Remedy, SplitMix64,
+    Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits, Remedy, SplitMix64, StateGrid,
     UnmatchedReason, region_fractions,
 };
 use std::f64::consts::{PI, TAU};
@@ -9,6 +9,10 @@ use std::f64::consts::{PI, TAU};
 fn region(sides: &[(f64, f64)]) -> Hyperrectangle {
     let side = |&(left, right): &(f64, f64)| Interval::new(left, right).unwrap();
     Hyperrectangle::new(sides.iter().map(side).collect()).unwrap()
+}
+
+fn grid(region: &Hyperrectangle, cells: usize) -> StateGrid {
+    StateGrid::uniform(region.clone(), cells).unwrap()
 }
 
 fn starts(region: &Hyperrectangle, count: u64) -> Vec<Vec<f64>> {
@@ -30,10 +34,11 @@ fn a_fixed_point_that_is_approached_slowly_is_one_attractor() {
     for (factor, tests) in [(0.9, 200), (0.99, 200), (0.997, 200), (0.999, 50), (0.9999, 50)] {
         for angle in [0.0, TAU / 3.0, 0.3, 0.3 * TAU] {
             for cells in [20, 100, 101, 1000] {
-                let limits = RecurrenceLimits { cells, tests, ..RecurrenceLimits::default() };
+                let limits = RecurrenceLimits { tests, ..RecurrenceLimits::default() };
                 let map = spiral(factor, angle);
                 let points = starts(&square, 4);
-                let found = Attractors::search(&map, square.clone(), &points, limits).unwrap();
+                let found =
+                    Attractors::search(&map, grid(&square, cells), &points, limits).unwrap();
                 let counts = (found.attractors().len(), found.unmatched().len());
                 assert_eq!(counts, (1, 0), "{factor} {angle} {cells}: {:?}", found.unmatched());
                 assert_eq!(found.label(&map, &[0.9, -0.9]), Label::from(1));
@@ -48,9 +53,13 @@ fn a_fixed_point_that_is_approached_slowly_is_one_attractor() {
 fn all_points_of_a_slow_spiral_have_one_label() {
     let square = region(&[(-1.0, 1.0), (-1.0, 1.0)]);
     let map = spiral(0.997, 0.3);
-    let found =
-        Attractors::search(&map, square.clone(), &starts(&square, 20), RecurrenceLimits::default())
-            .unwrap();
+    let found = Attractors::search(
+        &map,
+        grid(&square, 100),
+        &starts(&square, 20),
+        RecurrenceLimits::default(),
+    )
+    .unwrap();
     let counts = region_fractions(&square, 500, 3, |x| found.label(&map, x)).unwrap();
     assert_eq!(found.attractors().len(), 1);
     assert_eq!((counts.undecided(), counts.fraction(Label::from(1)).unwrap().value), (0, 1.0));
@@ -63,7 +72,8 @@ fn an_approach_that_is_too_slow_is_not_settled() {
     for angle in [0.0, 0.3] {
         let map = spiral(1.0 - 1e-6, angle);
         let limits = RecurrenceLimits { budget: 20_000, ..RecurrenceLimits::default() };
-        let found = Attractors::search(&map, square.clone(), &[vec![0.7, 0.4]], limits).unwrap();
+        let found =
+            Attractors::search(&map, grid(&square, 100), &[vec![0.7, 0.4]], limits).unwrap();
         assert!(found.attractors().is_empty());
         let reason = found.unmatched()[0].reason;
         let UnmatchedReason::NotSettled { drift } = reason else { panic!("{reason:?}") };
@@ -85,15 +95,19 @@ fn two_slow_points_are_two_attractors() {
             Some(vec![x[0] + 1e-3 * x[0] * (1.0 - (x[0] / distance).powi(2)).max(-1.0)])
         };
         let points = [vec![0.3 * distance], vec![-0.3 * distance], vec![1.0], vec![-1.0]];
-        let limits = RecurrenceLimits { cells: 1001, tests: 20, ..RecurrenceLimits::default() };
-        let found = Attractors::search(&map, line.clone(), &points, limits).unwrap();
+        let limits = RecurrenceLimits { tests: 20, ..RecurrenceLimits::default() };
+        let found = Attractors::search(&map, grid(&line, 1001), &points, limits).unwrap();
         assert_eq!((found.attractors().len(), found.unmatched().len()), (2, 0), "{distance}");
     }
     let cubic = |x: &[f64]| Some(vec![2.0 * x[0] - x[0] * x[0] * x[0]]);
     let near = region(&[(-1.3, 1.3)]);
-    let found =
-        Attractors::search(&cubic, near.clone(), &starts(&near, 20), RecurrenceLimits::default())
-            .unwrap();
+    let found = Attractors::search(
+        &cubic,
+        grid(&near, 100),
+        &starts(&near, 20),
+        RecurrenceLimits::default(),
+    )
+    .unwrap();
     assert_eq!(found.attractors().len(), 2, "{:?}", found.unmatched());
 }
 
@@ -111,7 +125,7 @@ fn a_cycle_longer_than_a_stretch_is_whole() {
         };
         let limits = RecurrenceLimits { tests: 20, ..RecurrenceLimits::default() };
         let points = starts(&square, 4);
-        let found = Attractors::search(&map, square.clone(), &points, limits).unwrap();
+        let found = Attractors::search(&map, grid(&square, 100), &points, limits).unwrap();
         assert_eq!((found.attractors().len(), found.unmatched().len()), (1, 0), "{period}");
         let mut sectors = [false; 40];
         for point in &found.attractors()[0].points {
@@ -128,9 +142,9 @@ fn henons_attractor_is_found_with_any_cells() {
     let henon = |p: &[f64]| Some(vec![1.0 - 1.4 * p[0] * p[0] + p[1], 0.3 * p[0]]);
     let square = region(&[(-2.0, 2.0), (-2.0, 2.0)]);
     for cells in [20, 50, 100, 120, 150, 200, 250, 300, 1000] {
-        let limits = RecurrenceLimits { cells, escape: Some(100.0), ..RecurrenceLimits::default() };
+        let limits = RecurrenceLimits { escape: Some(100.0), ..RecurrenceLimits::default() };
         let points = starts(&square, 20);
-        let found = Attractors::search(&henon, square.clone(), &points, limits).unwrap();
+        let found = Attractors::search(&henon, grid(&square, cells), &points, limits).unwrap();
         assert_eq!((found.attractors().len(), found.unmatched().len()), (1, 0), "{cells}");
         // An orbit that escapes has a known fate, and no basin's number.
         let label = found.label(&henon, &[-2.0, -2.0]);
@@ -145,7 +159,8 @@ fn an_attractor_that_the_border_cuts_is_said_to_be_cut() {
     let henon = |p: &[f64]| Some(vec![1.0 - 1.4 * p[0] * p[0] + p[1], 0.3 * p[0]]);
     let cut = region(&[(-2.0, 1.0), (-2.0, 2.0)]);
     let found =
-        Attractors::search(&henon, cut, &[vec![0.1, 0.1]], RecurrenceLimits::default()).unwrap();
+        Attractors::search(&henon, grid(&cut, 100), &[vec![0.1, 0.1]], RecurrenceLimits::default())
+            .unwrap();
     assert!(found.attractors().is_empty());
     let reason = found.unmatched()[0].reason;
     let UnmatchedReason::CutByBorder(border) = reason else { panic!("{reason:?}") };
@@ -162,18 +177,19 @@ fn a_search_that_finds_none_says_what_would_help() {
     let away = |x: &[f64]| Some(vec![2.0 * x[0]]);
     let line = region(&[(-1.0, 1.0)]);
     let found =
-        Attractors::search(&away, line.clone(), &[vec![0.5]], RecurrenceLimits::default()).unwrap();
+        Attractors::search(&away, grid(&line, 100), &[vec![0.5]], RecurrenceLimits::default())
+            .unwrap();
     let Some(Remedy::LargerRegion(border)) = found.remedy() else { panic!("{found:?}") };
     assert_eq!((border.coordinate, border.border), (0, 1.0));
     // On a coarse grid the boundary of the basin lies in every cell of the attractor.
     let narrow = |x: &[f64]| Some(vec![if x[0].abs() < 1e-4 { 0.5 * x[0] } else { x[0] * 2.0 }]);
     let found =
-        Attractors::search(&narrow, line.clone(), &[vec![1e-5]], RecurrenceLimits::default())
+        Attractors::search(&narrow, grid(&line, 100), &[vec![1e-5]], RecurrenceLimits::default())
             .unwrap();
     assert!(matches!(found.remedy(), Some(Remedy::MoreCells { tried: 1615 })), "{found:?}");
     // A region with no remedy: all orbits escape.
     let limits = RecurrenceLimits { escape: Some(10.0), ..RecurrenceLimits::default() };
-    let found = Attractors::search(&away, line, &[vec![0.5]], limits).unwrap();
+    let found = Attractors::search(&away, grid(&line, 100), &[vec![0.5]], limits).unwrap();
     assert_eq!((found.remedy(), found.unmatched().len()), (None, 0));
 }
 
@@ -198,7 +214,7 @@ fn attractors_whose_orbits_enter_each_other_are_one() {
             ..RecurrenceLimits::default()
         };
         let points = order.map(|x| vec![x]);
-        let found = Attractors::search(&map, line.clone(), &points, limits).unwrap();
+        let found = Attractors::search(&map, grid(&line, 100), &points, limits).unwrap();
         assert_eq!(found.attractors().len(), 1, "{order:?}: {:?}", found.attractors().len());
         let attractor = &found.attractors()[0];
         assert_eq!(attractor.label, Label::from(1));
@@ -216,7 +232,7 @@ fn what_moves_slowly_to_the_border_is_no_attractor() {
         let map = move |x: &[f64]| Some(vec![-beyond + 0.9999 * (x[0] + beyond)]);
         let found = Attractors::search(
             &map,
-            unit.clone(),
+            grid(&unit, 100),
             &[vec![0.5], vec![0.9]],
             RecurrenceLimits::default(),
         )
@@ -235,7 +251,7 @@ fn what_moves_slowly_to_the_border_is_no_attractor() {
         };
         let found = Attractors::search(
             &map,
-            line.clone(),
+            grid(&line, 100),
             &[vec![0.5], vec![-0.3]],
             RecurrenceLimits::default(),
         )
@@ -250,8 +266,13 @@ fn what_moves_slowly_to_the_border_is_no_attractor() {
 fn a_slow_spiral_onto_the_border_is_cut_by_it() {
     let quarter = region(&[(0.0, 1.0), (0.0, 1.0)]);
     let map = spiral(0.997, 0.3);
-    let found =
-        Attractors::search(&map, quarter, &[vec![0.5, 0.4]], RecurrenceLimits::default()).unwrap();
+    let found = Attractors::search(
+        &map,
+        grid(&quarter, 100),
+        &[vec![0.5, 0.4]],
+        RecurrenceLimits::default(),
+    )
+    .unwrap();
     let reason = &found.unmatched()[0].reason;
     assert!(matches!(reason, UnmatchedReason::CutByBorder(_)), "{reason}");
     assert!(matches!(found.remedy(), Some(Remedy::LargerRegion { .. })), "{:?}", found.remedy());
@@ -261,10 +282,33 @@ fn a_slow_spiral_onto_the_border_is_cut_by_it() {
 fn fewer_than_three_cells_are_refused() {
     let square = region(&[(-1.0, 1.0), (-1.0, 1.0)]);
     for cells in [1, 2] {
-        let limits = RecurrenceLimits { cells, ..RecurrenceLimits::default() };
-        let error =
-            Attractors::search(&spiral(0.5, 0.3), square.clone(), &[vec![0.5, 0.4]], limits)
-                .unwrap_err();
+        let error = StateGrid::uniform(square.clone(), cells).unwrap_err();
         assert!(error.to_string().contains("3 or more"), "{error}");
+    }
+}
+
+/// Two fixed points in one cell of the grid, and a third far away: a finer grid separates them, whatever cell they are in.
+#[test]
+fn attractors_in_one_cell_are_separated() {
+    let line = region(&[(-3.0, 3.0)]);
+    for (gap, cells) in [(0.5, 5), (0.05, 50), (0.02, 100), (0.4, 4)] {
+        let map = move |x: &[f64]| {
+            let x = x[0];
+            // Fixed points at 1 ± gap/2, and at −2.
+            let near = 1.0 + (x - 1.0) * (1.5 - 2.0 * ((x - 1.0) / gap).powi(2)).max(0.5);
+            Some(vec![if x < 0.0 { -2.0 + 0.5 * (x + 2.0) } else { near }])
+        };
+        let points = starts(&line, 20);
+        let limits = RecurrenceLimits::default();
+        let found = Attractors::search(&map, grid(&line, cells), &points, limits).unwrap();
+        assert_eq!((found.attractors().len(), found.unmatched().len()), (3, 0), "{gap} {cells}");
+        for (at, own) in [(1.0 - 0.5 * gap, 0.95), (1.0 + 0.5 * gap, 1.05), (-2.0, -1.0)] {
+            let label = found.label(&map, &[own]);
+            let attractor = found.attractors().iter().find(|other| other.label == label).unwrap();
+            assert!((attractor.points[0][0] - at).abs() < 1e-9, "{at} {:?}", attractor.points);
+            assert_eq!(attractor.period, Some(1));
+        }
+        let starts: usize = found.attractors().iter().map(|attractor| attractor.starts).sum();
+        assert_eq!(starts, 20);
     }
 }

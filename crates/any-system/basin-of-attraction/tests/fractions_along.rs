@@ -3,9 +3,13 @@
 
 use basin_of_attraction::{
     Attractors, CurveLimits, Error, FractionRange, Fractions, FractionsAlong, Hyperrectangle,
-    Interval, Label, Matching, RecurrenceLimits, UnresolvedReason, fractions_along,
+    Interval, Label, Matching, RecurrenceLimits, StateGrid, UnresolvedReason, fractions_along,
     region_fractions,
 };
+
+fn grid(region: &Hyperrectangle, cells: usize) -> StateGrid {
+    StateGrid::uniform(region.clone(), cells).unwrap()
+}
 
 const ONE: fn() -> Label = || Label::from(1);
 
@@ -117,7 +121,8 @@ fn attractors_whose_numbers_change_are_matched_by_position() {
         // The number of the positive attractor is 1 or 2, as the first start says.
         let sign = if (1e2 * c).sin() > 0.0 { 1.0 } else { -1.0 };
         let starts = [vec![0.3 * sign], vec![-0.4 * sign]];
-        let found = Attractors::search(&map, line.clone(), &starts, RecurrenceLimits::default())?;
+        let found =
+            Attractors::search(&map, grid(&line, 100), &starts, RecurrenceLimits::default())?;
         positive.push(found.label(&map, &[0.3]));
         let counts = region_fractions(&line, 4000, 1, |x| {
             // The positive basin is made smaller by c.

@@ -4,7 +4,7 @@
 use super::runge_kutta::after;
 use basin_of_attraction::{
     Attractors, EdgeLimits, Hyperrectangle, Interval, Label, LabelCounts, RecurrenceLimits,
-    SplitMix64, UnmatchedReason, region_fractions, track_edge,
+    SplitMix64, StateGrid, UnmatchedReason, region_fractions, track_edge,
 };
 
 fn region(sides: &[(f64, f64)]) -> Hyperrectangle {
@@ -12,11 +12,15 @@ fn region(sides: &[(f64, f64)]) -> Hyperrectangle {
     Hyperrectangle::new(sides.iter().map(side).collect()).unwrap()
 }
 
+fn grid(region: &Hyperrectangle, cells: usize) -> StateGrid {
+    StateGrid::uniform(region.clone(), cells).unwrap()
+}
+
 /// The attractors that the first `starts` points of `window` find, and the labels of `count` others. `lift` makes a
 /// state of a point.
 fn basins(
     step: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
-    space: Hyperrectangle,
+    space: StateGrid,
     window: &Hyperrectangle,
     lift: impl Fn(&[f64]) -> Vec<f64> + Sync,
     limits: RecurrenceLimits,
@@ -49,9 +53,9 @@ fn lorenz_84_has_its_fixed_point_and_reports_all_other_orbits() {
     };
     let step = move |z: &[f64]| after(field, z, 0.02, 25);
     let window = region(&[(-3.0, 3.0); 3]);
-    let limits = RecurrenceLimits { cells: 60, ..RecurrenceLimits::default() };
+    let limits = RecurrenceLimits::default();
     let (found, counts) =
-        basins(&step, window.clone(), &window, <[f64]>::to_vec, limits, (20, 600));
+        basins(&step, grid(&window, 60), &window, <[f64]>::to_vec, limits, (20, 600));
     assert_eq!(found.attractors().len(), 1);
     let share = fractions(&counts)[0];
     assert!((share - 0.645).abs() < 0.06, "{share}");
@@ -67,9 +71,9 @@ fn thomas_has_its_three_cycles() {
     };
     let step = move |z: &[f64]| after(field, z, 0.05, 20);
     let window = region(&[(-6.0, 6.0); 2]);
-    let limits = RecurrenceLimits { cells: 400, ..RecurrenceLimits::default() };
+    let limits = RecurrenceLimits::default();
     let lift = |x: &[f64]| vec![x[0], x[1], 0.0];
-    let space = region(&[(-6.0, 6.0); 3]);
+    let space = grid(&region(&[(-6.0, 6.0); 3]), 400);
     let (found, counts) = basins(&step, space, &window, lift, limits, (20, 600));
     assert_eq!((found.attractors().len(), found.unmatched().len(), counts.undecided()), (3, 0, 0));
     // Three standard deviations of 600 points are 0.06.
@@ -96,7 +100,7 @@ fn the_magnetic_pendulum_comes_to_each_magnet_equally_often() {
     let window = region(&[(-2.0, 2.0); 2]);
     let limits = RecurrenceLimits { locate: 100, ..RecurrenceLimits::default() };
     let lift = |x: &[f64]| vec![x[0], x[1], 0.0, 0.0];
-    let space = region(&[(-3.0, 3.0); 4]);
+    let space = grid(&region(&[(-3.0, 3.0); 4]), 100);
     let (found, counts) = basins(&step, space, &window, lift, limits, (20, 600));
     assert_eq!((found.attractors().len(), found.unmatched().len(), counts.undecided()), (3, 0, 0));
     for share in fractions(&counts) {
@@ -153,17 +157,13 @@ fn the_edge_states_of_thomas_have_the_norm_4_06585() {
 fn the_driven_pendulum_stands_or_rotates() {
     let rest = 0.5f64.asin();
     let field = |[x, v]: [f64; 2]| [v, -0.1 * v + 0.5 - x.sin()];
-    // The angle is taken modulo 2π, so that a rotation comes back.
-    let wrapped = |x: f64| {
-        (x - rest + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) + rest
-            - std::f64::consts::PI
-    };
-    let step = move |z: &[f64]| after(field, z, 0.05, 20).map(|z| vec![wrapped(z[0]), z[1]]);
+    let step = move |z: &[f64]| after(field, z, 0.05, 20);
     let angles = (rest - std::f64::consts::PI, rest + std::f64::consts::PI);
     let window = region(&[angles, (-10.0, 10.0)]);
     let (found, counts) = basins(
         &step,
-        window.clone(),
+        // The angle is periodic, so that a rotation comes back.
+        grid(&window, 100).periodic(0).unwrap(),
         &window,
         <[f64]>::to_vec,
         RecurrenceLimits::default(),

@@ -1,10 +1,12 @@
 //! The values of formulas at many states at once, with the bits of one.
 
 use crate::algebra::Arithmetic;
+use crate::elementwise::Elementwise;
 use crate::error::Error;
-use crate::evaluate::Evaluator;
+use crate::evaluate::{Evaluator, compute};
 use crate::formulas::{Formulas, length};
 use crate::lanes::{Lanes, WIDTH};
+use crate::simd;
 use std::array::from_fn;
 
 /// The values of formulas at many states, or the states at the ends of many motions.
@@ -88,7 +90,7 @@ impl Formulas {
             let lanes = |column: &[f64]| Lanes(from_fn(|lane| column[first + lane.min(width - 1)]));
             let time = Lanes(from_fn(|lane| table.time(0, first + lane.min(width - 1))));
             state.iter_mut().zip(states).for_each(|(state, column)| *state = lanes(column));
-            evaluator.compute(&time, &state);
+            simd::values_of_lanes(self, &time, &state, &mut evaluator.parts);
             let found = || self.outputs.iter().map(|&at| evaluator.parts[at]);
             for (column, found) in values.iter_mut().zip(found()) {
                 column[first..first + width].copy_from_slice(&found.0[..width]);
@@ -108,4 +110,63 @@ impl Formulas {
         }
         Ok(Columns { values, failed })
     }
+
+    /// Replaces many states by the values there: their images under a map with one formula for each component, with the bits of
+    /// [`values`](Self::values). `states` has a column for each component. A state without a value is where `has_value` becomes false.
+    ///
+    /// ```
+    /// use equations::{Formulas, Names};
+    /// let henon = Formulas::from_text(Names::new(&["x", "y"], &[])?, &["1 - 1.4*x^2 + y", "0.3*x"])?;
+    /// let (mut states, mut has_value) = ([vec![0.5, 1e200], vec![0.0, 0.0]], [false; 2]);
+    /// henon.map_columns(0.0, &mut states, &mut has_value)?;
+    /// assert_eq!((states[1][0], has_value), (0.15, [true, false]));
+    /// # Ok::<(), equations::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Length`] for another number of columns or formulas than components, and for columns of different lengths.
+    pub fn map_columns(
+        &self,
+        time: f64,
+        states: &mut [Vec<f64>],
+        has_value: &mut [bool],
+    ) -> Result<(), Error> {
+        let (components, count) = (self.names().states.len(), has_value.len());
+        length("columns", components, states.len())?;
+        length("formulas of a map", components, self.count())?;
+        for column in states.iter() {
+            length("states in a column", count, column.len())?;
+        }
+        let time = Lanes([time; WIDTH]);
+        let mut parts: Vec<Lanes> = self.numbers();
+        let mut state = vec![Lanes::zero(); components];
+        for first in (0..count).step_by(WIDTH) {
+            let width = WIDTH.min(count - first);
+            for (state, column) in state.iter_mut().zip(states.iter()) {
+                // The last block is filled with its last state.
+                *state = Lanes(from_fn(|lane| column[first + lane.min(width - 1)]));
+            }
+            let is_valid = simd::values_of_lanes(self, &time, &state, &mut parts);
+            for (column, &at) in states.iter_mut().zip(&self.outputs) {
+                column[first..first + width].copy_from_slice(&parts[at].0[..width]);
+            }
+            let valid = is_valid.0.iter().map(|valid| *valid == 0.0);
+            has_value[first..first + width].iter_mut().zip(valid).for_each(|(has, is)| *has = is);
+        }
+        Ok(())
+    }
+}
+
+/// The values of all parts for some states, and for each state 0 if all of them are finite, else NaN.
+#[inline(always)]
+pub(crate) fn values_of_lanes(
+    formulas: &Formulas,
+    time: &Lanes,
+    state: &[Lanes],
+    parts: &mut [Lanes],
+) -> Lanes {
+    compute(&formulas.nodes, time, state, parts, 1);
+    // 0 times what is not finite is NaN.
+    let all = parts.iter().chain(state).chain([time]);
+    all.fold(Lanes::zero(), |sum, x| sum.with(*x, |sum, x| sum + 0.0 * x))
 }

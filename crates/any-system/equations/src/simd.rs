@@ -1,4 +1,4 @@
-//! A step of some states, compiled for wider vectors. This is the one file of the crate with unsafe code.
+//! A step of some states, and the values of formulas there, compiled for wider vectors. This is the one file of the crate with unsafe code.
 //!
 //! It is compiled three times from the same source: for AVX-512, for AVX2, and for the instructions that every processor of
 //! the target has. No version uses fused multiply-adds, so that all give the same bits: they would save 0 to 12 % here, and
@@ -6,56 +6,67 @@
 //! processor.
 #![allow(unsafe_code)]
 
+use crate::columns;
+use crate::formulas::Formulas;
 use crate::lanes::Lanes;
 use crate::side_by_side;
 use crate::step::Step;
 use crate::taylor_flow::TaylorFlow;
 
-/// The step compiled with some instructions. All that it calls is compiled with them, as it is always inlined.
-#[cfg(target_arch = "x86_64")]
-macro_rules! compiled_with {
-    ($name:ident, $features:literal) => {
-        #[target_feature(enable = $features)]
-        fn $name(
-            flow: &TaylorFlow<'_>,
-            times: (Lanes, Lanes),
-            state: &[Lanes],
-            step: &mut Step<Lanes>,
-        ) -> Lanes {
-            side_by_side::step_of_lanes(flow, times, state, step)
+/// A function that is compiled with wider vectors, and chosen by the processor. All that it calls is compiled with them, as it is always
+/// inlined.
+macro_rules! compiled_for_vectors {
+    ($(#[$doc:meta])* $name:ident = $plain:path, ($($argument:ident: $type:ty),*), $wide:ident) => {
+        #[cfg(target_arch = "x86_64")]
+        mod $wide {
+            use super::*;
+            // The four parts of AVX-512 that the compiler uses in these loops. All four are asked for.
+            #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
+            pub(super) fn with_avx512($($argument: $type),*) -> Lanes {
+                $plain($($argument),*)
+            }
+
+            #[target_feature(enable = "avx2")]
+            pub(super) fn with_avx2($($argument: $type),*) -> Lanes {
+                $plain($($argument),*)
+            }
+        }
+
+        $(#[$doc])*
+        pub(crate) fn $name($($argument: $type),*) -> Lanes {
+            #[cfg(target_arch = "x86_64")]
+            {
+                if is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("avx512vl")
+                    && is_x86_feature_detected!("avx512bw")
+                {
+                    // SAFETY: the processor has these instructions.
+                    return unsafe { $wide::with_avx512($($argument),*) };
+                }
+                if is_x86_feature_detected!("avx2") {
+                    // SAFETY: the processor has these instructions.
+                    return unsafe { $wide::with_avx2($($argument),*) };
+                }
+            }
+            $plain($($argument),*)
         }
     };
 }
-// The four parts of AVX-512 that the compiler uses in these loops. All four are asked for.
-#[cfg(target_arch = "x86_64")]
-compiled_with!(with_avx512, "avx512f,avx512dq,avx512vl,avx512bw");
-#[cfg(target_arch = "x86_64")]
-compiled_with!(with_avx2, "avx2");
 
-/// See [`side_by_side::step_of_lanes`].
-pub(crate) fn step_of_lanes(
-    flow: &TaylorFlow<'_>,
-    times: (Lanes, Lanes),
-    state: &[Lanes],
-    step: &mut Step<Lanes>,
-) -> Lanes {
-    #[cfg(target_arch = "x86_64")]
-    {
-        if is_x86_feature_detected!("avx512f")
-            && is_x86_feature_detected!("avx512dq")
-            && is_x86_feature_detected!("avx512vl")
-            && is_x86_feature_detected!("avx512bw")
-        {
-            // SAFETY: the processor has these instructions.
-            return unsafe { with_avx512(flow, times, state, step) };
-        }
-        if is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor has these instructions.
-            return unsafe { with_avx2(flow, times, state, step) };
-        }
-    }
-    side_by_side::step_of_lanes(flow, times, state, step)
-}
+compiled_for_vectors!(
+    /// See [`side_by_side::step_of_lanes`].
+    step_of_lanes = side_by_side::step_of_lanes,
+    (flow: &TaylorFlow<'_>, times: (Lanes, Lanes), state: &[Lanes], step: &mut Step<Lanes>),
+    wide_steps
+);
+
+compiled_for_vectors!(
+    /// See [`columns::values_of_lanes`].
+    values_of_lanes = columns::values_of_lanes,
+    (formulas: &Formulas, time: &Lanes, state: &[Lanes], parts: &mut [Lanes]),
+    wide_values
+);
 
 #[cfg(test)]
 mod tests {
@@ -86,7 +97,8 @@ mod tests {
             #[cfg(target_arch = "x86_64")]
             if is_x86_feature_detected!("avx2") {
                 // SAFETY: the processor has these instructions.
-                let with_avx2 = |step: &mut _| unsafe { with_avx2(&flow, times, &state, step) };
+                let with_avx2 =
+                    |step: &mut _| unsafe { wide_steps::with_avx2(&flow, times, &state, step) };
                 assert_eq!(bits(&with_avx2), plain);
             }
         }

@@ -149,7 +149,8 @@ mod tests {
     #[test]
     fn the_basin_of_rolling_begins_at_the_least_speed() {
         use basin_of_attraction::{
-            Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits, UnmatchedReason,
+            Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits, StateGrid,
+            UnmatchedReason,
         };
         let wheel = Wheel { slope: 0.08, half_angle: 0.3 };
         let rolls = hybrid_system::Label::new("rolls").unwrap();
@@ -162,9 +163,10 @@ mod tests {
             [0.6, 0.9, 0.999, 1.001, 1.5, 4.0].map(|factor| vec![factor * least]).to_vec();
         let limits = RecurrenceLimits { locate: 50, tests: 50, ..RecurrenceLimits::default() };
         let region = Hyperrectangle::try_from(speeds).unwrap();
-        let found = Attractors::search(&step, region, &starts, limits).unwrap();
+        let grid = StateGrid::uniform(region, 100).unwrap();
+        let found = Attractors::search(&step, grid, &starts, limits).unwrap();
         assert_eq!(found.attractors().len(), 1);
-        assert!((found.attractors()[0].points[49][0] - rolling).abs() < 1e-9);
+        assert!((found.attractors()[0].points[0][0] - rolling).abs() < 1e-9);
         for (start, factor) in starts.iter().zip([0.6, 0.9, 0.999, 1.001, 1.5, 4.0]) {
             let expected = if factor > 1.0 { Label::from(1) } else { Label::UNDECIDED_MAP };
             assert_eq!(found.label(&step, start), expected, "{factor}");

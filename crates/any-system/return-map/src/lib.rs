@@ -23,6 +23,7 @@
 //! | [`continue_branch`] | goes on with a branch that was stopped, or read from a file (feature `serde`) |
 //! | [`bifurcation_diagram`], [`lyapunov_exponents`], [`rotation_number`] | where orbits end over a parameter; how fast neighbours part; how fast orbits turn |
 //! | [`orbit_fate`], [`orbit_fates`], [`OrbitEnd`] | how orbits end: on an attractor, at a surface, at a Zeno limit |
+//! | [`FormulaSteps`], [`FlowSteps`], [`FamilySteps`], [`ExecutionSteps`] | maps of states for `basin-of-attraction`: of formulas, of a field over some time, of a section, of any hybrid system |
 //! | [`PeriodicAttractor`], [`periodic_attractors`] | attracting orbits, each with a neighbourhood that leads to it |
 //! | [`UnstableManifold`], [`ManifoldCurve`], [`manifold_crossings`], [`manifold_tangency`] | one-dimensional manifolds of saddles; homoclinic and heteroclinic points and tangencies |
 //! | [`map_pieces`], [`MapPiece`], [`Extremum`] | a map of one variable: its domain, smooth pieces, borders, laps |
@@ -124,6 +125,7 @@ mod periodic_point;
 mod return_map;
 mod scalar;
 mod section;
+mod state_maps;
 
 pub use branches::{
     Bifurcation, BifurcationCurve, BifurcationCurvePoint, BifurcationKind, Branch, BranchEnd,
@@ -153,3 +155,4 @@ pub use scalar::{
     all_periodic_points, fixed_points, map_pieces, one_sided_stability,
 };
 pub use section::{Section, SmoothSection};
+pub use state_maps::{ExecutionSteps, FamilySteps, FlowSteps, FormulaSteps};

@@ -188,6 +188,7 @@ class Attractors:
         lost: int = 1000,
         tests: int = 200,
         escape: float | None = None,
+        periodic: Sequence[int] = ...,
     ) -> None: ...
     @property
     def points(self) -> dict[int, NDArray[np.float64]]: ...

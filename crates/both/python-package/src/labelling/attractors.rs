@@ -5,7 +5,7 @@ use crate::errors::{of_callback, value_error};
 use crate::interruptible::{Watch, in_background};
 use crate::pickling::refused;
 use crate::whole::whole;
-use basin_of_attraction::{Error, Hyperrectangle, Interval, Label, RecurrenceLimits};
+use basin_of_attraction::{Error, Hyperrectangle, Interval, Label, RecurrenceLimits, StateGrid};
 use numpy::PyArray1;
 use pyo3::exceptions::PyArithmeticError;
 use pyo3::prelude::*;
@@ -76,6 +76,8 @@ impl PythonMap {
 /// start a row. The basins have the labels 1, 2, … in the order in which the attractors are found; ESCAPED is the
 /// label of an orbit that passes the distance `escape` from the origin.
 ///
+/// periodic has the coordinates, from 0, whose side of the region is one period, such as angles.
+///
 /// cells along every side of the region locate an attractor; an orbit of `recurrences` steps within visited cells
 /// is a candidate, which is followed ten times as long as it took to be found, and which `tests` random orbits
 /// test. No orbit takes more than `budget` steps to a candidate. Attractors closer than three cells of the finest
@@ -100,7 +102,7 @@ pub(crate) struct Attractors {
 impl Attractors {
     #[new]
     #[pyo3(signature = (map, *, region, starts, cells = 100, recurrences = 100, locate = 1000, budget = 100_000, lost = 1000, tests = 200,
-                        escape = None))]
+                        escape = None, periodic = Vec::new()))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn new(
         py: Python<'_>,
@@ -114,12 +116,15 @@ impl Attractors {
         #[pyo3(from_py_with = whole)] lost: usize,
         #[pyo3(from_py_with = whole)] tests: usize,
         escape: Option<f64>,
+        periodic: Vec<usize>,
     ) -> PyResult<Self> {
-        let limits = RecurrenceLimits { cells, recurrences, locate, budget, lost, tests, escape };
+        let limits = RecurrenceLimits { recurrences, locate, budget, lost, tests, escape };
         let side = |&[left, right]: &[f64; 2]| Interval::new(left, right);
         let sides = region.iter().map(side).collect::<Result<_, Error>>().map_err(value_error)?;
         let region = Hyperrectangle::new(sides).map_err(value_error)?;
-        let dimension = region.dimension();
+        let grid = StateGrid::uniform(region, cells).map_err(value_error)?;
+        let grid = periodic.into_iter().try_fold(grid, StateGrid::periodic).map_err(value_error)?;
+        let dimension = grid.dimension();
         let own = PythonMap::new(map.clone_ref(py));
         let step = Arc::clone(&own);
         // Only one thread can call Python at a time. More of them would wait for each other at every step.
@@ -127,7 +132,7 @@ impl Attractors {
         let work = move |watch: &Watch| {
             let image = |state: &[f64]| step.image(state, watch);
             let search =
-                || basin_of_attraction::Attractors::search(&image, region, &starts, limits);
+                || basin_of_attraction::Attractors::search(&image, grid, &starts, limits);
             // The thread keeps the interpreter's lock from step to step: to take it anew takes longer than a step.
             Ok::<_, Error>(pool.install(|| Python::attach(|_| search())))
         };
