@@ -11,22 +11,16 @@
 //! It is followed ten times as long as it took to be found. It has settled if the cells of the last two quarters
 //! are the same. If not, it was a transient, and the search goes on from its end.
 
-use crate::known_cells::{CellSet, KnownCells};
+use crate::confirmation::{CONFIRMED, Confirmation};
+use crate::first_steps::Unended;
+use crate::known_cells::{CellSet, KnownCells, Place};
 use crate::recurrence_limits::RecurrenceLimits;
-use crate::state_map::{Moving, StateMap};
+use crate::state_map::{Moving, Repeats, StateMap};
 use crate::unmatched::{Border, UnmatchedReason};
-use std::collections::BTreeMap;
 
-/// An orbit is followed so many times as long as it took to be found. A point that is approached by a factor of 1 −
-/// 10⁻⁴ a step has then come closer by e^−10. A larger number takes longer for each candidate.
-const CONFIRMED: usize = 10;
-
-/// Windows of these steps, to see a trend.
-const WINDOWS: usize = 8;
-
-/// The part of the steps of a quarter that must lie in cells of the other quarter. A chaotic attractor on a fine
-/// grid has cells that are visited once; of a transient hardly any cell is visited again.
-const SHARED: f64 = 0.9;
+/// Steps after which the cells of an orbit are remembered. Most orbits have come to a known attractor by then, and a step without it takes
+/// half of the time.
+pub(crate) const UNTRACKED: usize = 64;
 
 /// An orbit, with the steps since its start.
 ///
@@ -36,14 +30,24 @@ pub(crate) struct Orbit {
     point: Moving,
     steps: usize,
     outside: usize,
+    /// The map had no value.
+    is_stopped: bool,
+    /// A state in the region is finite and has not escaped.
+    is_within: bool,
+    /// What most orbits do not need, out of the way of what each step needs.
+    track: Box<Track>,
+}
+
+/// What is remembered of an orbit to see that it recurs.
+#[derive(Default)]
+struct Track {
     /// Where it was outside the region while it recurred, and still moved.
     cut: Option<Border>,
     visited: CellSet,
     /// Consecutive steps to visited cells.
     recurrences: usize,
-    confirmation: Option<Box<Confirmation>>,
-    /// The map had no value.
-    is_stopped: bool,
+    repeats: Repeats,
+    confirmation: Option<Confirmation>,
 }
 
 /// Where an orbit ends.
@@ -71,25 +75,22 @@ pub(crate) struct Settled {
 
 /// What a look at a point shows.
 enum Look {
-    /// Inside the region, in this cell.
-    Inside(u64),
+    Inside,
     Outside,
     End(End),
 }
 
 impl Orbit {
-    pub(crate) fn new(known: &KnownCells, start: &[f64]) -> Self {
+    pub(crate) fn new(known: &KnownCells, limits: &RecurrenceLimits, start: &[f64]) -> Self {
         let mut point = Moving::from(start);
         known.wrap(&mut point.at);
         Orbit {
             point,
             steps: 0,
             outside: 0,
-            cut: None,
-            visited: CellSet::default(),
-            recurrences: 0,
-            confirmation: None,
             is_stopped: false,
+            is_within: known.is_within(limits.escape),
+            track: Box::default(),
         }
     }
 
@@ -97,15 +98,26 @@ impl Orbit {
     pub(crate) fn restart(&mut self, known: &KnownCells, start: &[f64]) {
         self.point.at.copy_from_slice(start);
         known.wrap(&mut self.point.at);
-        (self.steps, self.outside, self.cut, self.is_stopped) = (0, 0, None, false);
-        self.go_on();
+        if !self.track.repeats.is_new() {
+            self.track.cut = None;
+            self.go_on();
+        }
+        (self.steps, self.outside, self.is_stopped) = (0, 0, false);
+    }
+
+    /// The same for an orbit that has made some steps, the last ones outside the region.
+    pub(crate) fn resume(&mut self, known: &KnownCells, from: &Unended) {
+        self.restart(known, &from.at);
+        (self.steps, self.outside) = (from.steps, from.outside);
     }
 
     /// Forgets what recurred: a transient, from whose end the search goes on.
     pub(crate) fn go_on(&mut self) {
-        self.visited.clear();
-        self.recurrences = 0;
-        self.confirmation = None;
+        let track = &mut self.track;
+        track.visited.clear();
+        track.recurrences = 0;
+        track.repeats.forget();
+        track.confirmation = None;
     }
 
     /// Where it is.
@@ -114,8 +126,8 @@ impl Orbit {
     }
 
     /// Where it is, to be moved by one step.
-    pub(crate) fn at_mut(&mut self) -> &mut [f64] {
-        &mut self.point.at
+    pub(crate) fn point(&mut self) -> &mut Moving {
+        &mut self.point
     }
 
     pub(crate) fn steps(&self) -> usize {
@@ -146,204 +158,98 @@ impl Orbit {
     }
 
     /// Looks at the point where the orbit is; `None` if it is to be followed further.
+    #[inline]
     pub(crate) fn see(&mut self, known: &KnownCells, limits: &RecurrenceLimits) -> Option<End> {
-        if self.confirmation.as_ref().is_some_and(|own| own.is_complete()) {
-            let confirmation = self.confirmation.take()?;
-            let verdict = confirmation.verdict(&mut self.cut);
+        let place = known.place(&self.point.at);
+        if self.is_within && self.steps < UNTRACKED && !self.is_stopped {
+            match place {
+                Place::Owned(own) => return Some(End::Known(own)),
+                Place::Inside if self.steps < limits.budget / 100 => {
+                    self.outside = 0;
+                    return None;
+                }
+                _ => {}
+            }
+        }
+        self.see_more(known, limits, place)
+    }
+
+    #[inline(never)]
+    fn see_more(
+        &mut self,
+        known: &KnownCells,
+        limits: &RecurrenceLimits,
+        place: Place,
+    ) -> Option<End> {
+        if self.track.confirmation.as_ref().is_some_and(Confirmation::is_complete) {
+            let confirmation = self.track.confirmation.take()?;
+            let verdict = confirmation.verdict(&mut self.track.cut);
             if verdict.is_some() {
                 return verdict;
             }
             // Each turn takes eleven times as long as all before it.
             self.go_on();
         }
-        if self.confirmation.is_none() && self.recurrences >= limits.recurrences.max(1) {
-            let pace = self.steps.max(limits.locate).max(1);
-            self.confirmation = Some(Box::new(Confirmation::new(known.dimension(), pace)));
-        }
-        if self.confirmation.is_none() && self.steps >= limits.budget {
-            let cut = |border| End::Unmatched(UnmatchedReason::CutByBorder(border));
-            return Some(self.cut.map_or(End::Budget, cut));
-        }
-        let look = self.look(known, limits);
-        if let Some(confirmation) = &mut self.confirmation {
-            return confirmation.add(&self.point.at, known, look);
-        }
-        match look {
-            Look::End(end) => Some(end),
-            Look::Inside(cell) => {
-                let is_new = self.visited.insert(cell);
-                self.recurrences = if is_new { 0 } else { self.recurrences + 1 };
-                None
-            }
-            Look::Outside => None,
-        }
-    }
-
-    fn look(&mut self, known: &KnownCells, limits: &RecurrenceLimits) -> Look {
-        let at = &self.point.at;
-        if self.is_stopped || at.iter().any(|x| !x.is_finite()) {
-            return Look::End(End::Unmatched(UnmatchedReason::Stopped));
-        }
-        if limits.escape.is_some_and(|escape| at.iter().any(|x| x.abs() > escape)) {
-            return Look::End(End::Escaped);
-        }
-        let Some(cell) = known.cell(at) else {
-            self.outside += 1;
-            return match known.beyond(at) {
-                Some(border) if self.outside > limits.lost => {
-                    Look::End(End::Unmatched(UnmatchedReason::LeftRegion(border)))
-                }
-                _ => Look::Outside,
-            };
+        let is_inside = match self.look(known, limits, place) {
+            Look::End(end) => return Some(end),
+            Look::Inside => true,
+            Look::Outside => false,
         };
-        self.outside = 0;
-        known.owner(at).map_or(Look::Inside(cell), |own| Look::End(End::Known(own)))
-    }
-}
-
-/// What an orbit that recurs does from then on.
-struct Confirmation {
-    pace: usize,
-    length: usize,
-    /// Points so far.
-    points: usize,
-    window: usize,
-    windows: Vec<Ends>,
-    quarters: [Quarter; 2],
-    half: Vec<f64>,
-}
-
-impl Confirmation {
-    fn new(dimension: usize, pace: usize) -> Self {
-        Confirmation {
-            pace,
-            length: pace.saturating_mul(CONFIRMED),
-            points: 0,
-            window: 0,
-            windows: vec![Ends::new(dimension); WINDOWS],
-            quarters: [Quarter::default(), Quarter::default()],
-            half: Vec::new(),
+        let pace = self.pace(limits);
+        let track = &mut *self.track;
+        let long = pace.saturating_mul(CONFIRMED);
+        let recurs = track.recurrences >= limits.recurrences.max(1);
+        // A turn of a cycle shows all that it does.
+        let turns = track.repeats.see(&self.point.at).map(|turn| turn.saturating_mul(CONFIRMED));
+        let length = turns.map_or(long, |turns| turns.min(long));
+        let is_shorter = track.confirmation.as_ref().is_none_or(|own| length < own.length);
+        if (turns.is_some() || recurs) && is_shorter {
+            track.confirmation = Some(Confirmation::new(known.dimension(), pace, length));
         }
-    }
-
-    fn is_complete(&self) -> bool {
-        self.points == self.length
-    }
-
-    fn add(&mut self, at: &[f64], known: &KnownCells, look: Look) -> Option<End> {
-        // The window is the position in units of an eighth.
-        if self.points as u128 * WINDOWS as u128 >= (self.window as u128 + 1) * self.length as u128
-        {
-            self.window += 1;
+        if let Some(confirmation) = &mut track.confirmation {
+            confirmation.add(&self.point.at, known);
+            return None;
         }
-        self.windows[self.window].add(at);
-        if self.points == self.length / 2 {
-            self.half = at.to_vec();
+        if self.steps >= limits.budget {
+            let cut = |border| End::Unmatched(UnmatchedReason::CutByBorder(border));
+            return Some(track.cut.map_or(End::Budget, cut));
         }
-        self.points += 1;
-        let late = (2 * self.window).checked_sub(WINDOWS);
-        let quarter = late.map(|late| &mut self.quarters[usize::from(2 * late >= WINDOWS)]);
-        match (look, quarter) {
-            (Look::End(end), _) => return Some(end),
-            (Look::Inside(cell), Some(quarter)) => *quarter.cells.entry(cell).or_insert(0) += 1,
-            (Look::Outside, Some(quarter)) => quarter.see(known.beyond(at)),
-            (_, None) => {}
+        if is_inside {
+            let is_new = known.cell(&self.point.at).is_none_or(|cell| track.visited.insert(cell));
+            track.recurrences = if is_new { 0 } else { track.recurrences + 1 };
         }
         None
     }
 
-    /// `None` for a transient. Where it left the region is then kept as `cut`.
-    fn verdict(self, cut: &mut Option<Border>) -> Option<End> {
-        let [third, fourth] = &self.quarters;
-        let recurs = third.is_among(fourth) && fourth.is_among(third);
-        let drifts = have_trend(&self.windows);
-        match (recurs, third.farthest, fourth.farthest) {
-            (true, None, None) => {
-                Some(End::Settled(Settled { half: self.half, pace: self.pace, drifts }))
+    /// How long it took to be found.
+    fn pace(&self, limits: &RecurrenceLimits) -> usize {
+        self.steps.max(limits.locate).max(1)
+    }
+
+    #[inline]
+    fn look(&mut self, known: &KnownCells, limits: &RecurrenceLimits, place: Place) -> Look {
+        let at = &self.point.at;
+        let is_certain = !matches!(place, Place::Outside) && self.is_within;
+        if self.is_stopped || !is_certain && at.iter().any(|x| !x.is_finite()) {
+            return Look::End(End::Unmatched(UnmatchedReason::Stopped));
+        }
+        let beyond = |escape: f64| at.iter().any(|x| x.abs() > escape);
+        if !is_certain && limits.escape.is_some_and(beyond) {
+            return Look::End(End::Escaped);
+        }
+        match place {
+            Place::Owned(own) => Look::End(End::Known(own)),
+            Place::Inside => {
+                self.outside = 0;
+                Look::Inside
             }
-            (true, Some(_), Some(border)) if !drifts => {
-                Some(End::Unmatched(UnmatchedReason::CutByBorder(border)))
-            }
-            (recurs, ..) => {
-                *cut = fourth.farthest.filter(|_| recurs);
-                None
+            Place::Outside => {
+                self.outside += 1;
+                let lost = (self.outside > limits.lost).then(|| known.beyond(at)).flatten();
+                lost.map_or(Look::Outside, |border| {
+                    Look::End(End::Unmatched(UnmatchedReason::LeftRegion(border)))
+                })
             }
         }
-    }
-}
-
-/// How fast an orbit moves on from a point, a step: the mean change of the ends of stretches of so many steps, in
-/// the largest coordinate. NaN if it stops.
-pub(crate) fn drift(map: &dyn StateMap, from: &[f64], stretch: usize) -> f64 {
-    let (mut point, stretch) = (Moving::from(from), stretch.max(1));
-    let mut windows = Vec::new();
-    for _ in 0..WINDOWS {
-        let mut ends = Ends::new(point.at.len());
-        for _ in 0..stretch {
-            ends.add(&point.at);
-            if !point.step(map) {
-                return f64::NAN;
-            }
-        }
-        windows.push(ends);
-    }
-    let changes = windows.windows(2).map(|pair| pair[0].distance(&pair[1]));
-    changes.sum::<f64>() / (WINDOWS - 1) as f64 / stretch as f64
-}
-
-/// The largest values of each coordinate, and of its negative.
-#[derive(Clone)]
-pub(crate) struct Ends(Vec<f64>);
-
-impl Ends {
-    pub(crate) fn new(dimension: usize) -> Self {
-        Ends(vec![f64::NEG_INFINITY; 2 * dimension])
-    }
-
-    pub(crate) fn add(&mut self, point: &[f64]) {
-        let both = point.iter().flat_map(|x| [*x, -x]);
-        self.0.iter_mut().zip(both).for_each(|(end, x)| *end = end.max(x));
-    }
-
-    fn distance(&self, other: &Ends) -> f64 {
-        let changes = self.0.iter().zip(&other.0).map(|(a, b)| (a - b).abs());
-        changes.fold(0.0, f64::max)
-    }
-}
-
-/// Whether an end moves in one direction from each window to the next one.
-pub(crate) fn have_trend(windows: &[Ends]) -> bool {
-    let ends = windows.first().map_or(0, |first| first.0.len());
-    (0..ends).any(|j| {
-        let moves = |by: fn(&f64, &f64) -> bool| {
-            windows.windows(2).all(|pair| by(&pair[0].0[j], &pair[1].0[j]))
-        };
-        moves(f64::lt) || moves(f64::gt)
-    })
-}
-
-/// What an orbit visits in a quarter of its confirmation.
-#[derive(Default)]
-struct Quarter {
-    /// Steps in each cell.
-    cells: BTreeMap<u64, usize>,
-    /// The farthest point outside the region.
-    farthest: Option<Border>,
-}
-
-impl Quarter {
-    fn see(&mut self, border: Option<Border>) {
-        if let Some(border) = border
-            && self.farthest.is_none_or(|own| border.excess() > own.excess())
-        {
-            self.farthest = Some(border);
-        }
-    }
-
-    /// Whether most of its steps lie in cells of the other quarter.
-    fn is_among(&self, other: &Quarter) -> bool {
-        let all: usize = self.cells.values().sum();
-        let again = self.cells.iter().filter(|(cell, _)| other.cells.contains_key(cell));
-        all > 0 && again.map(|(_, steps)| *steps).sum::<usize>() as f64 >= SHARED * all as f64
     }
 }

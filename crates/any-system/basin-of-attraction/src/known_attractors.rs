@@ -4,7 +4,7 @@ use crate::attractor_features::MOST_TESTS;
 use crate::boundary_between::distance;
 use crate::error::Error;
 use crate::label::Label;
-use crate::many_orbits::{FollowedOrbit, follow_many};
+use crate::many_orbits::{FollowedOrbit, follow_some, in_parts};
 use crate::split_mix::SplitMix64;
 use crate::state_map::{Moving, StateMap};
 use rayon::prelude::*;
@@ -196,7 +196,7 @@ impl KnownAttractors {
             return Err(Error::WrongDimension { dimension, expected });
         }
         let mut orbit = Approach::new(self);
-        orbit.restart(start);
+        orbit.restart(|at| at.copy_from_slice(start));
         loop {
             if let Some(end) = orbit.see() {
                 return Ok(end);
@@ -222,7 +222,11 @@ impl KnownAttractors {
         if dimension != expected {
             return Err(Error::WrongDimension { dimension, expected });
         }
-        Ok(follow_many(map, dimension, count, || Approach::new(self), start))
+        Ok(in_parts(count, |first, count| {
+            let begin =
+                |k: usize, orbit: &mut Approach<'_>| orbit.restart(|at| start(first + k, at));
+            follow_some(map, dimension, count, || Approach::new(self), begin)
+        }))
     }
 
     /// The nearest point within a distance: its label, and how far it is.
@@ -311,15 +315,15 @@ impl<'a> Approach<'a> {
     fn new(known: &'a KnownAttractors) -> Self {
         Approach { known, point: Moving::from(&known.points[0].0), steps: 0, is_stopped: false }
     }
+
+    fn restart(&mut self, start: impl Fn(&mut [f64])) {
+        start(&mut self.point.at);
+        (self.steps, self.is_stopped) = (0, false);
+    }
 }
 
 impl FollowedOrbit for Approach<'_> {
     type End = (Label, usize);
-
-    fn restart(&mut self, start: &[f64]) {
-        self.point.at.copy_from_slice(start);
-        (self.steps, self.is_stopped) = (0, false);
-    }
 
     fn see(&mut self) -> Option<(Label, usize)> {
         let label = if self.is_stopped {
@@ -332,8 +336,8 @@ impl FollowedOrbit for Approach<'_> {
         Some((label, self.steps))
     }
 
-    fn at(&mut self) -> &mut [f64] {
-        &mut self.point.at
+    fn point(&mut self) -> &mut Moving {
+        &mut self.point
     }
 
     fn moved(&mut self, has_image: bool) {

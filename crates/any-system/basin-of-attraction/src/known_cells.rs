@@ -16,7 +16,72 @@ const FINER: u32 = 4;
 pub(crate) struct KnownCells {
     grids: Vec<StateGrid>,
     /// For each grid, the index of the attractor that owns a cell.
-    owners: Vec<HashMap<u64, usize, ByCell>>,
+    owners: Vec<Owners>,
+    /// The grids with owners.
+    owned: Vec<usize>,
+    is_periodic: bool,
+}
+
+/// Where a state is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Place {
+    /// In a cell of the attractor with this index.
+    Owned(usize),
+    Inside,
+    Outside,
+}
+
+/// The attractors that own cells of a grid, by the numbers of the cells.
+#[derive(Debug, Clone, PartialEq)]
+enum Owners {
+    /// For each cell its owner, or [`NO_OWNER`].
+    Dense(Vec<u16>),
+    Sparse(HashMap<u64, u16, ByCell>),
+}
+
+/// No attractor has this index: there are at most 65 000.
+const NO_OWNER: u16 = u16::MAX;
+
+/// Grids of up to so many cells have a table of owners: 2 MB, which is looked up in a third of the time of a hash.
+const MOST_DENSE: u64 = 1 << 20;
+
+impl Owners {
+    fn of(grid: &StateGrid) -> Owners {
+        match grid.count() {
+            count if count <= MOST_DENSE => Owners::Dense(vec![NO_OWNER; count as usize]),
+            _ => Owners::Sparse(HashMap::default()),
+        }
+    }
+
+    #[inline]
+    fn of_cell(&self, cell: u64) -> Option<usize> {
+        let owner = match self {
+            Owners::Dense(all) => all[cell as usize],
+            Owners::Sparse(some) => some.get(&cell).copied().unwrap_or(NO_OWNER),
+        };
+        (owner != NO_OWNER).then_some(usize::from(owner))
+    }
+
+    fn add(&mut self, cell: u64, owner: u16) {
+        match self {
+            Owners::Dense(all) => all[cell as usize] = owner,
+            Owners::Sparse(some) => {
+                some.insert(cell, owner);
+            }
+        }
+    }
+
+    fn renumber(&mut self, index: &[usize]) {
+        let new = |own: &mut u16| {
+            if *own != NO_OWNER {
+                *own = index[usize::from(*own)] as u16;
+            }
+        };
+        match self {
+            Owners::Dense(all) => all.iter_mut().for_each(new),
+            Owners::Sparse(some) => some.values_mut().for_each(new),
+        }
+    }
 }
 
 /// Cells that are looked up once a step. They have no order.
@@ -51,8 +116,9 @@ impl KnownCells {
     pub(crate) fn new(first: StateGrid) -> Self {
         let finer = (1..=FINER).map_while(|k| first.finer(k)).collect::<Vec<_>>();
         let grids: Vec<StateGrid> = std::iter::once(first).chain(finer).collect();
-        let owners = vec![HashMap::default(); grids.len()];
-        KnownCells { grids, owners }
+        let owners = vec![Owners::Sparse(HashMap::default()); grids.len()];
+        let is_periodic = grids[0].is_periodic();
+        KnownCells { grids, owners, owned: Vec::new(), is_periodic }
     }
 
     /// All grids, the coarsest first.
@@ -70,8 +136,11 @@ impl KnownCells {
     }
 
     /// Moves a state into the periods of its coordinates.
+    #[inline]
     pub(crate) fn wrap(&self, state: &mut [f64]) {
-        self.grids[0].wrap(state);
+        if self.is_periodic {
+            self.grids[0].wrap(state);
+        }
     }
 
     /// Where a point is farthest outside the region; `None` inside.
@@ -79,28 +148,80 @@ impl KnownCells {
         self.grids[0].beyond(point)
     }
 
-    /// The attractor in one of whose cells a point lies.
-    pub(crate) fn owner(&self, point: &[f64]) -> Option<usize> {
-        self.owners_of(point).next()
+    /// Where a state is.
+    #[inline]
+    pub(crate) fn place(&self, point: &[f64]) -> Place {
+        // All grids have the same region.
+        if !self.grids[0].contains(point) {
+            return Place::Outside;
+        }
+        for &number in &self.owned {
+            let cell = self.grids[number].cell_inside(point);
+            if let Some(owner) = self.owners[number].of_cell(cell) {
+                return Place::Owned(owner);
+            }
+        }
+        Place::Inside
     }
 
-    /// The same for another attractor than this one: cells of two grids may overlap.
+    /// The same of many states, by columns. `cells` is memory.
+    pub(crate) fn places(
+        &self,
+        columns: &[Vec<f64>],
+        cells: &mut Vec<u64>,
+        places: &mut Vec<Place>,
+    ) {
+        let owned = self.owned.first().copied();
+        self.grids[owned.unwrap_or(0)].cells_of_columns(columns, cells);
+        places.clear();
+        places.extend(cells.iter().map(|&cell| {
+            if cell == StateGrid::OUTSIDE {
+                return Place::Outside;
+            }
+            let owner = owned.and_then(|number| self.owners[number].of_cell(cell));
+            owner.map_or(Place::Inside, Place::Owned)
+        }));
+        for &number in self.owned.iter().skip(1) {
+            self.grids[number].cells_of_columns(columns, cells);
+            for (place, &cell) in places.iter_mut().zip(&*cells) {
+                if let (Place::Inside, Some(owner)) = (*place, self.owners[number].of_cell(cell)) {
+                    *place = Place::Owned(owner);
+                }
+            }
+        }
+    }
+
+    /// Moves many states into the periods of their coordinates.
+    pub(crate) fn wrap_columns(&self, columns: &mut [Vec<f64>]) {
+        if self.is_periodic {
+            self.grids[0].wrap_columns(columns);
+        }
+    }
+
+    /// Whether a state in the region is finite and not beyond this distance of escape, so that this needs no test.
+    pub(crate) fn is_within(&self, escape: Option<f64>) -> bool {
+        let largest = self.grids[0].largest();
+        escape.map_or(largest.is_finite(), |escape| largest <= escape)
+    }
+
+    /// The attractor, other than this one, in one of whose cells a point lies: cells of two grids may overlap.
     pub(crate) fn other_owner(&self, point: &[f64], own: usize) -> Option<usize> {
-        self.owners_of(point).find(|other| *other != own)
-    }
-
-    fn owners_of(&self, point: &[f64]) -> impl Iterator<Item = usize> {
-        let known = self.owners.iter().zip(&self.grids).filter(|(owners, _)| !owners.is_empty());
-        known.filter_map(move |(owners, grid)| owners.get(&grid.cell(point)?).copied())
+        let owner = |number: &usize| self.owners[*number].of_cell(self.grids[*number].cell(point)?);
+        self.owned.iter().filter_map(owner).find(|other| *other != own)
     }
 
     /// The cells of one grid belong to an attractor.
     pub(crate) fn add(&mut self, grid: usize, cells: impl Iterator<Item = u64>, attractor: usize) {
-        self.owners[grid].extend(cells.map(|cell| (cell, attractor)));
+        if !self.owned.contains(&grid) {
+            self.owners[grid] = Owners::of(&self.grids[grid]);
+            self.owned.push(grid);
+            self.owned.sort_unstable();
+        }
+        cells.for_each(|cell| self.owners[grid].add(cell, attractor as u16));
     }
 
     /// Each attractor gets a new index.
     pub(crate) fn renumber(&mut self, index: &[usize]) {
-        self.owners.iter_mut().flat_map(HashMap::values_mut).for_each(|own| *own = index[*own]);
+        self.owners.iter_mut().for_each(|owners| owners.renumber(index));
     }
 }

@@ -6,11 +6,13 @@
 //! before it is called an attractor; an orbit without a tested attractor is reported.
 
 use crate::candidate::Candidate;
+use crate::confirmation::drift;
 use crate::error::Error;
-use crate::followed_orbit::{End, Orbit, Settled, drift};
+use crate::first_steps::{FirstSteps, first_steps};
+use crate::followed_orbit::{End, Orbit, Settled};
 use crate::known_cells::KnownCells;
 use crate::label::Label;
-use crate::many_orbits::{FollowedOrbit, follow_many};
+use crate::many_orbits::{FollowedOrbit, follow_some, in_parts};
 use crate::recurrence_limits::RecurrenceLimits;
 use crate::state_grid::StateGrid;
 use crate::state_map::{Moving, Repeats, StateMap};
@@ -133,7 +135,7 @@ impl Attractors {
         start: &[f64],
         ends: &mut Vec<Vec<f64>>,
     ) -> Result<Option<UnmatchedReason>, Error> {
-        let mut orbit = Orbit::new(&self.known, start);
+        let mut orbit = Orbit::new(&self.known, &self.limits, start);
         loop {
             return Ok(match orbit.follow(&self.known, &self.limits, map) {
                 End::Known(own) => {
@@ -201,7 +203,8 @@ impl Attractors {
     /// [`Error::WrongDimension`] for a point of another dimension.
     pub fn convergence(&self, map: &dyn StateMap, start: &[f64]) -> Result<(Label, usize), Error> {
         self.check_dimension(start.len())?;
-        Ok(Labelled { attractors: self, orbit: Orbit::new(&self.known, start) }.follow(map))
+        Ok(Labelled { attractors: self, orbit: Orbit::new(&self.known, &self.limits, start) }
+            .follow(map))
     }
 
     /// The labels and times of many starts, as [`convergence`](Self::convergence) gives them: in parallel, and some orbits at a time where
@@ -227,9 +230,24 @@ impl Attractors {
     ) -> Result<Vec<(Label, usize)>, Error> {
         let dimension = self.known.dimension();
         self.check_dimension(map.dimension().unwrap_or(dimension))?;
-        let orbit =
-            || Labelled { attractors: self, orbit: Orbit::new(&self.known, &vec![0.0; dimension]) };
-        Ok(follow_many(map, dimension, count, orbit, start))
+        let Attractors { known, limits, .. } = self;
+        let orbit = || Labelled {
+            attractors: self,
+            orbit: Orbit::new(known, limits, &vec![0.0; dimension]),
+        };
+        Ok(in_parts(count, |first, count| {
+            let start = |k, state: &mut [f64]| start(first + k, state);
+            let FirstSteps { ends, others } = first_steps(map, known, limits, count, start);
+            let begin = |k: usize, own: &mut Labelled<'_>| own.orbit.resume(known, &others[k]);
+            let later = follow_some(map, dimension, others.len(), orbit, begin);
+            let label = |(end, steps)| (self.label_at(&end).unwrap_or(Label::UNDECIDED), steps);
+            let mut found: Vec<(Label, usize)> =
+                ends.into_iter().map(|end| end.map_or((Label::UNDECIDED, 0), label)).collect();
+            for (other, end) in others.iter().zip(later) {
+                found[other.number] = end;
+            }
+            found
+        }))
     }
 
     fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
@@ -304,7 +322,7 @@ impl Attractors {
                 return Some(other);
             }
             // An orbit that repeats itself to the last bit enters nothing more.
-            if repeats.see(&point.at) || !point.step(map) {
+            if repeats.see(&point.at).is_some() || !point.step(map) {
                 return None;
             }
             self.known.wrap(&mut point.at);
@@ -335,10 +353,6 @@ impl Labelled<'_> {
 impl FollowedOrbit for Labelled<'_> {
     type End = (Label, usize);
 
-    fn restart(&mut self, start: &[f64]) {
-        self.orbit.restart(&self.attractors.known, start);
-    }
-
     fn see(&mut self) -> Option<(Label, usize)> {
         let Attractors { known, limits, .. } = self.attractors;
         while let Some(end) = self.orbit.see(known, limits) {
@@ -350,8 +364,8 @@ impl FollowedOrbit for Labelled<'_> {
         None
     }
 
-    fn at(&mut self) -> &mut [f64] {
-        self.orbit.at_mut()
+    fn point(&mut self) -> &mut Moving {
+        self.orbit.point()
     }
 
     fn moved(&mut self, has_image: bool) {

@@ -1,5 +1,6 @@
 //! A region of state space divided into cells.
 
+use crate::axis::Axis;
 use crate::error::Error;
 use crate::hyperrectangle::Hyperrectangle;
 use crate::interval::Interval;
@@ -23,17 +24,6 @@ pub struct StateGrid {
     dimension: usize,
 }
 
-/// The cells along one coordinate.
-#[derive(Debug, Clone, PartialEq)]
-struct Axis {
-    coordinate: usize,
-    side: Interval,
-    cells: u64,
-    is_periodic: bool,
-    /// The ends of cells of given lengths; empty for equal ones.
-    edges: Vec<f64>,
-}
-
 /// The largest number of axes: a cell of a region of d dimensions has 3^d − 1 neighbours, 59 048 for ten.
 const MOST_AXES: usize = 10;
 
@@ -44,19 +34,15 @@ impl StateGrid {
     /// So many cells along each side of a region, of equal lengths.
     ///
     /// # Errors
-    /// [`Error::BadStateGrid`] for more than ten sides, and more than 2⁶⁴ cells; [`Error::WrongDimension`] for another number of numbers
+    /// [`Error::BadStateGrid`] for more than ten sides, and more than 2⁶³ cells; [`Error::WrongDimension`] for another number of numbers
     /// than sides; [`Error::BadSearch`] for fewer than three cells along a side.
     pub fn new(region: Hyperrectangle, cells: &[usize]) -> Result<StateGrid, Error> {
         let (dimension, expected) = (cells.len(), region.dimension());
         if dimension != expected {
             return Err(Error::WrongDimension { dimension, expected });
         }
-        let axis = |(coordinate, (&side, &cells)): (usize, (&Interval, &usize))| Axis {
-            coordinate,
-            side,
-            cells: cells as u64,
-            is_periodic: false,
-            edges: Vec::new(),
+        let axis = |(coordinate, (&side, &cells)): (usize, (&Interval, &usize))| {
+            Axis::new(coordinate, side, cells as u64)
         };
         let axes: Vec<Axis> = region.sides().iter().zip(cells).enumerate().map(axis).collect();
         StateGrid { dimension: axes.len(), axes }.checked()
@@ -142,6 +128,7 @@ impl StateGrid {
             return Err(Error::BadSearch { name, value: axis.cells as f64, remedy });
         }
         let number = self.axes.iter().try_fold(1u64, |all, axis| all.checked_mul(axis.cells));
+        let number = number.filter(|number| *number <= i64::MAX as u64);
         if self.axes.len() > MOST_AXES || number.is_none() {
             let cells = self.most_cells() as usize;
             let (dimension, most) = (self.axes.len(), MOST_AXES);
@@ -158,7 +145,8 @@ impl StateGrid {
         let mut finer = self.clone();
         let parts = 1u64.checked_shl(halvings)?;
         for axis in &mut finer.axes {
-            axis.cells = axis.cells.checked_mul(parts)?.checked_add(parts - 1)?;
+            let cells = axis.cells.checked_mul(parts)?.checked_add(parts - 1)?;
+            *axis = axis.with_cells(cells);
         }
         finer.checked().ok()
     }
@@ -173,30 +161,90 @@ impl StateGrid {
         self.axes.iter().map(|axis| axis.cells).max().unwrap_or(0)
     }
 
-    /// The length of the side of a coordinate; `None` if the grid has no cells along it.
-    pub(crate) fn side(&self, coordinate: usize) -> Option<f64> {
-        let axis = self.axes.iter().find(|axis| axis.coordinate == coordinate);
-        axis.map(|axis| axis.side.length())
+    /// How far two values of a coordinate are apart, in lengths of its side, the short way round a period; in parts of the larger value if the
+    /// grid has no cells along it.
+    pub(crate) fn apart(&self, coordinate: usize, a: f64, b: f64) -> f64 {
+        let (off, axis) =
+            ((a - b).abs(), self.axes.iter().find(|axis| axis.coordinate == coordinate));
+        match axis {
+            Some(axis) if axis.is_periodic => {
+                let off = off / axis.side.length();
+                off.min((1.0 - off).abs())
+            }
+            Some(axis) => off / axis.side.length(),
+            None if off == 0.0 => 0.0,
+            None => off / a.abs().max(b.abs()),
+        }
+    }
+
+    /// The number of cells.
+    pub(crate) fn count(&self) -> u64 {
+        self.axes.iter().map(|axis| axis.cells).product()
+    }
+
+    /// The largest absolute value of a coordinate of a state in the region; infinite if a coordinate has no cells.
+    pub(crate) fn largest(&self) -> f64 {
+        let ends = self.axes.iter().flat_map(|axis| [axis.side.left, axis.side.right]);
+        let largest = ends.fold(0.0, |largest: f64, end| largest.max(end.abs()));
+        if self.axes.len() == self.dimension { largest } else { f64::INFINITY }
+    }
+
+    pub(crate) fn is_periodic(&self) -> bool {
+        self.axes.iter().any(|axis| axis.is_periodic)
     }
 
     /// Moves a state into the periods of its coordinates.
     pub(crate) fn wrap(&self, state: &mut [f64]) {
+        let periodic = self.axes.iter().filter(|axis| axis.is_periodic);
+        periodic.for_each(|axis| axis.wrap(&mut state[axis.coordinate]));
+    }
+
+    /// The same of many states, by columns.
+    pub(crate) fn wrap_columns(&self, columns: &mut [Vec<f64>]) {
         for axis in self.axes.iter().filter(|axis| axis.is_periodic) {
-            let (x, side) = (&mut state[axis.coordinate], axis.side);
-            if !(side.left <= *x && *x < side.right) && x.is_finite() {
-                let turns = ((*x - side.left) / side.length()).floor();
-                *x = (*x - turns * side.length()).clamp(side.left, side.right);
+            columns[axis.coordinate].iter_mut().for_each(|x| axis.wrap(x));
+        }
+    }
+
+    /// What stands for the number of a cell outside the region: there are fewer cells.
+    pub(crate) const OUTSIDE: u64 = u64::MAX;
+
+    /// The numbers of the cells of many states, by columns.
+    pub(crate) fn cells_of_columns(&self, columns: &[Vec<f64>], cells: &mut Vec<u64>) {
+        cells.clear();
+        cells.resize(columns.first().map_or(0, Vec::len), 0);
+        for axis in self.axes.iter().rev() {
+            for (cell, &x) in cells.iter_mut().zip(&columns[axis.coordinate]) {
+                let number = cell.wrapping_mul(axis.cells).wrapping_add(axis.cell(x));
+                let is_in = *cell != Self::OUTSIDE && axis.side.left <= x && x <= axis.side.right;
+                *cell = if is_in { number } else { Self::OUTSIDE };
             }
         }
     }
 
-    /// The number of the cell that contains a state, moved into its periods; `None` outside the region.
-    pub(crate) fn cell(&self, state: &[f64]) -> Option<u64> {
+    /// Whether a state, moved into its periods, lies in the region.
+    #[inline(always)]
+    pub(crate) fn contains(&self, state: &[f64]) -> bool {
+        let is_in = |axis: &Axis| {
+            let x = state[axis.coordinate];
+            axis.side.left <= x && x <= axis.side.right
+        };
+        self.axes.iter().all(is_in)
+    }
+
+    /// The number of the cell of a state that lies in the region.
+    #[inline(always)]
+    pub(crate) fn cell_inside(&self, state: &[f64]) -> u64 {
         let mut number = 0;
         for axis in self.axes.iter().rev() {
-            number = number * axis.cells + axis.cell(state[axis.coordinate])?;
+            number = number * axis.cells + axis.cell(state[axis.coordinate]);
         }
-        Some(number)
+        number
+    }
+
+    /// The number of the cell that contains a state, moved into its periods; `None` outside the region.
+    pub(crate) fn cell(&self, state: &[f64]) -> Option<u64> {
+        self.contains(state).then(|| self.cell_inside(state))
     }
 
     /// Where a state is farthest outside the region, in lengths of its sides; `None` inside.
@@ -255,35 +303,6 @@ impl StateGrid {
             rest /= axis.cells;
             state[axis.coordinate] = axis.place((at as f64 + within(k)) / axis.cells as f64);
         }
-    }
-}
-
-impl Axis {
-    fn cell(&self, x: f64) -> Option<u64> {
-        if !self.side.contains(x) {
-            return None;
-        }
-        // The right end of the region belongs to the last cell.
-        Some(((self.part(x) * self.cells as f64) as u64).min(self.cells - 1))
-    }
-
-    /// How far along the axis a place is, from 0 to 1: cells of given lengths are equal parts.
-    fn part(&self, x: f64) -> f64 {
-        let Some(last) = self.edges.len().checked_sub(1) else {
-            return (x - self.side.left) / self.side.length();
-        };
-        let at = self.edges.partition_point(|edge| *edge <= x).clamp(1, last);
-        let (left, right) = (self.edges[at - 1], self.edges[at]);
-        ((at - 1) as f64 + (x - left) / (right - left)) / last as f64
-    }
-
-    /// The place so far along the axis.
-    fn place(&self, part: f64) -> f64 {
-        let Some(last) = self.edges.len().checked_sub(1) else {
-            return self.side.left + self.side.length() * part;
-        };
-        let at = ((part * last as f64) as usize).min(last - 1);
-        self.edges[at] + (self.edges[at + 1] - self.edges[at]) * (part * last as f64 - at as f64)
     }
 }
 

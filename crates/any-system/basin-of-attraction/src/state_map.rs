@@ -18,7 +18,7 @@ pub trait StateMap: Sync {
     /// Moves many states to their images. `states` has a column for each coordinate, and `has_image` says which of them have one. The images
     /// must have the bits of [`image`](Self::image): so a map that computes several at once is free to do so.
     ///
-    /// Default: one after the other.
+    /// Called where [`has_lanes`](Self::has_lanes). Default: one after the other.
     fn images(&self, states: &mut [Vec<f64>], has_image: &mut [bool]) {
         let mut point = Moving::from(&vec![0.0; states.len()]);
         for (k, has_image) in has_image.iter_mut().enumerate() {
@@ -26,6 +26,11 @@ pub trait StateMap: Sync {
             *has_image = self.image(&point.at, &mut point.next);
             states.iter_mut().zip(&point.next).for_each(|(column, x)| column[k] = *x);
         }
+    }
+
+    /// Whether [`images`](Self::images) takes less time than the images one after the other. Default: no.
+    fn has_lanes(&self) -> bool {
+        false
     }
 }
 
@@ -73,6 +78,20 @@ impl<F: Fn([f64; N]) -> Option<[f64; N]> + Sync, const N: usize> StateMap for Ar
             None => false,
         }
     }
+
+    fn images(&self, states: &mut [Vec<f64>], has_image: &mut [bool]) {
+        let Ok(columns) = <&mut [Vec<f64>; N]>::try_from(states) else {
+            has_image.fill(false);
+            return;
+        };
+        for (k, has_image) in has_image.iter_mut().enumerate() {
+            let next = (self.0)(std::array::from_fn(|axis| columns[axis][k]));
+            *has_image = next.is_some();
+            if let Some(next) = next {
+                columns.iter_mut().zip(next).for_each(|(column, x)| column[k] = x);
+            }
+        }
+    }
 }
 
 /// Numbers that tell attractors apart, made of the successive points of a stretch of an orbit.
@@ -98,25 +117,39 @@ impl Moving {
     }
 }
 
-/// Finds that an orbit repeats itself to the last bit, within twice its period and what comes before it (R. P. Brent,
+/// Finds that an orbit repeats itself to the last bit, within three times its period and what comes before it (R. P. Brent,
 /// BIT 20, 176, 1980).
 #[derive(Debug, Default)]
 pub(crate) struct Repeats {
     anchor: Vec<f64>,
-    steps: usize,
+    points: usize,
+    /// The number of the anchor.
+    anchored: usize,
 }
 
 impl Repeats {
-    /// Whether the orbit was at this point before. The points of one orbit are given one after the other.
-    pub(crate) fn see(&mut self, at: &[f64]) -> bool {
-        if self.anchor == at {
-            return true;
+    /// The period, if the orbit was at this point before. The points of one orbit are given one after the other.
+    #[inline]
+    pub(crate) fn see(&mut self, at: &[f64]) -> Option<usize> {
+        self.points += 1;
+        if self.anchored > 0 && self.anchor == at {
+            return Some(self.points - self.anchored);
         }
-        self.steps += 1;
-        if self.steps.is_power_of_two() {
+        if self.points.is_power_of_two() {
             self.anchor.clear();
             self.anchor.extend_from_slice(at);
+            self.anchored = self.points;
         }
-        false
+        None
+    }
+
+    /// Whether it has seen no point.
+    pub(crate) fn is_new(&self) -> bool {
+        self.points == 0
+    }
+
+    /// Begins with another orbit.
+    pub(crate) fn forget(&mut self) {
+        (self.points, self.anchored) = (0, 0);
     }
 }

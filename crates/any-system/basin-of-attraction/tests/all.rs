@@ -11,6 +11,7 @@ mod boundary_distance;
 mod boundary_shapes;
 mod cantor;
 mod confidence_intervals;
+mod convergences;
 mod endless_windows;
 mod fractions_along;
 mod known_basins;

@@ -166,7 +166,13 @@ pub(crate) fn values_of_lanes(
     parts: &mut [Lanes],
 ) -> Lanes {
     compute(&formulas.nodes, time, state, parts, 1);
-    // 0 times what is not finite is NaN.
-    let all = parts.iter().chain(state).chain([time]);
-    all.fold(Lanes::zero(), |sum, x| sum.with(*x, |sum, x| sum + 0.0 * x))
+    // 0 times what is not finite is NaN. Plain loops: what is not inlined would be compiled for narrow vectors.
+    let mut sum = time.each(|x| 0.0 * x);
+    for x in state {
+        sum = sum.with(*x, |sum, x| sum + 0.0 * x);
+    }
+    for x in parts.iter() {
+        sum = sum.with(*x, |sum, x| sum + 0.0 * x);
+    }
+    sum
 }

@@ -56,4 +56,7 @@ impl StateMap for FormulaSteps {
             has_image.fill(false);
         }
     }
+    fn has_lanes(&self) -> bool {
+        true
+    }
 }
