@@ -1,7 +1,10 @@
-//! `compare-peers`: the same hops by heyoka, SciPy, NumPy, numba and this repository, in Rust and in Python.
+//! `compare-peers`: the same hops and basins by heyoka, SciPy, NumPy, numba and this repository, in Rust and in Python.
 
 use crate::error::Error;
-use crate::peers::{Python, array_times, arrays_markdown, csv, markdown, measure, peers_figure};
+use crate::peers::{
+    Python, array_times, arrays_markdown, basin_times, basins_markdown, csv, markdown, measure,
+    peers_figure,
+};
 use crate::repository::{Folder, Progress, read, repository, results_folder, say};
 use crate::text::replace_block;
 use journal_figures::render;
@@ -32,19 +35,21 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
         .with_own_package(&package, &folder.path().join("build"))?;
     let peers = measure(&python, folder.path(), &Progress)?;
     let arrays = arrays_markdown(&array_times(&python, folder.path(), &Progress)?);
+    let basins = basins_markdown(&basin_times(&python, folder.path(), &Progress)?);
     let rendered = render("peers", &peers_figure(&peers), 2.0)?;
     folder.write("peers.csv", &csv(&peers)?.bytes)?;
     folder.write("peers.svg", rendered.svg.as_bytes())?;
     folder.write("peers.png", &rendered.png)?;
     let table = markdown(&peers);
-    say(format_args!("{table}\n{arrays}\n{}", folder.path().display()))?;
+    say(format_args!("{table}\n{arrays}\n{basins}\n{}", folder.path().display()))?;
     if !options.bless {
         return Ok(());
     }
     let docs = Folder::open(&repository().join("docs"))?;
     let text = read(&docs.path().join("performance.md"))?;
     let text = replace_block(&text, "peers", &table)?;
-    docs.write("performance.md", replace_block(&text, "arrays", &arrays)?.as_bytes())?;
+    let text = replace_block(&text, "arrays", &arrays)?;
+    docs.write("performance.md", replace_block(&text, "basins", &basins)?.as_bytes())?;
     docs.write("figures/peers.svg", rendered.svg.as_bytes())?;
     Ok(())
 }
