@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Which attractors at two parameters are the same.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct AttractorMatch {
-    /// Matched attractors: the label before, the label after, and the distance.
+    /// Matched attractors: the label before, the label after, and their distance, or how unlike they are.
     pub pairs: Vec<(Label, Label, f64)>,
     /// Attractors before that match none after.
     pub vanished: Vec<Label>,
@@ -21,7 +21,8 @@ pub struct AttractorMatch {
 /// and so on, as far as they are not farther apart than `within`. The rest is reported. (`MatchBySSSetDistance` of
 /// Attractors.jl does the same; G. Datseris, K. Luiz Rossi, A. Wagemakers, Chaos 33, 073151, 2023.)
 ///
-/// Attractors without points, of different dimensions, or with points that are not finite match none.
+/// Attractors without points, of different dimensions, or with points that are not finite match none. For any other measure see
+/// [`match_by`].
 ///
 /// ```
 /// use basin_of_attraction::{Label, match_attractors};
@@ -37,34 +38,54 @@ pub fn match_attractors(
     after: &BTreeMap<Label, Vec<Vec<f64>>>,
     within: f64,
 ) -> AttractorMatch {
-    let mut all: Vec<(f64, Label, Label)> = before
-        .iter()
-        .flat_map(|(&one, points)| {
-            let to = move |(&other, others): (&Label, &Vec<Vec<f64>>)| {
-                hausdorff(points, others).map(|distance| (distance, one, other))
-            };
-            after.iter().filter_map(to)
-        })
-        .filter(|&(distance, _, _)| distance <= within)
-        .collect();
-    // Equal distances are taken in the order of the labels: the sort is stable.
+    let distance = |one: &Label, other: &Label| {
+        hausdorff(before.get(one)?, after.get(other)?).filter(|distance| *distance <= within)
+    };
+    match_by(before.keys().copied().collect(), after.keys().copied().collect(), distance)
+}
+
+/// Matches attractors one to one by how unlike they are: the most alike first. Two for which `unlike` is `None` do not match.
+///
+/// ```
+/// use basin_of_attraction::{Label, match_by};
+/// let [a, b] = [1, 2].map(Label::from);
+/// // Mean speeds before and after.
+/// let (before, after) = ([(a, 0.0), (b, 5.0)], [(a, 4.8), (b, 9.0)]);
+/// let speed = |of: &[(Label, f64)], label: &Label| of.iter().find(|own| own.0 == *label).map(|own| own.1);
+/// let unlike = |one: &Label, other: &Label| {
+///     let off = (speed(&before, one)? - speed(&after, other)?).abs();
+///     (off < 1.0).then_some(off)
+/// };
+/// let found = match_by([a, b].into(), [a, b].into(), unlike);
+/// assert_eq!((found.pairs.len(), found.pairs[0].0, found.pairs[0].1), (1, b, a));
+/// assert_eq!((found.vanished, found.appeared), (vec![a], vec![b]));
+/// ```
+pub fn match_by(
+    mut before: BTreeSet<Label>,
+    mut after: BTreeSet<Label>,
+    unlike: impl Fn(&Label, &Label) -> Option<f64>,
+) -> AttractorMatch {
+    let mut all: Vec<(f64, Label, Label)> = Vec::new();
+    for one in &before {
+        let to = |other: &Label| Some((unlike(one, other)?, *one, *other));
+        all.extend(after.iter().filter_map(to));
+    }
+    // Equal ones are taken in the order of the labels: the sort is stable.
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let (mut left, mut right): (BTreeSet<Label>, BTreeSet<Label>) =
-        (before.keys().copied().collect(), after.keys().copied().collect());
     let mut pairs = Vec::new();
     for (distance, one, other) in all {
-        if left.contains(&one) && right.contains(&other) {
-            left.remove(&one);
-            right.remove(&other);
+        if before.contains(&one) && after.contains(&other) {
+            before.remove(&one);
+            after.remove(&other);
             pairs.push((one, other, distance));
         }
     }
-    let (vanished, appeared) = (left.into_iter().collect(), right.into_iter().collect());
+    let (vanished, appeared) = (before.into_iter().collect(), after.into_iter().collect());
     AttractorMatch { pairs, vanished, appeared }
 }
 
 /// Hausdorff's distance of two sets of points; `None` if there is none.
-fn hausdorff(one: &[Vec<f64>], other: &[Vec<f64>]) -> Option<f64> {
+pub(crate) fn hausdorff(one: &[Vec<f64>], other: &[Vec<f64>]) -> Option<f64> {
     let dimension = one.first()?.len();
     let usable = |point: &Vec<f64>| point.len() == dimension && point.iter().all(|x| x.is_finite());
     if other.is_empty() || !one.iter().chain(other).all(usable) {

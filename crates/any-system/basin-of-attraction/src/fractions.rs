@@ -54,6 +54,8 @@ pub struct Fractions {
     /// Some points of the attractor of each basin. They are needed if attractors are matched by their positions
     /// ([`Matching::Nearest`](crate::Matching)); else leave this empty.
     pub attractors: BTreeMap<Label, Vec<Vec<f64>>>,
+    /// The labels of some points, the same at all parameters, if attractors are matched by the overlap of their basins; else empty.
+    pub labels: Vec<Label>,
 }
 
 impl Fractions {
@@ -71,7 +73,7 @@ impl Fractions {
         let fraction = |label| Ok((label, counts.fraction(label)?.into()));
         let found = counts.basins().map(fraction).collect::<Result<_, Error>>()?;
         let unseen = proportion_interval(counts.undecided(), counts.inside())?.upper;
-        Ok(Fractions { found, unseen, attractors: BTreeMap::new() })
+        Ok(Fractions { found, unseen, ..Fractions::default() })
     }
 
     /// The fractions of a window, with the bounds of [`IntervalBasins::basin_length`].
@@ -90,12 +92,40 @@ impl Fractions {
         };
         let found = basins.labels().into_iter().map(fraction).collect();
         let unseen = basins.undecided() / length;
-        Ok(Fractions { found, unseen, attractors: BTreeMap::new() })
+        Ok(Fractions { found, unseen, ..Fractions::default() })
     }
 
     /// The same fractions with the points of the attractors, for [`Matching::Nearest`](crate::Matching).
     #[must_use]
     pub fn with_attractors(self, attractors: BTreeMap<Label, Vec<Vec<f64>>>) -> Fractions {
         Fractions { attractors, ..self }
+    }
+
+    /// The same fractions with the labels of some points, for [`Matching::Overlap`](crate::Matching).
+    #[must_use]
+    pub fn with_labels(self, labels: Vec<Label>) -> Fractions {
+        Fractions { labels, ..self }
+    }
+
+    /// The fractions of groups of attractors: `group` has the new label of one, from its own label and its points. A range of a group reaches
+    /// from the sum of the lower ends to that of the upper ends, and to 1 at most.
+    #[must_use]
+    pub fn aggregated(&self, group: impl Fn(Label, &[Vec<f64>]) -> Label) -> Fractions {
+        let none: Vec<Vec<f64>> = Vec::new();
+        let new = |own: Label| group(own, self.attractors.get(&own).unwrap_or(&none));
+        let mut sums = Fractions { unseen: self.unseen, ..Fractions::default() };
+        for (&own, range) in &self.found {
+            let nothing = FractionRange { value: 0.0, lower: 0.0, upper: 0.0 };
+            let sum = sums.found.entry(new(own)).or_insert(nothing);
+            sum.value += range.value;
+            sum.lower += range.lower;
+            sum.upper = (sum.upper + range.upper).min(1.0);
+        }
+        for (&own, points) in &self.attractors {
+            sums.attractors.entry(new(own)).or_default().extend_from_slice(points);
+        }
+        sums.labels =
+            self.labels.iter().map(|&own| if own.is_basin() { new(own) } else { own }).collect();
+        sums
     }
 }

@@ -4,25 +4,13 @@
 //! largest length. A step whose ends have too different fractions is halved, the worst one first. Where halving does
 //! not help, the reason is reported: at a jump of the fractions the step becomes as short as allowed, its ranges apart.
 
-use crate::attractor_match::match_attractors;
+use crate::common_labels::with_common_labels;
 use crate::error::Error;
 use crate::fractions::{FractionRange, Fractions};
 use crate::interval::Interval;
 use crate::label::Label;
-use std::collections::{BTreeMap, BTreeSet};
-
-/// How attractors at neighbouring parameters are recognised as the same.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Matching {
-    /// The same label is the same attractor.
-    ByLabel,
-    /// The numbers of the labels mean nothing: attractors are matched by the distance of their points
-    /// ([`match_attractors`]), if it is at most `within`. A label without points stands for itself.
-    Nearest {
-        /// The largest distance of two attractors that are the same.
-        within: f64,
-    },
-}
+use crate::matching::Matching;
+use std::collections::BTreeSet;
 
 /// How finely a curve of parameters is divided.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,12 +27,10 @@ pub struct CurveLimits {
     pub shortest: f64,
     /// Most parameters at which fractions are computed.
     pub budget: usize,
-    /// How attractors are matched.
-    pub matching: Matching,
 }
 
 impl Default for CurveLimits {
-    /// Sixteen steps, halved until fractions change by at most 0.02, to 10⁻⁶; up to 1000 parameters; matched by label.
+    /// Sixteen steps, halved until fractions change by at most 0.02, to 10⁻⁶; up to 1000 parameters.
     ///
     /// A curve is then drawn to a hundredth of its height. Smaller differences take more parameters, in proportion.
     fn default() -> Self {
@@ -54,7 +40,6 @@ impl Default for CurveLimits {
             relative: 0.0,
             shortest: 1e-6,
             budget: 1000,
-            matching: Matching::ByLabel,
         }
     }
 }
@@ -87,7 +72,7 @@ pub struct UnresolvedStep {
     pub reason: UnresolvedReason,
 }
 
-/// An attractor that matches none at the next parameter, or none at the one before, by [`Matching::Nearest`].
+/// An attractor that matches none at the next parameter, or none at the one before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UnmatchedAttractor {
     /// The parameter before.
@@ -124,7 +109,7 @@ impl FractionsAlong {
         self.unresolved.iter().filter(|step| step.reason == UnresolvedReason::Jump)
     }
 
-    /// Attractors that appear or vanish, if attractors are matched by position.
+    /// Attractors that appear or vanish, unless attractors are matched by their labels. One that comes back has its label again.
     pub fn unmatched(&self) -> &[UnmatchedAttractor] {
         &self.unmatched
     }
@@ -150,6 +135,19 @@ impl FractionsAlong {
             (step.from, step.to) = (parameter(step.from), parameter(step.to));
         }
         self
+    }
+
+    /// The fractions of groups of attractors, as [`Fractions::aggregated`] gives them at each parameter; `group` also gets the parameter.
+    /// Which steps are unresolved is that of the attractors.
+    #[must_use]
+    pub fn aggregated(
+        &self,
+        group: impl Fn(f64, Label, &[Vec<f64>]) -> Label,
+    ) -> Vec<(f64, Fractions)> {
+        let own = |(parameter, fractions): &(f64, Fractions)| {
+            (*parameter, fractions.aggregated(|label, points| group(*parameter, label, points)))
+        };
+        self.points.iter().map(own).collect()
     }
 
     /// All labels, in increasing order.
@@ -184,24 +182,60 @@ impl FractionsAlong {
 /// # Ok::<(), basin_of_attraction::Error>(())
 /// ```
 ///
+/// The same label is the same attractor; for labels without a meaning see [`fractions_along_matched`].
+///
 /// # Errors
 /// [`Error::BadInterval`] for a range that is reversed, of length 0, or not finite; [`Error::BadCurveLimits`] for no first step, a
 /// difference or a shortest step that is not positive, or a budget below the number of the first parameters;
-/// [`Error::TooManySamples`] for more than ten million of these; [`Error::BadPoint`] for a known parameter that is not finite; [`Error::TooManyAttractors`] if
-/// attractors that appear and vanish use up all labels; errors of `fractions`.
+/// [`Error::TooManySamples`] for more than ten million of these; [`Error::BadPoint`] for a known parameter that is not finite; errors of
+/// `fractions`.
 pub fn fractions_along<E: From<Error>>(
     range: Interval,
     known: &[f64],
     limits: CurveLimits,
     mut fractions: impl FnMut(f64) -> Result<Fractions, E>,
 ) -> Result<FractionsAlong, E> {
+    fractions_along_matched(range, known, limits, Matching::ByLabel, |parameter, _| {
+        fractions(parameter)
+    })
+}
+
+/// The same with attractors that are matched from parameter to parameter, whatever their labels are. `fractions` also gets what was found at the next
+/// smaller parameter so far: the points of its attractors are good starts.
+///
+/// ```
+/// use basin_of_attraction::{CurveLimits, Fractions, Interval, Label, Matching, fractions_along_matched};
+/// // One attractor that moves as c, and changes its number.
+/// let at = |c: f64, _: Option<&(f64, Fractions)>| {
+///     let own = Label::from(c > 0.5);
+///     Ok::<_, basin_of_attraction::Error>(Fractions::default().with_attractors([(own, vec![vec![c]])].into()))
+/// };
+/// let range = Interval::new(0.0, 1.0)?;
+/// let nearest = Matching::Nearest { within: 0.1 };
+/// let found = fractions_along_matched(range, &[], CurveLimits::default(), nearest, at)?;
+/// assert!(found.unmatched().is_empty());
+/// assert!(found.points().iter().all(|(_, own)| own.attractors.keys().eq([&Label::from(0)])));
+/// # Ok::<(), basin_of_attraction::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`fractions_along`]; [`Error::TooManyAttractors`] if attractors that appear and vanish use up all labels.
+pub fn fractions_along_matched<E: From<Error>>(
+    range: Interval,
+    known: &[f64],
+    limits: CurveLimits,
+    matching: Matching<'_>,
+    mut fractions: impl FnMut(f64, Option<&(f64, Fractions)>) -> Result<Fractions, E>,
+) -> Result<FractionsAlong, E> {
     let parameters = first_parameters(range, known, &limits)?;
-    let mut points = Vec::with_capacity(parameters.len());
+    let mut points: Vec<(f64, Fractions)> = Vec::with_capacity(parameters.len());
     for parameter in parameters {
-        points.push((parameter, fractions(parameter)?));
+        let found = fractions(parameter, points.last())?;
+        points.push((parameter, found));
     }
+    let between = |one: &_, other: &_| too_large(one, other, &limits, &matching);
     let mut steps: Vec<Option<UnresolvedStep>> =
-        points.windows(2).map(|pair| too_large(&pair[0], &pair[1], &limits)).collect();
+        points.windows(2).map(|pair| between(&pair[0], &pair[1])).collect();
     // The worst step that can be halved; of equally bad ones the first.
     let worst = |steps: &[Option<UnresolvedStep>]| {
         let halved = steps.iter().enumerate().filter_map(|(at, step)| {
@@ -216,16 +250,17 @@ pub fn fractions_along<E: From<Error>>(
     while points.len() < limits.budget {
         let Some((at, _)) = worst(&steps) else { break };
         let middle = 0.5 * points[at].0 + 0.5 * points[at + 1].0;
-        points.insert(at + 1, (middle, fractions(middle)?));
-        steps[at] = too_large(&points[at], &points[at + 1], &limits);
-        steps.insert(at + 1, too_large(&points[at + 1], &points[at + 2], &limits));
+        let found = fractions(middle, points.get(at))?;
+        points.insert(at + 1, (middle, found));
+        steps[at] = between(&points[at], &points[at + 1]);
+        steps.insert(at + 1, between(&points[at + 1], &points[at + 2]));
     }
     let mut found = FractionsAlong { points, unresolved: Vec::new(), unmatched: Vec::new() };
-    found.unmatched = with_common_labels(&mut found.points, limits.matching)?;
+    found.unmatched = with_common_labels(&mut found.points, &matching)?;
     // The labels of the steps are the common ones as well.
-    let again = CurveLimits { matching: Matching::ByLabel, ..limits };
     let steps = found.points.windows(2);
-    found.unresolved = steps.filter_map(|pair| too_large(&pair[0], &pair[1], &again)).collect();
+    let again = |pair: &[_]| too_large(&pair[0], &pair[1], &limits, &Matching::ByLabel);
+    found.unresolved = steps.filter_map(again).collect();
     Ok(found)
 }
 
@@ -289,6 +324,7 @@ fn too_large(
     one: &(f64, Fractions),
     other: &(f64, Fractions),
     limits: &CurveLimits,
+    matching: &Matching<'_>,
 ) -> Option<UnresolvedStep> {
     let step = |(before, after): (Option<Label>, Option<Label>)| {
         // An attractor without a partner has no basin at the other parameter.
@@ -297,7 +333,11 @@ fn too_large(
         let right = after.map_or(none, |label| other.1.of(label));
         Some((before.or(after)?, left, right))
     };
-    let steps = partners(&one.1, &other.1, limits.matching).into_iter().filter_map(step);
+    let found = matching.partners(one, other);
+    let pairs = found.pairs.iter().map(|&(before, after, _)| (Some(before), Some(after)));
+    let vanished = found.vanished.iter().map(|&label| (Some(label), None));
+    let appeared = found.appeared.iter().map(|&label| (None, Some(label)));
+    let steps = pairs.chain(vanished).chain(appeared).filter_map(step);
     let large = steps.filter(|&(_, before, after)| excess(before, after, limits) > 1.0);
     // A change that the ranges show counts more than one that they do not.
     let rank = |&(_, before, after): &(Label, FractionRange, FractionRange)| {
@@ -315,86 +355,4 @@ fn too_large(
         UnresolvedReason::Budget
     };
     Some(UnresolvedStep { from, to, label, before, after, reason })
-}
-
-/// The labels at two parameters that stand for the same attractor, and those without a partner.
-fn partners(
-    one: &Fractions,
-    other: &Fractions,
-    matching: Matching,
-) -> Vec<(Option<Label>, Option<Label>)> {
-    let labels: BTreeSet<Label> = one.found.keys().chain(other.found.keys()).copied().collect();
-    let same = |label: Label| (Some(label), Some(label));
-    let Matching::Nearest { within } = matching else {
-        return labels.into_iter().map(same).collect();
-    };
-    let found = match_attractors(&one.attractors, &other.attractors, within);
-    let located =
-        |label: &Label| one.attractors.contains_key(label) || other.attractors.contains_key(label);
-    let others = labels.iter().copied().filter(|label| !located(label)).map(same);
-    let pairs = found.pairs.iter().map(|&(before, after, _)| (Some(before), Some(after)));
-    let vanished = found.vanished.iter().map(|&label| (Some(label), None));
-    let appeared = found.appeared.iter().map(|&label| (None, Some(label)));
-    others.chain(pairs).chain(vanished).chain(appeared).collect()
-}
-
-/// Gives each attractor one label at all parameters, and reports those that appear or vanish. One that vanished and
-/// comes back has a new label.
-fn with_common_labels(
-    points: &mut [(f64, Fractions)],
-    matching: Matching,
-) -> Result<Vec<UnmatchedAttractor>, Error> {
-    let mut unmatched = Vec::new();
-    let all = |fractions: &Fractions| -> BTreeSet<Label> {
-        fractions.found.keys().chain(fractions.attractors.keys()).copied().collect()
-    };
-    let first = match points.first() {
-        Some(first) if matching != Matching::ByLabel => first,
-        _ => return Ok(unmatched),
-    };
-    // Labels that are taken, and the common label of each own label at the last parameter.
-    let mut taken = all(&first.1);
-    let mut common: BTreeMap<Label, Label> = taken.iter().map(|&label| (label, label)).collect();
-    let mut last = first.clone();
-    for (parameter, fractions) in points.iter_mut().skip(1) {
-        let mut next: BTreeMap<Label, Label> = BTreeMap::new();
-        for (before, after) in partners(&last.1, fractions, matching) {
-            let (from, to) = (last.0, *parameter);
-            match (before, after) {
-                (Some(before), Some(after)) => {
-                    let label = common.get(&before).copied().unwrap_or(before);
-                    next.insert(after, label);
-                    taken.insert(label);
-                }
-                (Some(before), None) => {
-                    let label = common.get(&before).copied().unwrap_or(before);
-                    unmatched.push(UnmatchedAttractor { from, to, label, appears: false });
-                }
-                (None, Some(after)) => {
-                    let label = free_label(after, &taken)?;
-                    taken.insert(label);
-                    next.insert(after, label);
-                    unmatched.push(UnmatchedAttractor { from, to, label, appears: true });
-                }
-                (None, None) => {}
-            }
-        }
-        last = (*parameter, fractions.clone());
-        let renamed = |label: &Label| next.get(label).copied().unwrap_or(*label);
-        fractions.found =
-            fractions.found.iter().map(|(own, &range)| (renamed(own), range)).collect();
-        let attractors = std::mem::take(&mut fractions.attractors);
-        fractions.attractors =
-            attractors.into_iter().map(|(own, points)| (renamed(&own), points)).collect();
-        common = next;
-    }
-    Ok(unmatched)
-}
-
-/// `wanted`, or the first basin that is not taken.
-fn free_label(wanted: Label, taken: &BTreeSet<Label>) -> Result<Label, Error> {
-    let free = |label: &Label| !taken.contains(label);
-    let others = (1..=u16::MAX).filter_map(Label::basin);
-    let found = std::iter::once(wanted).chain(others).find(free);
-    found.ok_or(Error::TooManyAttractors { most: taken.len() })
 }

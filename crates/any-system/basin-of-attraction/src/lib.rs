@@ -33,7 +33,9 @@
 //! | [`KnownAttractors`] | attractors that the caller knows by points: basins by the distance from them, and the time to convergence |
 //! | [`FeatureAttractors`], [`FeatureGroups`], [`suggested_radius`] | the same by features of orbits, grouped by density with a suggested radius, or beside templates |
 //! | [`fractions_along`], [`FractionsAlong`], [`Fractions`] | fractions along a curve of parameters, refined where they change, with their jumps |
-//! | [`match_attractors`], [`Matching`] | which attractors at two parameters are the same |
+//! | [`fractions_along_matched`], [`Matching`], [`match_by`] | the same where the numbers of the attractors mean nothing: which attractors at two parameters are the same |
+//! | [`attractors_along`], [`AttractorsAlong`] | the attractors of a map and the fractions of their basins along a parameter, in one call |
+//! | [`Stability`], [`AttractorStability`] | basin stability, times of convergence, fatal and harmless shocks of each attractor, in one pass |
 //! | [`IntervalBasins::tipping_to`], [`Tipping`] | the probability that a state of basin a is in basin b after a change of parameters, with bounds |
 //! | [`random_tipping`], [`label_after_drift`] | the same from random points, also for a slow change that the orbit follows |
 //! | [`IntervalBasins::distance_to_boundary`], [`BoundaryDistances`] | the distance to the boundary on the line, with bounds: of a state, and its distribution over a basin |
@@ -87,6 +89,7 @@
 
 mod attractor_features;
 mod attractor_match;
+mod attractors_along;
 mod axis;
 mod basin_search;
 mod boundary_between;
@@ -95,6 +98,7 @@ mod bounds;
 mod boxes;
 mod branches;
 mod candidate;
+mod common_labels;
 mod confidence_interval;
 mod confirmation;
 mod edge_tracking;
@@ -118,6 +122,7 @@ mod least_squares;
 mod ln_2_criterion;
 mod low_discrepancy;
 mod many_orbits;
+mod matching;
 mod pixel_shares;
 mod power_law;
 mod preimage;
@@ -135,6 +140,7 @@ mod sampling;
 mod scalar_map;
 mod smooth_boundary;
 mod split_mix;
+mod stability;
 mod state_grid;
 mod state_map;
 mod suggested_radius;
@@ -148,7 +154,8 @@ mod value_image;
 mod wada;
 
 pub use attractor_features::{FeatureAttractor, FeatureAttractors, FeatureLimits};
-pub use attractor_match::{AttractorMatch, match_attractors};
+pub use attractor_match::{AttractorMatch, match_attractors, match_by};
+pub use attractors_along::{AlongSearch, AttractorsAlong, attractors_along};
 pub use basin_search::{interval_basins, interval_basins_from_known};
 pub use boundary_between::{BoundaryBracket, boundary_between};
 pub use boundary_distance::{BoundaryDistance, BoundaryDistances};
@@ -166,8 +173,8 @@ pub use fate::{Fate, TrapSet, Traps, classify};
 pub use feature_groups::FeatureGroups;
 pub use fractions::{FractionRange, Fractions};
 pub use fractions_along::{
-    CurveLimits, FractionsAlong, Matching, UnmatchedAttractor, UnresolvedReason, UnresolvedStep,
-    fractions_along,
+    CurveLimits, FractionsAlong, UnmatchedAttractor, UnresolvedReason, UnresolvedStep,
+    fractions_along, fractions_along_matched,
 };
 pub use hyperrectangle::Hyperrectangle;
 pub use interval::{Interval, IntervalSet};
@@ -176,6 +183,7 @@ pub use known_attractors::{KnownAttractors, KnownLimits};
 pub use label::Label;
 pub use ln_2_criterion::Ln2Criterion;
 pub use low_discrepancy::{low_discrepancy_fractions, stratified_fractions, stratified_points};
+pub use matching::{LabelAt, Matching, Unlike};
 pub use pixel_shares::PixelShares;
 pub use power_law::{NoInterval, PowerLaw, power_law};
 pub use preimage::{preimage_levels, preimage_levels_from_known};
@@ -199,6 +207,7 @@ pub use smooth_boundary::{
     BallEntropy, BoundaryShape, RandomBalls, ball_entropy, smooth_boundary_entropy,
 };
 pub use split_mix::SplitMix64;
+pub use stability::{AttractorStability, LongestTime, Shock, Stability};
 pub use state_grid::StateGrid;
 pub use state_map::{ArrayMap, OrbitFeature, StateMap, array_map};
 pub use suggested_radius::{SuggestedRadius, suggested_radius};

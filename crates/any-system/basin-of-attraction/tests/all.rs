@@ -21,4 +21,5 @@ mod planted_intervals;
 mod resilience;
 mod riddled_basin;
 mod runge_kutta;
+mod stability;
 mod tipping;

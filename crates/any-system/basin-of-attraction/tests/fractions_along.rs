@@ -3,9 +3,10 @@
 
 use basin_of_attraction::{
     Attractors, CurveLimits, Error, FractionRange, Fractions, FractionsAlong, Hyperrectangle,
-    Interval, Label, Matching, RecurrenceLimits, StateGrid, UnresolvedReason, fractions_along,
-    region_fractions,
+    Interval, Label, LabelCounts, Matching, RecurrenceLimits, StateGrid, UnresolvedReason,
+    fractions_along, fractions_along_matched, region_fractions,
 };
+use std::collections::BTreeMap;
 
 fn grid(region: &Hyperrectangle, cells: usize) -> StateGrid {
     StateGrid::uniform(region.clone(), cells).unwrap()
@@ -114,9 +115,9 @@ fn an_unseen_basin_has_a_range_up_to_what_is_undecided() {
 fn attractors_whose_numbers_change_are_matched_by_position() {
     let line = Hyperrectangle::try_from(Interval::new(-1.5, 1.5).unwrap()).unwrap();
     let matched = Matching::Nearest { within: 0.2 };
-    let limits = CurveLimits { first_steps: 8, matching: matched, ..CurveLimits::default() };
+    let limits = CurveLimits { first_steps: 8, ..CurveLimits::default() };
     let mut positive = Vec::new();
-    let at = |c: f64| {
+    let at = |c: f64, _: Option<&(f64, Fractions)>| {
         let map = move |x: &[f64]| Some(vec![(1.5 + c) * x[0] - 0.5 * x[0] * x[0] * x[0]]);
         // The number of the positive attractor is 1 or 2, as the first start says.
         let sign = if (1e2 * c).sin() > 0.0 { 1.0 } else { -1.0 };
@@ -131,7 +132,7 @@ fn attractors_whose_numbers_change_are_matched_by_position() {
         Ok::<_, Error>(Fractions::from_counts(&counts)?.with_attractors(found.positions()))
     };
     let range = Interval::new(0.0, 0.2).unwrap();
-    let found = fractions_along(range, &[], limits, at).unwrap();
+    let found = fractions_along_matched(range, &[], limits, matched, at).unwrap();
     assert!(positive.contains(&Label::from(1)) && positive.contains(&Label::from(2)));
     assert!(
         found.unresolved().is_empty() && found.unmatched().is_empty(),
@@ -173,12 +174,10 @@ fn an_attractor_that_appears_has_a_new_label() {
         }
         Ok::<_, Error>(found)
     };
-    let limits = CurveLimits {
-        matching: Matching::Nearest { within: 0.5 },
-        shortest: 1e-6,
-        ..CurveLimits::default()
-    };
-    let found = fractions_along(Interval::new(-1.0, 1.0).unwrap(), &[], limits, at).unwrap();
+    let range = Interval::new(-1.0, 1.0).unwrap();
+    let nearest = Matching::Nearest { within: 0.5 };
+    let limits = CurveLimits::default();
+    let found = fractions_along_matched(range, &[], limits, nearest, |c, _| at(c)).unwrap();
     let [new] = found.unmatched() else { panic!("{:?}", found.unmatched()) };
     assert!(new.appears && new.label == Label::from(1) && new.from < 0.0 && new.to >= 0.0);
     let [jump] = found.unresolved() else { panic!("{:?}", found.unresolved()) };
@@ -211,4 +210,62 @@ fn curves_that_cannot_be_divided_are_refused() {
     assert!(fractions_along(unit(), &[f64::NAN], limits, all).is_err());
     let fails = |_: f64| Err::<Fractions, _>(Error::NoDimension);
     assert_eq!(fractions_along(unit(), &[], limits, fails), Err(Error::NoDimension));
+}
+
+/// Two attractors at ±1 for c in [0, 1]; the one at 1 is there only up to 0.3 and from 0.7 on. Their numbers are exchanged at random.
+fn comes_and_goes(c: f64, exchanged: bool) -> Fractions {
+    let [mut left, mut right] = [1, 2].map(Label::from);
+    if exchanged {
+        (left, right) = (right, left);
+    }
+    let is_there = !(0.3..0.7).contains(&c);
+    let samples = (0..100).map(|k| if is_there && k >= 60 { right } else { left });
+    let counts = LabelCounts::new(samples.clone()).unwrap();
+    let mut attractors: BTreeMap<Label, Vec<Vec<f64>>> =
+        [(left, vec![vec![-1.0 - 0.1 * c]])].into();
+    if is_there {
+        attractors.insert(right, vec![vec![1.0 + 0.1 * c]]);
+    }
+    let found = Fractions::from_counts(&counts).unwrap();
+    found.with_attractors(attractors).with_labels(samples.collect())
+}
+
+/// By distance, by any measure, by overlap and by the flow: the attractor that comes back has its label again.
+#[test]
+fn an_attractor_that_vanishes_is_remembered_by_any_matching() {
+    let exchanged = |c: f64| (1e3 * c).sin() > 0.0;
+    let mean = |a: &[Vec<f64>], b: &[Vec<f64>]| {
+        let off = (a[0][0] - b[0][0]).abs();
+        (off < 0.5).then_some(off)
+    };
+    let flow = |c: f64, point: &[f64]| {
+        let is_right = point[0] > 0.0 && !(0.3..0.7).contains(&c);
+        Label::from(1 + u8::from(is_right != exchanged(c)))
+    };
+    let limits = CurveLimits { first_steps: 10, shortest: 1e-3, ..CurveLimits::default() };
+    for (name, matching) in [
+        ("nearest", Matching::Nearest { within: 0.5 }),
+        ("by", Matching::By(&mean)),
+        ("overlap", Matching::Overlap { least: 0.5 }),
+        ("flow", Matching::Flow(&flow)),
+    ] {
+        let at =
+            |c: f64, _: Option<&(f64, Fractions)>| Ok::<_, Error>(comes_and_goes(c, exchanged(c)));
+        let found = fractions_along_matched(unit(), &[], limits, matching, at).unwrap();
+        let changes: Vec<bool> = found.unmatched().iter().map(|own| own.appears).collect();
+        assert_eq!(changes, [false, true], "{name}");
+        assert_eq!(found.unmatched()[0].label, found.unmatched()[1].label, "{name}");
+        let left = found.points()[0].1.attractors.iter().find(|own| own.1[0][0] < 0.0).unwrap().0;
+        for (c, own) in found.points() {
+            assert!(own.attractors[left][0][0] < 0.0, "{name} {c}");
+            assert_eq!(own.attractors.len(), if (0.3..0.7).contains(c) { 1 } else { 2 }, "{name}");
+            let share = if own.attractors.len() == 1 { 1.0 } else { 0.6 };
+            assert_eq!(own.of(*left).value, share, "{name} {c}");
+        }
+        // Both together have all of the region.
+        for (_, all) in found.aggregated(|_, _, _| Label::from(7)) {
+            assert_eq!((all.found.len(), all.of(Label::from(7)).upper), (1, 1.0));
+            assert!((all.of(Label::from(7)).value - 1.0).abs() < 1e-12);
+        }
+    }
 }

@@ -144,7 +144,7 @@ fn by_points(
         .map(|(label, fraction)| (label, fraction.into()))
         .collect();
     let unseen = proportion_interval(undecided, limits.points)?.upper;
-    Ok(Fractions { found, unseen, attractors: BTreeMap::new() })
+    Ok(Fractions { found, unseen, ..Fractions::default() })
 }
 
 /// The mass ratios at which fractions of [α*_`from`, α*_`to`] have kinks, in increasing order: the [`crisis`] of

@@ -27,14 +27,8 @@ const RATIOS: (f64, f64) = (0.02, 50.0);
 /// How finely the mass ratios are divided: neighbours differ by 30 % or by 0.005, a hundredth of the height of the
 /// curves, or by less than can be seen. Half of that takes twice as long. The first steps are 4 % of M: peaks such
 /// as that at M = 0.1705 are wider.
-const CURVE: CurveLimits = CurveLimits {
-    first_steps: 200,
-    difference: 0.005,
-    relative: 0.3,
-    shortest: 1e-4,
-    budget: 600,
-    matching: basin_of_attraction::Matching::ByLabel,
-};
+const CURVE: CurveLimits =
+    CurveLimits { first_steps: 200, difference: 0.005, relative: 0.3, shortest: 1e-4, budget: 600 };
 
 /// Points and seed of the comparison with the paper's way of counting.
 const POINTS: usize = 64_000;

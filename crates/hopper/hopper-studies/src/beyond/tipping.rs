@@ -11,7 +11,7 @@ use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{
     CurveLimits, FractionRange, Fractions, FractionsAlong, Interval, IntervalBasins, Label,
-    Matching, Refinement, Tipping, fractions_along,
+    Refinement, Tipping, fractions_along,
 };
 use hopper_basin::{HopperFate, first_humps, known_kinks, tipping_along_drift};
 use hopper_figures::fate_colors;
@@ -30,14 +30,8 @@ const AFTER: [(f64, Pen, &str); 2] = [
 
 /// Neighbours of these mass ratios differ by 25 % at most, and the first steps are 3.5 % of M. Half of that takes
 /// twice as long.
-const CURVE: CurveLimits = CurveLimits {
-    first_steps: 86,
-    difference: 0.01,
-    relative: 0.25,
-    shortest: 1e-3,
-    budget: 250,
-    matching: Matching::ByLabel,
-};
+const CURVE: CurveLimits =
+    CurveLimits { first_steps: 86, difference: 0.01, relative: 0.25, shortest: 1e-3, budget: 250 };
 
 /// When the search for intervals stops: at this undecided length below M = 0.83, above it at this number of intervals.
 const REFINEMENT: Refinement =

@@ -8,6 +8,7 @@
 //!   exponents.rs         power laws of sets whose dimension is known
 //!   boundaries.rs        means of replicates, balls on smooth boundaries, and bounds that are certain
 //!   interval_bounds.rs   bounds from basins as intervals
+//!   shocks.rs            stability by random shocks
 //! ```
 //!
 //! `known_sets.rs` has the sets, `tally.rs` counts, `table.rs` writes the rows down.
@@ -17,5 +18,6 @@ pub(crate) mod exponents;
 pub(crate) mod interval_bounds;
 mod known_sets;
 pub(crate) mod proportions;
+pub(crate) mod shocks;
 pub(crate) mod table;
 pub(crate) mod tally;
