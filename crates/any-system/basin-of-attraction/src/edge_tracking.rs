@@ -8,6 +8,7 @@
 use crate::boundary_between::{BoundaryBracket, boundary_between, distance};
 use crate::error::Error;
 use crate::label::Label;
+use crate::state_map::{Moving, StateMap};
 
 /// When a pair of states is bisected again, and when the tracking ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,14 +68,14 @@ pub struct EdgeTrack {
 
 /// Follows the boundary between the basins of two states.
 ///
-/// `step` is a map, or a flow over a short time; `label` must be constant along its orbits.
+/// `map` is a map, or a flow over a short time; `label` must be constant along its orbits.
 ///
 /// ```
 /// use basin_of_attraction::{EdgeEnd, EdgeLimits, Label, track_edge};
 /// // (x, y) → (3x/2 − x³/2, y/2): the basins of (−1, 0) and (1, 0) meet at x = 0, where (0, 0) is a saddle.
 /// let map = |z: &[f64]| Some(vec![1.5 * z[0] - 0.5 * z[0] * z[0] * z[0], 0.5 * z[1]]);
 /// let label = |z: &[f64]| Label::from(z[0] > 0.0);
-/// let track = track_edge(&[-0.5, 1.0], &[1.0, 0.7], map, label, EdgeLimits::default())?;
+/// let track = track_edge(&[-0.5, 1.0], &[1.0, 0.7], &map, label, EdgeLimits::default())?;
 /// assert_eq!(track.end, EdgeEnd::Settled);
 /// assert!(track.bracket.middle().iter().all(|x| x.abs() < 1e-7));
 /// # Ok::<(), basin_of_attraction::Error>(())
@@ -86,7 +87,7 @@ pub struct EdgeTrack {
 pub fn track_edge(
     first: &[f64],
     second: &[f64],
-    step: impl Fn(&[f64]) -> Option<Vec<f64>>,
+    map: &dyn StateMap,
     label: impl Fn(&[f64]) -> Label,
     limits: EdgeLimits,
 ) -> Result<EdgeTrack, Error> {
@@ -114,7 +115,7 @@ pub fn track_edge(
         if points.len() > limits.rounds {
             break EdgeEnd::Rounds;
         }
-        let pair = match separated(&bracket, &step, &limits) {
+        let pair = match separated(&bracket, map, &limits) {
             Ok(pair) => pair,
             Err(end) => break end,
         };
@@ -143,17 +144,19 @@ pub fn track_edge(
 /// The pair after so many steps that it is separated.
 fn separated(
     bracket: &BoundaryBracket,
-    step: impl Fn(&[f64]) -> Option<Vec<f64>>,
+    map: &dyn StateMap,
     limits: &EdgeLimits,
 ) -> Result<(Vec<f64>, Vec<f64>), EdgeEnd> {
-    let dimension = bracket.first.0.len();
-    let is_state = |next: &Vec<f64>| next.len() == dimension && next.iter().all(|x| x.is_finite());
-    let next = |at: &[f64]| step(at).filter(is_state).ok_or(EdgeEnd::Stopped);
-    let (mut one, mut other) = (bracket.first.0.clone(), bracket.second.0.clone());
+    let (mut one, mut other) = (Moving::from(&bracket.first.0), Moving::from(&bracket.second.0));
+    let next = |point: &mut Moving| {
+        let found = point.step(map) && point.at.iter().all(|x| x.is_finite());
+        if found { Ok(()) } else { Err(EdgeEnd::Stopped) }
+    };
     for _ in 0..limits.steps {
-        (one, other) = (next(&one)?, next(&other)?);
-        if distance(&one, &other) > limits.separate {
-            return Ok((one, other));
+        next(&mut one)?;
+        next(&mut other)?;
+        if distance(&one.at, &other.at) > limits.separate {
+            return Ok((one.at, other.at));
         }
     }
     Err(EdgeEnd::Together)
@@ -172,7 +175,7 @@ mod tests {
         let label = |z: &[f64]| Label::from(z[0] > 0.0);
         let limits = EdgeLimits::default();
         let end = |map: fn(&[f64]) -> Option<Vec<f64>>, label: fn(&[f64]) -> Label, limits| {
-            track_edge(&[-0.5, 1.0], &[1.0, 0.7], map, label, limits).unwrap().end
+            track_edge(&[-0.5, 1.0], &[1.0, 0.7], &map, label, limits).unwrap().end
         };
         assert_eq!(end(|_| None, label, limits), EdgeEnd::Stopped);
         assert_eq!(end(|_| Some(Vec::new()), label, limits), EdgeEnd::Stopped);
@@ -184,10 +187,10 @@ mod tests {
         assert_eq!(end(cubic, shifting, limits), EdgeEnd::SameLabel(Label::from(0)));
         let gap: fn(&[f64]) -> Label =
             |z| if z[0].abs() < 1e-8 { Label::UNDECIDED } else { Label::from(z[0] > 0.0) };
-        let track = track_edge(&[-0.5, 1.0], &[1.0, 0.7], cubic, gap, limits).unwrap();
+        let track = track_edge(&[-0.5, 1.0], &[1.0, 0.7], &cubic, gap, limits).unwrap();
         assert_eq!(track.end, EdgeEnd::Undecided);
         assert!(gap(&track.bracket.undecided.unwrap().0).is_undecided());
         let bad = EdgeLimits { separate: 1e-10, ..limits };
-        assert!(track_edge(&[-0.5, 1.0], &[1.0, 0.7], cubic, label, bad).is_err());
+        assert!(track_edge(&[-0.5, 1.0], &[1.0, 0.7], &cubic, label, bad).is_err());
     }
 }

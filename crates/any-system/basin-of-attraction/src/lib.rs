@@ -17,6 +17,10 @@
 //! | [`check_trap`], [`TrapGround`], [`check_branches`] | tests of what a caller gives; `interval_basins` makes them |
 //! | [`Refinement`], [`StopReason`] | when that search stops, and why it stopped |
 //! | [`repeller`](fn@repeller), [`Repeller`] | dimension and escape rate of the Cantor set that full branches leave, to rounding (Bowen's equation) |
+//! | [`PreimageTree::itineraries`], [`Itineraries`] | whether finitely, countably many or a Cantor set of points never enter a trap, with bounds on the entropy |
+//! | [`GapLengths`] | the gaps of a set: their number at each scale, their exponent, the length that they leave |
+//! | [`KneadingSequence`] | the kneading sequence of a unimodal map, and its topological entropy with proved bounds |
+//! | [`EscapeTimes`], [`saddle_orbit`] | how fast orbits leave a region, and orbits on the chaotic saddle that never leave it |
 //! | [`PreimageTree`], [`ResidualSet`], [`geometric_limit`] | which branch leads where; whether a Cantor set or a countable set remains |
 //! | [`equally_spaced_fractions`], [`random_fractions`], [`low_discrepancy_fractions`] | basin fractions from sample points, each with its uncertainty |
 //! | [`ConfidenceInterval`], [`proportion_interval`], [`wilson_interval`], [`student_interval`] | an estimate with a 95 % confidence interval |
@@ -98,12 +102,14 @@ mod bounds;
 mod boxes;
 mod branches;
 mod candidate;
+mod chaotic_saddle;
 mod common_labels;
 mod confidence_interval;
 mod confirmation;
 mod edge_tracking;
 mod entropy;
 mod error;
+mod escape_times;
 mod fatal_shock;
 mod fate;
 mod feature_groups;
@@ -111,10 +117,13 @@ mod first_steps;
 mod followed_orbit;
 mod fractions;
 mod fractions_along;
+mod gap_lengths;
 mod hyperrectangle;
 mod image_fractions;
 mod interval;
 mod interval_basins;
+mod itineraries;
+mod kneading;
 mod known_attractors;
 mod known_cells;
 mod label;
@@ -162,12 +171,14 @@ pub use boundary_distance::{BoundaryDistance, BoundaryDistances};
 pub use bounds::Bounds;
 pub use boxes::{BoxCount, occupied_boxes};
 pub use branches::{Branch, monotone_branches};
+pub use chaotic_saddle::{SaddleOrbit, SaddleSearch, saddle_orbit};
 pub use confidence_interval::{
     ConfidenceInterval, proportion_interval, student_interval, wilson_interval,
 };
 pub use edge_tracking::{EdgeEnd, EdgeLimits, EdgeTrack, track_edge};
 pub use entropy::entropy;
 pub use error::Error;
+pub use escape_times::{EscapeTimes, Inside};
 pub use fatal_shock::{FatalShock, ShockSearch, minimal_fatal_shock};
 pub use fate::{Fate, TrapSet, Traps, classify};
 pub use feature_groups::FeatureGroups;
@@ -176,9 +187,13 @@ pub use fractions_along::{
     CurveLimits, FractionsAlong, UnmatchedAttractor, UnresolvedReason, UnresolvedStep,
     fractions_along, fractions_along_matched,
 };
+pub use gap_lengths::GapLengths;
 pub use hyperrectangle::Hyperrectangle;
 pub use interval::{Interval, IntervalSet};
+pub use interval_arithmetic::Enclosure;
 pub use interval_basins::{IntervalBasins, LabelledInterval};
+pub use itineraries::Itineraries;
+pub use kneading::{KneadingSequence, Side};
 pub use known_attractors::{KnownAttractors, KnownLimits};
 pub use label::Label;
 pub use ln_2_criterion::Ln2Criterion;
@@ -216,4 +231,4 @@ pub use uncertainty::uncertain_fraction;
 pub use undecided_reason::UndecidedReason;
 pub use unmatched::{Border, Remedy, Unmatched, UnmatchedReason};
 pub use value_image::{ValueImage, value_raster};
-pub use wada::{LineWadaTest, WadaTest};
+pub use wada::{LineWadaTest, WadaGap, WadaTest};

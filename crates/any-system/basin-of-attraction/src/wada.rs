@@ -22,6 +22,25 @@ pub struct WadaTest {
     pub far_boundary_fraction: f64,
     /// The undecided pixels, as a fraction of all pixels of the image. A boundary that passes through them is not seen.
     pub undecided_fraction: f64,
+    /// A witness of what all basins share: a pixel, by its column and row, and the distance within which it has the boundaries of all basins. It is the
+    /// smallest in the image. `None` if a basin has no boundary.
+    pub shared: Option<(usize, usize, usize)>,
+    /// A witness against it: the pixel on the boundary of the first basin that is farthest from the boundary of the second one, if it is farther than the
+    /// distance tested.
+    pub apart: Option<WadaGap>,
+}
+
+/// A pixel on the boundary of a basin that is far from that of another one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct WadaGap {
+    /// Its column and row.
+    pub pixel: (usize, usize),
+    /// On the boundary of this basin.
+    pub basin: Label,
+    /// Far from the boundary of this one.
+    pub other: Label,
+    /// The distance, in steps along rows and columns; `None` if the other basin has no boundary.
+    pub distance: Option<usize>,
 }
 
 impl LabelImage {
@@ -49,7 +68,12 @@ impl LabelImage {
             labels.iter().map(|&label| self.boundary_of(label)).collect();
         let distances: Vec<Vec<usize>> =
             boundaries.iter().map(|boundary| self.distances(boundary)).collect();
+        let pixel = |at: usize| (at % self.grid.columns, at / self.grid.columns);
+        let widest = |at: &usize| distances.iter().map(|own| own[*at]).max().unwrap_or(usize::MAX);
+        let shared = (0..self.labels.len()).map(|at| (widest(&at), at)).min();
+        let shared = shared.filter(|(away, _)| *away < usize::MAX);
         let (mut of_image, mut of_boundary) = (0.0f64, 0.0f64);
+        let mut farthest: Option<(usize, usize, usize, usize)> = None;
         for (one, boundary) in boundaries.iter().enumerate() {
             // A basin among undecided pixels has no boundary with other basins. The 1 guards the division below.
             let own = boundary.iter().filter(|&&on| on).count().max(1);
@@ -59,6 +83,11 @@ impl LabelImage {
                     .zip(&distances[other])
                     .filter(|&(&on, &away)| on && away > distance)
                     .count() as f64;
+                let on = (0..boundary.len()).filter(|&at| boundary[at]);
+                let last = on.map(|at| (distances[other][at], at, one, other)).max();
+                if last.map(|last| last.0) > farthest.map(|known| known.0) {
+                    farthest = last;
+                }
                 of_image = of_image.max(far / inside);
                 of_boundary = of_boundary.max(far / own as f64);
             }
@@ -68,6 +97,13 @@ impl LabelImage {
             far_image_fraction: of_image,
             far_boundary_fraction: of_boundary,
             undecided_fraction: undecided / inside,
+            shared: shared.map(|(away, at)| (pixel(at).0, pixel(at).1, away)),
+            apart: farthest.filter(|own| own.0 > distance).map(|(away, at, one, other)| WadaGap {
+                pixel: pixel(at),
+                basin: labels[one],
+                other: labels[other],
+                distance: (away < usize::MAX).then_some(away),
+            }),
         })
     }
 
@@ -130,6 +166,8 @@ pub struct LineWadaTest {
     pub far_fraction: f64,
     /// The undecided length over that of the window. A boundary that lies in an undecided gap is not seen.
     pub undecided_fraction: f64,
+    /// A witness against it: a boundary point of the first basin that is farther than `distance` from every boundary point of the second one.
+    pub apart: Option<(f64, Label, Label)>,
 }
 
 impl IntervalBasins {
@@ -174,10 +212,10 @@ impl IntervalBasins {
                 .map(|point| point.0)
                 .collect()
         };
-        let of_basins: Vec<Vec<f64>> = labels.into_iter().map(own).collect();
-        let mut far_fraction = 0.0f64;
+        let of_basins: Vec<Vec<f64>> = labels.iter().copied().map(own).collect();
+        let (mut far_fraction, mut apart) = (0.0f64, None);
         for (one, points) in of_basins.iter().enumerate() {
-            for (_, others) in of_basins.iter().enumerate().filter(|(other, _)| *other != one) {
+            for (other, others) in of_basins.iter().enumerate().filter(|(other, _)| *other != one) {
                 let is_far = |x: &&f64| {
                     let next = others.partition_point(|other| other < *x);
                     let near = [next.checked_sub(1), Some(next)].into_iter().flatten();
@@ -188,10 +226,12 @@ impl IntervalBasins {
                 // A basin among undecided gaps has no boundary with other basins. The 1 guards the division.
                 let far = points.iter().filter(is_far).count() as f64 / points.len().max(1) as f64;
                 far_fraction = far_fraction.max(far);
+                let witness = points.iter().find(|x| is_far(x));
+                apart = apart.or(witness.map(|x| (*x, labels[one], labels[other])));
             }
         }
         let undecided_fraction = self.undecided() / self.window().length();
-        Ok(LineWadaTest { distance, far_fraction, undecided_fraction })
+        Ok(LineWadaTest { distance, far_fraction, undecided_fraction, apart })
     }
 }
 
@@ -223,6 +263,12 @@ mod tests {
         // Two rows of each border are far from the other border: 2 × 11 pixels of 12 × 12, or of 11 × 12.
         assert!((open.far_image_fraction - 22.0 / 144.0).abs() < 1e-15, "{open:?}");
         assert!((masked.far_image_fraction - 22.0 / 132.0).abs() < 1e-15, "{masked:?}");
+        // The middle stripe has four rows: its two borders are three steps apart, and no pixel is nearer to both.
+        let apart = known.apart.unwrap();
+        assert!((apart.basin, apart.other) == (Label::from(0), Label::from(2)), "{apart:?}");
+        assert_eq!((apart.pixel.1, apart.distance), (3, Some(4)));
+        assert_eq!(known.shared.unwrap().2, 2);
+        assert_eq!(stripes(None).wada(4).unwrap().apart, None);
         let mut two = stripes(None);
         two.labels
             .iter_mut()

@@ -145,7 +145,7 @@ fn the_edge_states_of_thomas_have_the_norm_4_06585() {
     }
     let known: Vec<Vec<f64>> = known.into_iter().map(Option::unwrap).collect();
     for (i, k) in [(0, 1), (1, 2), (0, 2)] {
-        let track = track_edge(&known[i], &known[k], step, label, EdgeLimits::default()).unwrap();
+        let track = track_edge(&known[i], &known[k], &step, label, EdgeLimits::default()).unwrap();
         let norm = track.bracket.middle().iter().map(|x| x * x).sum::<f64>().sqrt();
         assert!((norm - 4.06585).abs() < 1e-3, "{norm} {:?}", track.end);
     }

@@ -194,9 +194,9 @@ fn maps(
 ) -> Result<Vec<BasinTime>, Error> {
     let region = Hyperrectangle::new(vec![Interval::new(-half, half)?; 2])?;
     let limits = RecurrenceLimits { escape, ..RecurrenceLimits::default() };
-    // Spread over all of them.
-    let first: Vec<Vec<f64>> =
-        (0..STARTS).map(|k| starts[k * (starts.len() - 1) / STARTS].to_vec()).collect();
+    let random = SplitMix64::from_seed(2);
+    let any = |k: usize| (random.uniform(k as u64) * starts.len() as f64) as usize;
+    let first: Vec<Vec<f64>> = (0..STARTS).map(|k| starts[any(k)].to_vec()).collect();
     let mut times = Vec::new();
     for (program, map) in [("ours, a closure", array), ("ours, formulas", formulas)] {
         let mut seconds = f64::INFINITY;
