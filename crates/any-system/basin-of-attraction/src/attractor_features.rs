@@ -9,6 +9,7 @@
 use crate::error::Error;
 use crate::feature_groups::{FeatureGroups, check_feature_count};
 use crate::label::Label;
+use crate::metric::Metric;
 use crate::split_mix::SplitMix64;
 use crate::state_map::{Moving, OrbitFeature, StateMap};
 use crate::unmatched::{Unmatched, UnmatchedReason};
@@ -169,6 +170,20 @@ impl FeatureAttractors {
         starts: &[Vec<f64>],
         limits: FeatureLimits,
     ) -> Result<FeatureAttractors, Error> {
+        FeatureAttractors::search_by(Metric::euclidean(), map, feature, starts, limits)
+    }
+
+    /// The same with any distance of features.
+    ///
+    /// # Errors
+    /// As [`search`](Self::search).
+    pub fn search_by(
+        metric: Metric,
+        map: &dyn StateMap,
+        feature: &OrbitFeature<'_>,
+        starts: &[Vec<f64>],
+        limits: FeatureLimits,
+    ) -> Result<FeatureAttractors, Error> {
         limits.check()?;
         // Before the orbits are followed: each has as many features as stretches that must agree.
         check_feature_count(starts.len().saturating_mul(limits.agree))?;
@@ -180,7 +195,7 @@ impl FeatureAttractors {
             .filter_map(|(k, orbit)| Some((k, &orbit.as_ref()?.features)))
             .flat_map(|(k, features)| features.iter().map(move |feature| (k, feature.clone())))
             .collect();
-        let groups = FeatureGroups::by_density(&vectors, limits.radius, limits.fewest)?;
+        let groups = FeatureGroups::by_density(metric, &vectors, limits.radius, limits.fewest)?;
         let all =
             FeatureAttractors { limits, groups, attractors: Vec::new(), unmatched: Vec::new() };
         let mut kept: BTreeSet<Label> = BTreeSet::new();

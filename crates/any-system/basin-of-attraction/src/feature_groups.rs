@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::label::Label;
+use crate::metric::Metric;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -24,9 +25,10 @@ pub(crate) fn check_feature_count(samples: usize) -> Result<(), Error> {
 ///   within the radius of none, or of two labels      undecided
 /// ```
 ///
-/// Distances are Euclidean. So a feature that varies less than others needs a factor.
+/// Distances are Euclidean, so that a feature that varies less than others needs a factor; or any other [`Metric`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeatureGroups {
+    metric: Metric,
     radius: f64,
     vectors: Vec<(Label, Vec<f64>)>,
 }
@@ -49,10 +51,22 @@ impl FeatureGroups {
     /// [`Error::WrongDimension`] and [`Error::NoDimension`] for templates that are not finite, of different lengths,
     /// or empty; [`Error::NoBasin`] for a label that is no basin.
     pub fn from_templates(templates: &[(Label, Vec<f64>)], radius: f64) -> Result<Self, Error> {
+        FeatureGroups::from_templates_by(Metric::euclidean(), templates, radius)
+    }
+
+    /// The same with any distance.
+    ///
+    /// # Errors
+    /// As [`from_templates`](Self::from_templates).
+    pub fn from_templates_by(
+        metric: Metric,
+        templates: &[(Label, Vec<f64>)],
+        radius: f64,
+    ) -> Result<Self, Error> {
         check(templates.iter().map(|(_, vector)| vector), radius)?;
         match templates.iter().find(|(label, _)| !label.is_basin()) {
             Some(&(label, _)) => Err(Error::NoBasin { label }),
-            None => Ok(FeatureGroups { radius, vectors: templates.to_vec() }),
+            None => Ok(FeatureGroups { metric, radius, vectors: templates.to_vec() }),
         }
     }
 
@@ -73,8 +87,46 @@ impl FeatureGroups {
     /// # Errors
     /// As [`from_templates`](Self::from_templates); [`Error::TooManySamples`] for more than 20 000 vectors.
     pub fn dense(vectors: &[Vec<f64>], radius: f64, fewest: usize) -> Result<Self, Error> {
+        FeatureGroups::dense_by(Metric::euclidean(), vectors, radius, fewest)
+    }
+
+    /// The same with any distance.
+    ///
+    /// # Errors
+    /// As [`dense`](Self::dense).
+    pub fn dense_by(
+        metric: Metric,
+        vectors: &[Vec<f64>],
+        radius: f64,
+        fewest: usize,
+    ) -> Result<Self, Error> {
         let numbered: Vec<(usize, Vec<f64>)> = vectors.iter().cloned().enumerate().collect();
-        FeatureGroups::by_density(&numbered, radius, fewest)
+        FeatureGroups::by_density(metric, &numbered, radius, fewest)
+    }
+
+    /// The cells of a histogram, of these widths and counted from 0: vectors in one cell are a group if there are `fewest` at least.
+    ///
+    /// ```
+    /// use basin_of_attraction::{FeatureGroups, Label};
+    /// let features = [0.1, 0.7, 2.3, 2.5, 9.0].map(|x| vec![x]);
+    /// let groups = FeatureGroups::histogram(&features, &[1.0], 2)?;
+    /// assert_eq!(groups.label(&[2.9]), Label::from(2));
+    /// assert!(groups.label(&[3.0]).is_undecided() && groups.label(&[9.0]).is_undecided());
+    /// # Ok::<(), basin_of_attraction::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`dense`](Self::dense); [`Error::BadSearch`] for a width that is not positive and finite; [`Error::WrongDimension`] for another number of
+    /// widths than coordinates.
+    pub fn histogram(vectors: &[Vec<f64>], widths: &[f64], fewest: usize) -> Result<Self, Error> {
+        if let Some(&value) = widths.iter().find(|width| !(**width > 0.0 && width.is_finite())) {
+            return Err(Error::BadSearch { name: "a width of a cell", value, remedy: "" });
+        }
+        let (dimension, expected) = (widths.len(), vectors.first().map_or(widths.len(), Vec::len));
+        if dimension != expected {
+            return Err(Error::WrongDimension { dimension, expected });
+        }
+        FeatureGroups::dense_by(Metric::cells(widths), vectors, SAME_CELL, fewest)
     }
 
     /// Groups dense vectors. Vector k comes from `orbits[k].0`.
@@ -84,6 +136,7 @@ impl FeatureGroups {
     /// other vectors, whose group may depend on their order.) Groups are numbered from 1 in the order of their
     /// first orbits.
     pub(crate) fn by_density(
+        metric: Metric,
         vectors: &[(usize, Vec<f64>)],
         radius: f64,
         fewest: usize,
@@ -91,7 +144,7 @@ impl FeatureGroups {
         check(vectors.iter().map(|(_, vector)| vector), radius)?;
         check_feature_count(vectors.len())?;
         let near = |a: &[f64]| -> Vec<usize> {
-            (0..vectors.len()).filter(|&k| distance(a, &vectors[k].1) <= radius).collect()
+            (0..vectors.len()).filter(|&k| metric.distance(a, &vectors[k].1) <= radius).collect()
         };
         let dense = |own: &[usize]| {
             own.iter().map(|&k| vectors[k].0).collect::<BTreeSet<_>>().len() >= fewest
@@ -119,7 +172,8 @@ impl FeatureGroups {
         let labelled = group.iter().zip(vectors).filter_map(|(group, (_, vector))| {
             group.map(|number| Ok((label_of(number)?, vector.clone())))
         });
-        Ok(FeatureGroups { radius, vectors: labelled.collect::<Result<_, Error>>()? })
+        let vectors = labelled.collect::<Result<_, Error>>()?;
+        Ok(FeatureGroups { metric, radius, vectors })
     }
 
     /// The groups that are `kept`, numbered again from 1.
@@ -133,8 +187,10 @@ impl FeatureGroups {
 
     /// The label of a feature vector. One that is not finite, or of another length, is undecided.
     pub fn label(&self, feature: &[f64]) -> Label {
-        let near =
-            self.vectors.iter().filter(|(_, vector)| distance(vector, feature) <= self.radius);
+        let near = self
+            .vectors
+            .iter()
+            .filter(|(_, vector)| self.metric.distance(vector, feature) <= self.radius);
         let mut found = near.map(|(label, _)| *label);
         match found.next() {
             Some(label) if found.all(|other| other == label) => label,
@@ -145,7 +201,10 @@ impl FeatureGroups {
     /// The label of the nearest vector, however far it is, and its distance; `None` without vectors, and for a feature that is not finite or of
     /// another length. Of several ones at the same distance the first counts.
     pub fn nearest(&self, feature: &[f64]) -> Option<(Label, f64)> {
-        let all = self.vectors.iter().map(|(label, vector)| (*label, distance(vector, feature)));
+        let all = self
+            .vectors
+            .iter()
+            .map(|(label, vector)| (*label, self.metric.distance(vector, feature)));
         all.filter(|(_, off)| off.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
@@ -167,11 +226,46 @@ impl FeatureGroups {
     pub fn separation(&self) -> Option<f64> {
         let from = |(k, (label, vector)): (usize, &(Label, Vec<f64>))| {
             let others = self.vectors[k..].iter().filter(|other| other.0 != *label);
-            others.map(|(_, other)| distance(vector, other)).min_by(f64::total_cmp)
+            others.map(|(_, other)| self.metric.distance(vector, other)).min_by(f64::total_cmp)
         };
         self.vectors.iter().enumerate().filter_map(from).min_by(f64::total_cmp)
     }
+
+    /// For each group the mean silhouette of its vectors: (b − a)/max(a, b), where a is the mean distance from the others of the group, and b the
+    /// smallest mean distance from those of another group (P. J. Rousseeuw, J. Comput. Appl. Math. 20, 53, 1987). Near 1 the groups are apart, near 0
+    /// they meet. A group of one vector has 0; without a second group there is none.
+    pub fn silhouettes(&self) -> BTreeMap<Label, f64> {
+        let mut groups: BTreeMap<Label, Vec<&[f64]>> = BTreeMap::new();
+        for (label, vector) in &self.vectors {
+            groups.entry(*label).or_default().push(vector);
+        }
+        if groups.len() < 2 {
+            return BTreeMap::new();
+        }
+        let sum = |from: &[f64], of: &[&[f64]]| {
+            of.iter().map(|other| self.metric.distance(from, other)).sum::<f64>()
+        };
+        let own = |(label, vector): &(Label, Vec<f64>)| {
+            let same = &groups[label];
+            let others = groups.iter().filter(|(other, _)| *other != label);
+            let between = others.map(|(_, of)| sum(vector, of) / of.len() as f64);
+            let between = between.fold(f64::INFINITY, f64::min);
+            let inside = sum(vector, same) / (same.len() as f64 - 1.0);
+            let larger = inside.max(between);
+            if same.len() > 1 && larger > 0.0 { (between - inside) / larger } else { 0.0 }
+        };
+        let all: Vec<(Label, f64)> =
+            self.vectors.par_iter().map(|vector| (vector.0, own(vector))).collect();
+        let mut means = BTreeMap::new();
+        for (label, silhouette) in all {
+            *means.entry(label).or_insert(0.0) += silhouette / groups[&label].len() as f64;
+        }
+        means
+    }
 }
+
+/// Cells have whole distances: below 1 is the same one.
+const SAME_CELL: f64 = 0.5;
 
 /// The label of group `number`.
 fn label_of(number: usize) -> Result<Label, Error> {
@@ -179,14 +273,6 @@ fn label_of(number: usize) -> Result<Label, Error> {
     const MOST: usize = 65_000;
     let found = u16::try_from(number).ok().filter(|_| number <= MOST).and_then(Label::basin);
     found.ok_or(Error::TooManyAttractors { most: MOST })
-}
-
-/// The Euclidean distance; NaN for vectors of different lengths.
-pub(crate) fn distance(a: &[f64], b: &[f64]) -> f64 {
-    if a.len() != b.len() {
-        return f64::NAN;
-    }
-    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
 /// Tests the radius, and that all vectors are finite and of one length.
@@ -234,7 +320,9 @@ mod tests {
         let mut vectors = around([0.0, 0.0], 100, 1);
         vectors.extend(around([3.0, 0.0], 100, 2));
         vectors.push(vec![1.5, 0.0]);
-        let found = FeatureGroups::by_density(&numbered(vectors.clone()), 0.4, 4).unwrap();
+        let found =
+            FeatureGroups::by_density(Metric::euclidean(), &numbered(vectors.clone()), 0.4, 4)
+                .unwrap();
         assert_eq!(found.labels().len(), 2);
         assert_eq!(found.label(&[0.1, 0.1]), Label::from(1));
         assert_eq!(found.label(&[3.0, 0.1]), Label::from(2));
@@ -243,7 +331,8 @@ mod tests {
         }
         assert!(found.separation().is_some_and(|gap| (1.8..3.0).contains(&gap)));
         vectors.reverse();
-        let back = FeatureGroups::by_density(&numbered(vectors), 0.4, 4).unwrap();
+        let back =
+            FeatureGroups::by_density(Metric::euclidean(), &numbered(vectors), 0.4, 4).unwrap();
         for probe in around([1.5, 0.0], 300, 3) {
             let wide = [3.0 * probe[0] - 3.0, probe[1]];
             let other = [Label::UNDECIDED, Label::from(2), Label::from(1)];
@@ -256,9 +345,17 @@ mod tests {
     #[test]
     fn one_orbit_is_no_group_of_two() {
         let twice = [(0, vec![0.0]), (0, vec![0.1]), (0, vec![0.2])];
-        assert!(FeatureGroups::by_density(&twice, 1.0, 2).unwrap().labels().is_empty());
+        assert!(
+            FeatureGroups::by_density(Metric::euclidean(), &twice, 1.0, 2)
+                .unwrap()
+                .labels()
+                .is_empty()
+        );
         let two = [(0, vec![0.0]), (1, vec![0.1])];
-        assert_eq!(FeatureGroups::by_density(&two, 1.0, 2).unwrap().labels().len(), 1);
+        assert_eq!(
+            FeatureGroups::by_density(Metric::euclidean(), &two, 1.0, 2).unwrap().labels().len(),
+            1
+        );
     }
 
     #[test]
@@ -286,7 +383,7 @@ mod tests {
         let open = Label::UNDECIDED;
         assert_eq!(found(&[(open, vec![0.0])], 1.0), Err(Error::NoBasin { label: open }));
         let many = vec![(0, vec![0.0]); MOST_FEATURES + 1];
-        let many = FeatureGroups::by_density(&many, 1.0, 1);
+        let many = FeatureGroups::by_density(Metric::euclidean(), &many, 1.0, 1);
         assert!(matches!(many, Err(Error::TooManySamples { .. })));
     }
 }

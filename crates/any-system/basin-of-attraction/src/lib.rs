@@ -35,7 +35,7 @@
 //! | [`StateMap`], [`array_map`], [`StateGrid`] | maps of several variables, and cells of their states |
 //! | [`Attractors`], [`Unmatched`] | attractors of maps and flows of several variables, found by recurrences and tested as traps |
 //! | [`KnownAttractors`] | attractors that the caller knows by points: basins by the distance from them, and the time to convergence |
-//! | [`FeatureAttractors`], [`FeatureGroups`], [`suggested_radius`] | the same by features of orbits, grouped by density with a suggested radius, or beside templates |
+//! | [`FeatureAttractors`], [`FeatureGroups`], [`suggested_radius`] | the same by features of orbits, grouped by density with a suggested radius, in cells, or beside templates, by any [`Metric`] |
 //! | [`fractions_along`], [`FractionsAlong`], [`Fractions`] | fractions along a curve of parameters, refined where they change, with their jumps |
 //! | [`fractions_along_matched`], [`Matching`], [`match_by`] | the same where the numbers of the attractors mean nothing: which attractors at two parameters are the same |
 //! | [`attractors_along`], [`AttractorsAlong`] | the attractors of a map and the fractions of their basins along a parameter, in one call |
@@ -132,6 +132,7 @@ mod ln_2_criterion;
 mod low_discrepancy;
 mod many_orbits;
 mod matching;
+mod metric;
 mod pixel_shares;
 mod power_law;
 mod preimage;
@@ -199,6 +200,7 @@ pub use label::Label;
 pub use ln_2_criterion::Ln2Criterion;
 pub use low_discrepancy::{low_discrepancy_fractions, stratified_fractions, stratified_points};
 pub use matching::{LabelAt, Matching, Unlike};
+pub use metric::Metric;
 pub use pixel_shares::PixelShares;
 pub use power_law::{NoInterval, PowerLaw, power_law};
 pub use preimage::{preimage_levels, preimage_levels_from_known};
@@ -225,7 +227,7 @@ pub use split_mix::SplitMix64;
 pub use stability::{AttractorStability, LongestTime, Shock, Stability};
 pub use state_grid::StateGrid;
 pub use state_map::{ArrayMap, OrbitFeature, StateMap, array_map};
-pub use suggested_radius::{SuggestedRadius, suggested_radius};
+pub use suggested_radius::{SuggestedRadius, suggested_radius, suggested_radius_by};
 pub use tipping::{Tipping, TippingCounts, label_after_drift, random_tipping};
 pub use uncertainty::uncertain_fraction;
 pub use undecided_reason::UndecidedReason;

@@ -1,7 +1,8 @@
 //! Which radius groups feature vectors: the widest gap between the distances inside groups and those between them.
 
 use crate::error::Error;
-use crate::feature_groups::{check, check_feature_count, distance};
+use crate::feature_groups::{check, check_feature_count};
+use crate::metric::Metric;
 use rayon::prelude::*;
 
 /// A radius that groups feature vectors, and how much the groups depend on it.
@@ -47,6 +48,18 @@ const LONE: f64 = 0.5;
 /// [`Error::BadSearch`] for fewer vectors than `fewest`, and for a `fewest` of 0; [`Error::BadPoint`], [`Error::WrongDimension`] and
 /// [`Error::NoDimension`] for vectors that are not finite, of different lengths, or empty; [`Error::TooManySamples`].
 pub fn suggested_radius(vectors: &[Vec<f64>], fewest: usize) -> Result<SuggestedRadius, Error> {
+    suggested_radius_by(&Metric::euclidean(), vectors, fewest)
+}
+
+/// The same with any distance, for [`FeatureGroups::dense_by`](crate::FeatureGroups::dense_by).
+///
+/// # Errors
+/// As [`suggested_radius`].
+pub fn suggested_radius_by(
+    metric: &Metric,
+    vectors: &[Vec<f64>],
+    fewest: usize,
+) -> Result<SuggestedRadius, Error> {
     check(vectors.iter(), 1.0)?;
     check_feature_count(vectors.len())?;
     if fewest == 0 || vectors.len() < fewest.max(2) {
@@ -55,11 +68,14 @@ pub fn suggested_radius(vectors: &[Vec<f64>], fewest: usize) -> Result<Suggested
     }
     let largest = vectors.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
     let floor = (ROUNDING * largest).max(f64::MIN_POSITIVE);
-    let joins = joins(vectors, fewest);
+    let joins = joins(metric, vectors, fewest);
     let lengths: Vec<f64> = joins.iter().map(|join| join.length.max(floor)).collect();
     let gap = |k: usize| [lengths[k - 1], lengths[k]];
     let widest = |places: &mut dyn Iterator<Item = usize>| {
-        let gaps = places.filter(|k| *k > 0).map(gap).filter(|[from, below]| *below > WIDE * from);
+        let gaps = places
+            .filter(|k| *k > 0)
+            .map(gap)
+            .filter(|[from, below]| *below > WIDE * from && below.is_finite());
         gaps.max_by(|a, b| (a[1] / a[0]).total_cmp(&(b[1] / b[0])))
     };
     // Gaps before two groups join; else before lone vectors come to the only group.
@@ -108,12 +124,13 @@ fn joined_groups(joins: &[Join], count: usize, fewest: usize) -> Vec<usize> {
 }
 
 /// The edges of a shortest tree of mutual reachability, from the shortest to the longest one (R. C. Prim's algorithm).
-fn joins(vectors: &[Vec<f64>], fewest: usize) -> Vec<Join> {
+fn joins(metric: &Metric, vectors: &[Vec<f64>], fewest: usize) -> Vec<Join> {
     // The radius from which on a vector is dense: within it are `fewest` vectors, its own among them.
     let dense_from: Vec<f64> = vectors
         .par_iter()
         .map(|own| {
-            let mut all: Vec<f64> = vectors.iter().map(|other| distance(own, other)).collect();
+            let mut all: Vec<f64> =
+                vectors.iter().map(|other| metric.distance(own, other)).collect();
             *all.select_nth_unstable_by(fewest - 1, f64::total_cmp).1
         })
         .collect();
@@ -125,7 +142,7 @@ fn joins(vectors: &[Vec<f64>], fewest: usize) -> Vec<Join> {
     for _ in 1..vectors.len() {
         let mut next: Option<usize> = None;
         for k in (0..vectors.len()).filter(|&k| !is_in[k]) {
-            let own = distance(&vectors[last], &vectors[k]);
+            let own = metric.distance(&vectors[last], &vectors[k]);
             let reached = own.max(dense_from[last]).max(dense_from[k]);
             if reached < nearest[k].0 {
                 nearest[k] = (reached, last);

@@ -4,7 +4,7 @@
 use super::runge_kutta::after;
 use basin_of_attraction::{
     Error, FeatureAttractors, FeatureGroups, FeatureLimits, Hyperrectangle, Interval, Label,
-    SplitMix64, UnmatchedReason, region_fractions,
+    Metric, SplitMix64, UnmatchedReason, region_fractions, suggested_radius, suggested_radius_by,
 };
 
 fn cube(dimension: usize, half: f64) -> Hyperrectangle {
@@ -188,4 +188,42 @@ fn limits_and_features_that_mean_nothing_are_refused() {
     let none = FeatureAttractors::search(&map, &means, &[], good).unwrap();
     assert!(none.attractors().is_empty() && none.label(&map, &means, &[1.0]).is_undecided());
     assert_eq!(none.label(&map, &means, &[f64::NAN]), Label::UNDECIDED_MAP);
+}
+
+/// Two bands of mean rates and a lone one: the suggested radius has the largest silhouettes of all radii, and a matrix is a vector.
+#[test]
+fn silhouettes_are_largest_at_the_suggested_radius() {
+    let random = SplitMix64::from_seed(6);
+    let matrix = |k: u64| -> Vec<f64> {
+        let centre = [0.0, 3.0, 4.0][k as usize % 3];
+        (0..4).map(|i| centre + 0.4 * random.uniform(4 * k + i)).collect()
+    };
+    let features: Vec<Vec<f64>> = (0..90).map(matrix).collect();
+    let mean = |radius: f64| {
+        let groups = FeatureGroups::dense(&features, radius, 4).unwrap();
+        let own = groups.silhouettes();
+        // Vectors of no group count as 0.
+        let in_groups = |label| groups.vectors(label).count() as f64;
+        own.iter().map(|(label, mean)| mean * in_groups(*label)).sum::<f64>() / 90.0
+    };
+    let suggested = suggested_radius(&features, 4).unwrap().radius;
+    let groups = FeatureGroups::dense(&features, suggested, 4).unwrap();
+    assert_eq!(groups.labels().len(), 3);
+    assert!(groups.silhouettes().values().all(|own| *own > 0.7), "{:?}", groups.silhouettes());
+    let best = mean(suggested);
+    for radius in (1..60).map(|k| 0.1 * f64::from(k)) {
+        assert!(mean(radius) <= best + 1e-12, "{radius} {} {best}", mean(radius));
+    }
+    // By another distance with its own radius, and by cells.
+    let largest = suggested_radius_by(&Metric::largest(), &features, 4).unwrap().radius;
+    let by_largest = FeatureGroups::dense_by(Metric::largest(), &features, largest, 4).unwrap();
+    let in_cells = FeatureGroups::histogram(&features, &[1.0; 4], 4).unwrap();
+    for (k, own) in features.iter().enumerate() {
+        let expected = Label::from(1 + (k % 3) as u8);
+        assert_eq!((by_largest.label(own), in_cells.label(own)), (expected, expected));
+    }
+    let one = FeatureGroups::dense(&features, 100.0, 4).unwrap();
+    assert!(one.silhouettes().is_empty());
+    assert!(FeatureGroups::histogram(&features, &[0.0; 4], 4).is_err());
+    assert!(FeatureGroups::histogram(&features, &[1.0; 3], 4).is_err());
 }
