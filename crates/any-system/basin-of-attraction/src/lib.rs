@@ -34,6 +34,7 @@
 //! | [`uncertain_pairs`], [`uncertainty_exponent`] | final-state uncertainty in a region of any dimension |
 //! | [`StateMap`], [`array_map`], [`StateGrid`] | maps of several variables, and cells of their states |
 //! | [`Attractors`], [`Unmatched`] | attractors of maps and flows of several variables, found by recurrences and tested as traps |
+//! | [`Pilot`] | the limits of a search, from some orbits that are followed before |
 //! | [`KnownAttractors`] | attractors that the caller knows by points: basins by the distance from them, and the time to convergence |
 //! | [`FeatureAttractors`], [`FeatureGroups`], [`suggested_radius`] | the same by features of orbits, grouped by density with a suggested radius, in cells, or beside templates, by any [`Metric`] |
 //! | [`fractions_along`], [`FractionsAlong`], [`Fractions`] | fractions along a curve of parameters, refined where they change, with their jumps |
@@ -43,7 +44,7 @@
 //! | [`IntervalBasins::tipping_to`], [`Tipping`] | the probability that a state of basin a is in basin b after a change of parameters, with bounds |
 //! | [`random_tipping`], [`label_after_drift`] | the same from random points, also for a slow change that the orbit follows |
 //! | [`IntervalBasins::distance_to_boundary`], [`BoundaryDistances`] | the distance to the boundary on the line, with bounds: of a state, and its distribution over a basin |
-//! | [`minimal_fatal_shock`] | the smallest shock to another basin, in any dimension: an upper bound with a witness |
+//! | [`minimal_fatal_shock`], [`minimal_fatal_shock_watched`] | the smallest shock to another basin, in any dimension: an upper bound with a witness |
 //! | [`boundary_between`], [`track_edge`] | a point of the boundary between two states, and the saddle that attracts the boundary |
 //! | [`value_raster`], [`ValueImage`] | numbers over a window of the plane, such as the steps to a trap |
 //! | [`LabelImage::wada`], [`IntervalBasins::wada`] | whether all basins share one boundary |
@@ -133,6 +134,7 @@ mod low_discrepancy;
 mod many_orbits;
 mod matching;
 mod metric;
+mod pilot;
 mod pixel_shares;
 mod power_law;
 mod preimage;
@@ -180,7 +182,7 @@ pub use edge_tracking::{EdgeEnd, EdgeLimits, EdgeTrack, track_edge};
 pub use entropy::entropy;
 pub use error::Error;
 pub use escape_times::{EscapeTimes, Inside};
-pub use fatal_shock::{FatalShock, ShockSearch, minimal_fatal_shock};
+pub use fatal_shock::{FatalShock, ShockSearch, minimal_fatal_shock, minimal_fatal_shock_watched};
 pub use fate::{Fate, TrapSet, Traps, classify};
 pub use feature_groups::FeatureGroups;
 pub use fractions::{FractionRange, Fractions};
@@ -201,6 +203,7 @@ pub use ln_2_criterion::Ln2Criterion;
 pub use low_discrepancy::{low_discrepancy_fractions, stratified_fractions, stratified_points};
 pub use matching::{LabelAt, Matching, Unlike};
 pub use metric::Metric;
+pub use pilot::{Pilot, PilotEnd, PilotOrbit};
 pub use pixel_shares::PixelShares;
 pub use power_law::{NoInterval, PowerLaw, power_law};
 pub use preimage::{preimage_levels, preimage_levels_from_known};

@@ -134,3 +134,41 @@ fn bad_input_is_an_error() {
         assert!(KnownAttractors::suggested(&half, &one, bad).is_err(), "{bad:?}");
     }
 }
+
+/// Slow spirals, long cycles, chaotic and escaping orbits: the limits of a pilot find what is there, on grids from coarse to fine.
+#[test]
+fn the_limits_of_a_pilot_find_the_attractors() {
+    use basin_of_attraction::{
+        Attractors, Hyperrectangle, Interval, Pilot, PilotEnd, StateGrid, array_map,
+    };
+    let square = Hyperrectangle::new(vec![Interval::new(-2.0, 2.0).unwrap(); 2]).unwrap();
+    let grid = |cells| StateGrid::uniform(square.clone(), cells).unwrap();
+    // A cycle of 300 steps, approached by a tenth a step.
+    let (sine, cosine) = (std::f64::consts::TAU / 300.7).sin_cos();
+    let cycle = array_map(move |[x, y]: [f64; 2]| {
+        let factor = (1.0 + 0.1 * (1.0 - x.hypot(y))).max(0.5);
+        let (a, b) = (factor * x, factor * y);
+        Some([cosine * a - sine * b, sine * a + cosine * b])
+    });
+    let half = array_map(|[x, y]: [f64; 2]| Some([0.5 * x, 0.5 * y]));
+    let starts = [vec![0.3, 0.1], vec![1.0, -1.5]];
+    for cells in [20, 100, 500] {
+        let pilot = Pilot::follow(&cycle, &grid(cells), &starts, 10_000).unwrap();
+        assert!((200..=2000).contains(&pilot.limits.locate), "{cells} {pilot}");
+        let found = Attractors::search(&cycle, grid(cells), &starts, pilot.limits).unwrap();
+        assert_eq!((found.attractors().len(), found.unmatched().len()), (1, 0), "{cells} {pilot}");
+        let pilot = Pilot::follow(&half, &grid(cells), &starts, 1000).unwrap();
+        assert!(pilot.limits.locate == 40 && pilot.orbits[0].cells == 1, "{pilot}");
+        let found = Attractors::search(&half, grid(cells), &starts, pilot.limits).unwrap();
+        assert_eq!((found.attractors().len(), found.unmatched().len()), (1, 0), "{cells} {pilot}");
+    }
+    // A rotation over few steps does not come back to its cells in time, and says so.
+    let slow = array_map(|[x, y]: [f64; 2]| Some([x + 1e-4, y]));
+    let pilot = Pilot::follow(&slow, &grid(500), &starts, 1000).unwrap();
+    assert!(pilot.to_string().contains("does not visit them again"), "{pilot}");
+    let away = array_map(|[x, y]: [f64; 2]| Some([x + 0.1, y]));
+    let pilot = Pilot::follow(&away, &grid(50), &starts, 1000).unwrap();
+    assert!(pilot.orbits.iter().all(|own| own.end == PilotEnd::Outside));
+    assert!(Pilot::follow(&away, &grid(50), &starts, 10).is_err());
+    assert!(Pilot::follow(&away, &grid(50), &[vec![0.0]], 1000).is_err());
+}

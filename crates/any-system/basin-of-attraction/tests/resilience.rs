@@ -2,10 +2,12 @@
 
 use basin_of_attraction::{
     Error, Fate, Grid, Interval, Label, ShockSearch, TrapSet, boundary_between, classify,
-    minimal_fatal_shock, value_raster,
+    minimal_fatal_shock, minimal_fatal_shock_watched, value_raster,
 };
 use std::f64::consts::TAU;
-use std::ops::ControlFlow::Continue;
+use std::ops::ControlFlow::{Break, Continue};
+use std::sync::atomic::AtomicUsize;
+use std::sync::atomic::Ordering::Relaxed;
 
 /// The root of z³ = 1 to which Newton's method takes a start.
 fn newton(start: &[f64]) -> Label {
@@ -40,6 +42,29 @@ fn newtons_fractal_has_a_minimal_fatal_shock_of_0_622046_from_the_root_1() {
         let other = minimal_fatal_shock(&[1.0, 0.0], search, newton).unwrap().unwrap();
         assert!((other.size - found.size).abs() < 1e-7, "{seed} {other:?}");
     }
+}
+
+/// A search that is stopped has the smallest shock so far, with a witness; the number of labels is that of the defaults.
+#[test]
+fn a_search_of_shocks_shows_progress_and_can_be_stopped() {
+    let search = ShockSearch::up_to(1.2);
+    assert_eq!((search.labels(2), search.labels(1)), (112_000, 400));
+    let seen = AtomicUsize::new(0);
+    let watch = |stop: usize| {
+        let progress = |labels: usize| {
+            seen.fetch_max(labels, Relaxed);
+            if labels < stop { Continue(()) } else { Break(()) }
+        };
+        minimal_fatal_shock_watched(&[1.0, 0.0], search, newton, progress).unwrap()
+    };
+    assert_eq!(watch(1), None);
+    let early = watch(60_000).unwrap();
+    assert!(early.is_stopped && early.size >= 0.622_046 && early.size < 0.7, "{early:?}");
+    assert_eq!(newton(&[1.0 + early.shock[0], early.shock[1]]), early.label);
+    let all = watch(usize::MAX).unwrap();
+    assert!(!all.is_stopped && (all.size - 0.622_046).abs() < 1e-6);
+    // With the bisections it is not much more.
+    assert!((72_000..250_000).contains(&seen.load(Relaxed)), "{seen:?}");
 }
 
 #[test]
