@@ -48,6 +48,23 @@ impl Axis {
         (at as i64 as u64).min(self.cells - 1)
     }
 
+    /// The cell of a place on the side, and the one beside it if the place is on their border, to rounding.
+    pub(crate) fn touched(&self, x: f64) -> Vec<u64> {
+        /// What converges to a border ends some ulps from it, on either side.
+        const BORDER: f64 = 1e-9;
+        let at = self.part(x) * self.cells as f64;
+        let own = self.cell(x);
+        let beside = match at - own as f64 {
+            off if off < BORDER => own.checked_sub(1).or(self.is_periodic.then(|| self.cells - 1)),
+            off if off > 1.0 - BORDER => {
+                let next = own + 1;
+                if next < self.cells { Some(next) } else { self.is_periodic.then_some(0) }
+            }
+            _ => None,
+        };
+        std::iter::once(own).chain(beside).collect()
+    }
+
     /// How far along the axis a place is, from 0 to 1: cells of given lengths are equal parts.
     fn part(&self, x: f64) -> f64 {
         let Some(last) = self.edges.len().checked_sub(1) else {

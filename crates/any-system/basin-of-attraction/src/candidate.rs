@@ -52,6 +52,12 @@ impl Points {
         for point in self.all() {
             cells.entry(grid.cell(point)?).or_insert(point);
         }
+        // An orbit that converges to the border of two cells may end in either.
+        for point in self.all() {
+            for cell in grid.touched(point) {
+                cells.entry(cell).or_insert(point);
+            }
+        }
         Some(cells)
     }
 

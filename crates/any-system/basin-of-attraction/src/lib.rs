@@ -50,6 +50,8 @@
 //! | [`LabelImage::wada`], [`IntervalBasins::wada`] | whether all basins share one boundary |
 //! | [`raster`], [`Grid`], [`LabelImage`] | labels over a window of the plane, in parallel |
 //! | [`PixelShares`], [`IntervalBasins::pixel_shares`] | the share of every basin in the pixels of a line, with bounds |
+//! | `LabelImage::picture`, `ValueImage::picture`, `FractionsAlong::picture`, `share_picture` | pictures, one call each (feature `figures`) |
+//! | `LabelImage::files`, `ValueImage::files`, `FractionsAlong::csv`, `Attractors::csv` | arrays for NumPy and tables, with their meaning (feature `figures`) |
 //! | [`columns_in_parallel`] | any values of the columns of a raster |
 //!
 //! ```
@@ -114,6 +116,8 @@ mod escape_times;
 mod fatal_shock;
 mod fate;
 mod feature_groups;
+#[cfg(feature = "figures")]
+mod files;
 mod first_steps;
 mod followed_orbit;
 mod fractions;
@@ -128,12 +132,15 @@ mod kneading;
 mod known_attractors;
 mod known_cells;
 mod label;
+mod labelled_orbits;
 mod least_squares;
 mod ln_2_criterion;
 mod low_discrepancy;
 mod many_orbits;
 mod matching;
 mod metric;
+#[cfg(feature = "figures")]
+mod pictures;
 mod pilot;
 mod pixel_shares;
 mod power_law;
@@ -203,6 +210,8 @@ pub use ln_2_criterion::Ln2Criterion;
 pub use low_discrepancy::{low_discrepancy_fractions, stratified_fractions, stratified_points};
 pub use matching::{LabelAt, Matching, Unlike};
 pub use metric::Metric;
+#[cfg(feature = "figures")]
+pub use pictures::{AxisNames, share_picture};
 pub use pilot::{Pilot, PilotEnd, PilotOrbit};
 pub use pixel_shares::PixelShares;
 pub use power_law::{NoInterval, PowerLaw, power_law};

@@ -247,6 +247,17 @@ impl StateGrid {
         self.contains(state).then(|| self.cell_inside(state))
     }
 
+    /// The cells that contain a state of the region, or touch it: two where it is on the border of two, to rounding.
+    pub(crate) fn touched(&self, state: &[f64]) -> Vec<u64> {
+        let (mut found, mut unit) = (vec![0], 1u64);
+        for axis in &self.axes {
+            let places = axis.touched(state[axis.coordinate]);
+            found = places.iter().flat_map(|at| found.iter().map(move |n| n + at * unit)).collect();
+            unit = unit.saturating_mul(axis.cells);
+        }
+        found
+    }
+
     /// Where a state is farthest outside the region, in lengths of its sides; `None` inside.
     pub(crate) fn beyond(&self, state: &[f64]) -> Option<Border> {
         let excess = |own: &(Border, f64)| own.0.excess() / own.1;

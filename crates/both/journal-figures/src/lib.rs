@@ -17,7 +17,7 @@
 //! | [`Path`], [`Segment`] | outlines of straight lines and cubic Bézier pieces |
 //! | [`render`], [`indexed_png`], [`rgb_png`] | a drawing as SVG with outlined labels and as PNG; a PNG with a palette, or with three bytes a pixel |
 //! | [`animated_png`], [`animated_gif`] | frames one after another |
-//! | [`csv_file`], [`csv_text`] | the data beside a drawing |
+//! | [`csv_file`], [`csv_text`], [`npy_header`] | the data beside a drawing: tables, and arrays for NumPy |
 //!
 //! ```
 //! use journal_figures::{Frame, Pen, Svg, render, ticks};
@@ -55,6 +55,7 @@ mod font;
 mod key;
 pub mod label;
 mod marker;
+mod npy;
 pub mod palette;
 mod path;
 mod raster;
@@ -70,6 +71,7 @@ pub use diagram::LabelledBranch;
 pub use error::Error;
 pub use label::html;
 pub use marker::Marker;
+pub use npy::{Element, Order, npy_header};
 pub use path::{Path, Point, Segment};
 pub use render::{Rendered, indexed_png, render, rgb_png};
 pub use svg::{Anchor, Pen, Svg, base64};

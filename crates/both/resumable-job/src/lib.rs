@@ -19,27 +19,26 @@
 //! | [`Progress`], [`Pace`], [`Place`] | how far a job is and how long it still takes: a line on a terminal, or in a log every 30 seconds |
 //! | [`make_folder`] | makes a folder with its parents, and tells a file that has its name |
 //! | [`remove_leftovers`] | removes temporary files of processes that no longer run |
-//! | [`npy_header`], [`Order`], [`Element`] | the header of a NumPy file for a two-dimensional array of integers |
 //! | [`digest`], [`file_digest`], [`program_digest`] | 64-bit FNV-1a of bytes; of a file; of the running program |
 //! | [`Error`], [`UnusablePiece`] | the reason of a failure, with path, process number and remedy |
 //!
 //! ```
-//! use resumable_job::{Element, StoredPiece, Lock, Order, Pieces, claim, npy_header};
+//! use resumable_job::{StoredPiece, Lock, Pieces, claim};
 //! # let folder = std::env::temp_dir().join(format!("resumable_job_doc_{}", std::process::id()));
 //! # std::fs::create_dir_all(&folder)?;
 //! let lock = Lock::take(&folder, "squares")?;
 //! assert!(Lock::take(&folder, "squares").is_err());
 //! let job = "squares of 0 to 3; computation 1";
-//! claim(&folder, job, |name| name == "squares.npy" || name == "pieces")?;
+//! claim(&folder, job, |name| name == "squares.bin" || name == "pieces")?;
 //! let pieces = Pieces::open(&folder.join("pieces"), job)?;
 //! for k in 0..4u16 {
 //!     if !matches!(pieces.find(k.into())?, StoredPiece::Finished(_)) {
 //!         pieces.write(k.into(), &(k * k).to_le_bytes())?;
 //!     }
 //! }
-//! let array = folder.join("squares.npy");
-//! let header = npy_header(Order::Fortran, Element::U16, 1, 4);
-//! pieces.assemble(&array, &header, 4, || Ok::<(), resumable_job::Error>(()), |_, _| ())?;
+//! let array = folder.join("squares.bin");
+//! let header = b"squares";
+//! pieces.assemble(&array, header, 4, || Ok::<(), resumable_job::Error>(()), |_, _| ())?;
 //! pieces.remove(4)?;
 //! assert_eq!(std::fs::read(&array)?[header.len()..], [0, 0, 1, 0, 4, 0, 9, 0]);
 //! # drop(lock);
@@ -79,7 +78,7 @@
 //! provides them.
 //!
 //! # References
-//! NumPy Enhancement Proposal 1 (the npy format); G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, *The FNV
+//! G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, *The FNV
 //! Non-Cryptographic Hash Algorithm*, RFC 9923.
 
 mod assembly;
@@ -89,7 +88,6 @@ mod digest;
 mod error;
 mod lock;
 mod locked_file;
-mod npy;
 mod open_file;
 mod part;
 mod pieces;
@@ -101,7 +99,6 @@ pub use claim::{claim, is_claimed, remove_results};
 pub use digest::{digest, file_digest, program_digest};
 pub use error::{Error, UnusablePiece};
 pub use lock::Lock;
-pub use npy::{Element, Order, npy_header};
 pub use part::Part;
 pub use pieces::{Pieces, StoredPiece};
 pub use progress::{Pace, Place, Progress};

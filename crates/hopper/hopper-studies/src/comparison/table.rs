@@ -150,8 +150,8 @@ fn png_table(bytes: &[u8]) -> Result<Table, png::DecodingError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use journal_figures::{Element, Order, npy_header};
     use journal_figures::{csv_file, indexed_png};
-    use resumable_job::{Element, Order, npy_header};
 
     fn csv(values: [f64; 4]) -> Table {
         let rows = values.chunks(2).map(|row| row.iter().copied());

@@ -7,7 +7,7 @@ use basin_of_attraction::{Grid, Interval, Label, LabelImage};
 use hopper_basin::basin_raster;
 use hopper_figures::{BasinWindow, PIXELS, draw_basins, fate_colors, label_png};
 use journal_figures::DataFile;
-use resumable_job::{Element, Order, npy_header};
+use journal_figures::{Element, Order, npy_header};
 use std::ops::ControlFlow;
 
 /// Computes and draws a window.

@@ -8,7 +8,7 @@ use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{CoverageLimits, coverage_raster};
 use hopper_figures::{BasinWindow, coverage_png, draw_coverage, share_words};
 use journal_figures::DataFile;
-use resumable_job::{Element, Order, npy_header};
+use journal_figures::{Element, Order, npy_header};
 use std::ops::ControlFlow;
 
 /// Pixels across and up: half as many as in the figures of single fates, because no pixel needs a neighbour to show

@@ -4,9 +4,9 @@ use super::cpu_time::thread_seconds;
 use crate::error::Error;
 use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{basin_columns, first_humps};
+use journal_figures::{Element, Order, npy_header};
 use pxfm::{f_exp2, f_log2};
 use rayon::prelude::*;
-use resumable_job::{Element, Order, npy_header};
 
 /// Columns of a tile, as in `hopper basins`.
 pub(crate) const TILE: usize = 16;

@@ -10,8 +10,8 @@ use hopper_basin::HopperFate;
 use hopper_figures::{
     BasinWindow, FLAG, LAYERS, Layer, LayerColumns, Meaning, Values, draw_layer, label_of,
 };
+use journal_figures::{Element, Order, npy_header};
 use journal_figures::{Svg, render};
-use resumable_job::{Element, Order, npy_header};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 

@@ -20,8 +20,9 @@ use hopper_basin::{
     ShareRaster, Upwards,
 };
 use hopper_figures::{draw_shares, share_words};
+use journal_figures::{Element, Order, npy_header};
 use journal_figures::{Svg, render};
-use resumable_job::{Element, Order, Pieces, npy_header};
+use resumable_job::Pieces;
 use serde_json::{Value, json};
 use std::path::Path;
 

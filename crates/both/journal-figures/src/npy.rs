@@ -9,23 +9,25 @@ pub enum Order {
     Fortran,
 }
 
-/// The elements of an array: unsigned integers, little-endian.
+/// The elements of an array, little-endian.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Element {
-    /// 16 bits.
+    /// Unsigned integers of 16 bits.
     U16,
-    /// 32 bits.
+    /// Of 32 bits.
     U32,
-    /// 64 bits.
+    /// Of 64 bits.
     U64,
+    /// Floating-point numbers of 64 bits.
+    F64,
 }
 
-/// The header of a NumPy file (version 1.0) for a two-dimensional array.
+/// The header of a NumPy file (version 1.0; NumPy Enhancement Proposal 1) for a two-dimensional array.
 ///
 /// The file is this header, followed by `rows` × `columns` elements in the given order.
 ///
 /// ```
-/// use resumable_job::{Element, Order, npy_header};
+/// use journal_figures::{Element, Order, npy_header};
 /// let header = npy_header(Order::C, Element::U16, 2, 3);
 /// assert_eq!(header.len(), 128);
 /// assert!(header.starts_with(b"\x93NUMPY\x01\x00"));
@@ -41,13 +43,14 @@ pub fn npy_header(order: Order, element: Element, rows: usize, columns: usize) -
         Order::C => ("False", "}"),
         Order::Fortran => ("True", ", }"),
     };
-    let bytes = match element {
-        Element::U16 => 2,
-        Element::U32 => 4,
-        Element::U64 => 8,
+    let descr = match element {
+        Element::U16 => "<u2",
+        Element::U32 => "<u4",
+        Element::U64 => "<u8",
+        Element::F64 => "<f8",
     };
     let mut text = format!(
-        "{{'descr': '<u{bytes}', 'fortran_order': {fortran}, 'shape': ({rows}, {columns}){end}"
+        "{{'descr': '{descr}', 'fortran_order': {fortran}, 'shape': ({rows}, {columns}){end}"
     );
     let unpadded = BEFORE_TEXT + text.len() + 1; // the text ends with a line feed
     text.push_str(&" ".repeat(unpadded.next_multiple_of(ALIGNMENT) - unpadded));
@@ -100,5 +103,13 @@ mod tests {
         for columns in [1, 10, 1000, 100_000, usize::MAX] {
             assert_eq!(npy_header(Order::C, Element::U16, 7, columns).len() % 64, 0);
         }
+    }
+
+    #[test]
+    fn numbers_come_back() {
+        let mut bytes = npy_header(Order::C, Element::F64, 1, 2);
+        bytes.extend([0.1f64, f64::NAN].iter().flat_map(|x| x.to_le_bytes()));
+        let array: Array2<f64> = Array2::read_npy(std::io::Cursor::new(bytes)).unwrap();
+        assert!(array[(0, 0)] == 0.1 && array[(0, 1)].is_nan());
     }
 }
