@@ -6,7 +6,7 @@ use crate::error::Error;
 /// An estimate from a random sample, with an interval that is meant to contain the true number in 95 of 100 samples.
 ///
 /// The constructor states the assumptions, and how often the interval contains the number: counts are whole
-/// numbers, so that an interval of a proportion cannot do so in exactly 95 % of the samples. `docs/basins.md` has
+/// numbers, so that an interval of a proportion cannot do so in exactly 95 % of the samples. `docs/basins-measured.md` has
 /// the measured share for every interval of this crate.
 ///
 /// For bounds that need no probability see [`Bounds`](crate::Bounds).

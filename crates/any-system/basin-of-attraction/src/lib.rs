@@ -40,6 +40,7 @@
 //! | [`fractions_along`], [`FractionsAlong`], [`Fractions`] | fractions along a curve of parameters, refined where they change, with their jumps |
 //! | [`fractions_along_matched`], [`Matching`], [`match_by`] | the same where the numbers of the attractors mean nothing: which attractors at two parameters are the same |
 //! | [`attractors_along`], [`AttractorsAlong`] | the attractors of a map and the fractions of their basins along a parameter, in one call |
+//! | [`intermingledness`](fn@intermingledness) | how intermingled labelled points are |
 //! | [`Stability`], [`AttractorStability`] | basin stability, times of convergence, fatal and harmless shocks of each attractor, in one pass |
 //! | [`IntervalBasins::tipping_to`], [`Tipping`] | the probability that a state of basin a is in basin b after a change of parameters, with bounds |
 //! | [`random_tipping`], [`label_after_drift`] | the same from random points, also for a slow change that the orbit follows |
@@ -125,6 +126,7 @@ mod fractions_along;
 mod gap_lengths;
 mod hyperrectangle;
 mod image_fractions;
+mod intermingledness;
 mod interval;
 mod interval_basins;
 mod itineraries;
@@ -199,6 +201,7 @@ pub use fractions_along::{
 };
 pub use gap_lengths::GapLengths;
 pub use hyperrectangle::Hyperrectangle;
+pub use intermingledness::intermingledness;
 pub use interval::{Interval, IntervalSet};
 pub use interval_arithmetic::Enclosure;
 pub use interval_basins::{IntervalBasins, LabelledInterval};

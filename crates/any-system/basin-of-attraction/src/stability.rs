@@ -32,8 +32,15 @@ pub struct AttractorStability {
     pub fatal: Option<Shock>,
     /// The largest harmless shock that was found: a lower bound on the largest one, with its end as a witness.
     pub harmless: Option<Shock>,
+    /// The mean size of harmless shocks, with Student's 95 % interval; `None` for fewer than two.
+    pub mean_harmless: Option<ConfidenceInterval>,
     /// All shocks by their sizes, and whether each is harmless, fatal, or `None` for undecided.
     shocks: Vec<(f64, Option<bool>)>,
+    /// The times in its basin, in increasing order.
+    times: Vec<usize>,
+    /// The steps of undecided starts, and the number of all starts.
+    undecided: Vec<usize>,
+    inside: usize,
 }
 
 /// The longest time that was seen.
@@ -186,9 +193,14 @@ impl AttractorStability {
     ) -> Result<AttractorStability, Error> {
         let own: Vec<&(Shock, usize)> =
             samples.iter().filter(|(shock, _)| shock.label == label).collect();
-        let times: Vec<f64> = own.iter().map(|(_, steps)| *steps as f64).collect();
+        let mut times: Vec<usize> = own.iter().map(|(_, steps)| *steps).collect();
+        times.sort_unstable();
         // Student's interval exists from two on.
-        let mean_time = (times.len() > 1).then(|| student_interval(&times)).transpose()?;
+        let mean = |of: Vec<f64>| (of.len() > 1).then(|| student_interval(&of)).transpose();
+        let mean_time = mean(times.iter().map(|steps| *steps as f64).collect())?;
+        let mean_harmless = mean(own.iter().map(|(shock, _)| shock.size).collect())?;
+        let open = samples.iter().filter(|(shock, _)| shock.label.is_undecided());
+        let undecided = open.map(|(_, steps)| *steps).collect();
         let longest = own.iter().max_by_key(|(_, steps)| *steps).map(|(shock, steps)| {
             let longer = 1.0 - pxfm::f_pow(UNSEEN, 1.0 / own.len() as f64);
             LongestTime { steps: *steps, start: shock.state.clone(), longer }
@@ -210,7 +222,11 @@ impl AttractorStability {
             longest,
             fatal,
             harmless,
+            mean_harmless,
             shocks,
+            times,
+            undecided,
+            inside: counts.inside(),
         })
     }
 
@@ -232,6 +248,38 @@ impl AttractorStability {
         Ok(ConfidenceInterval { value, lower, upper })
     }
 
+    /// The fraction of starts that come to the attractor within so many steps, with a 95 % interval: basin stability in finite time. Its upper end counts
+    /// undecided starts that were followed for fewer steps.
+    ///
+    /// # Errors
+    /// None for starts inside the region of interest, of which [`Stability::new`] demands one.
+    pub fn fraction_within(&self, steps: usize) -> Result<ConfidenceInterval, Error> {
+        let found = self.times.partition_point(|time| *time <= steps);
+        let open = self.undecided.iter().filter(|made| **made < steps).count();
+        let ConfidenceInterval { value, lower, .. } = proportion_interval(found, self.inside)?;
+        let upper = proportion_interval(found + open, self.inside)?.upper;
+        Ok(ConfidenceInterval { value, lower, upper })
+    }
+
+    /// A quantile of the times in the basin, such as ½ for the median, with the 95 % interval of the ranks of a binomial number: for any distribution.
+    ///
+    /// # Errors
+    /// [`Error::BadSearch`] unless 0 < `part` < 1, and for so few starts that no ranks enclose the quantile: some 4/`part`, or 4/(1 − `part`).
+    pub fn time_quantile(&self, part: f64) -> Result<ConfidenceInterval, Error> {
+        let refused = |value, remedy| {
+            Err(Error::BadSearch { name: "a part of the starts of a basin", value, remedy })
+        };
+        if !(0.0 < part && part < 1.0) {
+            return refused(part, ", and below 1");
+        }
+        let Some((low, high)) = ranks(self.times.len(), part) else {
+            return refused(part, "; for this one the basin has too few starts");
+        };
+        let at = |rank: usize| self.times[rank] as f64;
+        let middle = ((part * self.times.len() as f64) as usize).min(self.times.len() - 1);
+        Ok(ConfidenceInterval { value: at(middle), lower: at(low), upper: at(high) })
+    }
+
     /// The largest size up to which at most this share of the shocks is fatal, by the upper ends of their intervals; `None` if there is none.
     ///
     /// Sizes are those of the starts. The nearest edge of the basin may be closer: at most this share of the shocks shows it.
@@ -239,4 +287,28 @@ impl AttractorStability {
         let is_safe = |size: &f64| self.fatal_share(*size).is_ok_and(|own| own.upper <= share);
         self.shocks.iter().map(|shock| shock.0).rev().find(is_safe)
     }
+}
+
+/// The ranks, from 0, between which a quantile of so many numbers is in 95 % of the samples at least.
+fn ranks(count: usize, part: f64) -> Option<(usize, usize)> {
+    /// The probability that is left on each side.
+    const TAIL: f64 = 0.025;
+    // The quantile is below the number of rank k if more than k numbers are above it. Probabilities of 0, 1, 2, … numbers below, one by one.
+    let n = count as f64;
+    let mut below = 0.0;
+    let (mut low, mut high) = (None, None);
+    for k in 0..=count {
+        let x = k as f64;
+        let choices =
+            pxfm::f_lgamma(n + 1.0) - pxfm::f_lgamma(x + 1.0) - pxfm::f_lgamma(n - x + 1.0);
+        let term = choices + x * pxfm::f_log(part) + (n - x) * pxfm::f_log1p(-part);
+        below += pxfm::f_exp(term);
+        if below <= TAIL {
+            low = Some(k);
+        }
+        if below >= 1.0 - TAIL && high.is_none() {
+            high = Some(k);
+        }
+    }
+    Some((low?, high.filter(|high| *high < count)?))
 }

@@ -2,7 +2,7 @@
 
 use basin_of_attraction::{
     Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits, Remedy, SplitMix64, StateGrid,
-    UnmatchedReason, region_fractions,
+    UnmatchedReason, array_map, region_fractions,
 };
 use std::f64::consts::{PI, TAU};
 
@@ -309,5 +309,32 @@ fn attractors_in_one_cell_are_separated() {
         }
         let starts: usize = found.attractors().iter().map(|attractor| attractor.starts).sum();
         assert_eq!(starts, 20);
+    }
+}
+
+/// The multistable map of the tests of Attractors.jl: each eighth of the plane has a fixed point at the radius 0.1; for r ≥ ½ one at 0.01 and one at 3. Its
+/// grid of 100 cells a side finds 4 and 12 of them. There are 8 and 16.
+#[test]
+fn the_multistable_map_has_8_and_16_attractors() {
+    let map = |r: f64| {
+        array_map(move |[x, y]: [f64; 2]| {
+            let eighth = (y.atan2(x).rem_euclid(TAU) / (PI / 4.0)).floor();
+            let radius = match (r < 0.5, x.hypot(y) > 1.0) {
+                (true, _) => 0.1,
+                (false, true) => 3.0,
+                (false, false) => 0.01,
+            };
+            let angle = (eighth + 0.5) * PI / 4.0;
+            Some([radius * angle.cos(), radius * angle.sin()])
+        })
+    };
+    let square = region(&[(-10.0, 10.0), (-10.0, 10.0)]);
+    let mut points = starts(&square, 400);
+    points.extend(starts(&region(&[(-1.0, 1.0), (-1.0, 1.0)]), 100));
+    for (r, cells, count) in [(0.3, 100, 8), (0.7, 1000, 16)] {
+        let limits = RecurrenceLimits { tests: 50, ..RecurrenceLimits::default() };
+        let found = Attractors::search(&map(r), grid(&square, cells), &points, limits).unwrap();
+        assert_eq!((found.attractors().len(), found.unmatched().len()), (count, 0), "{r}");
+        assert!(found.attractors().iter().all(|own| own.period == Some(1)));
     }
 }

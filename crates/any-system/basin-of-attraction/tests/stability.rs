@@ -40,6 +40,16 @@ fn newtons_roots_have_known_fractions_and_fatal_shocks() {
         let (mean, longest) = (own.mean_time.unwrap(), own.longest.as_ref().unwrap());
         assert_eq!(found.convergence(&newton, &longest.start), Ok((*label, longest.steps)));
         assert!(mean.lower > 3.0 && mean.upper < 10.0 && longest.longer < 1e-3, "{mean:?}");
+        let median = own.time_quantile(0.5).unwrap();
+        assert!(
+            median.lower <= median.value
+                && median.value <= median.upper
+                && median.upper < mean.value
+        );
+        // In finite time the fraction grows to all of it.
+        let within = |steps| own.fraction_within(steps).unwrap().value;
+        assert!(within(3) < within(6) && within(longest.steps) == own.fraction.value);
+        assert!(own.mean_harmless.unwrap().upper < harmless.size);
     }
 }
 
@@ -64,6 +74,16 @@ fn undecided_starts_open_the_intervals() {
     assert!((own.harmless.as_ref().unwrap().size - 0.39).abs() < 1e-12);
     assert!(all.of(Label::from(3)).is_none() && all.counts().inside() == 80);
     assert!(matches!(own.fatal_share(-1.0), Err(Error::NothingInside { .. })));
+    // The undecided starts were followed for 7 steps: in 7 they have come to none.
+    assert_eq!(
+        (own.fraction_within(6).unwrap().value, own.fraction_within(7).unwrap().value),
+        (0.0, 0.5)
+    );
+    assert!(own.fraction_within(8).unwrap().upper > own.fraction_within(7).unwrap().upper);
+    assert!(
+        own.time_quantile(0.5).unwrap().half_width() == 0.0 && own.time_quantile(0.01).is_err()
+    );
+    assert!(own.time_quantile(1.0).is_err() && own.time_quantile(f64::NAN).is_err());
     // By other distances, and refused ones.
     let twice = |a: &[f64], b: &[f64]| 2.0 * (a[0] - b[0]).abs();
     let all = Stability::with_distance(&attractors, &starts, &found, twice).unwrap();

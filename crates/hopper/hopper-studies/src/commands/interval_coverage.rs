@@ -12,7 +12,7 @@ pub(crate) struct Options {
     /// Trials for each interval and scene
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(100..))]
     trials: u64,
-    /// Renew the table of docs/basins.md
+    /// Renew the table of docs/basins-measured.md
     #[arg(long)]
     bless: bool,
 }
@@ -32,8 +32,8 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
     say(text.trim_end())?;
     if bless {
         let docs = Folder::open(&repository().join("docs"))?;
-        let page = read(&docs.path().join("basins.md"))?;
-        docs.write("basins.md", replace_block(&page, "coverage", &text)?.as_bytes())?;
+        let page = read(&docs.path().join("basins-measured.md"))?;
+        docs.write("basins-measured.md", replace_block(&page, "coverage", &text)?.as_bytes())?;
     }
     all_hold(&rows)
 }

@@ -1,4 +1,4 @@
-//! The measured coverage as a table, for the terminal and for `docs/basins.md`.
+//! The measured coverage as a table, for the terminal and for `docs/basins-measured.md`.
 
 use super::tally::{Promise, Row};
 use crate::error::Error;
