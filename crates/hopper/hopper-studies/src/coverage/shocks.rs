@@ -1,8 +1,11 @@
-//! Random shocks to one attractor: fractions, mean and longest times of convergence, fatal shares.
+//! Random shocks to one attractor: fractions, times of convergence, fatal shares; rates of escape; entropies by kneading sequences.
 
 use super::tally::{Promise, Row, Trial, repeat};
 use crate::error::Error;
-use basin_of_attraction::{Bounds, Label, SplitMix64, Stability};
+use basin_of_attraction::{
+    Bounds, Enclosure, EscapeTimes, Interval, KneadingSequence, Label, SplitMix64, Stability,
+    array_map,
+};
 
 const ONE: Label = Label::numbered::<1>();
 
@@ -63,6 +66,56 @@ pub(crate) fn measure(trials: u64) -> Result<Vec<Row>, Error> {
             let share = all.of(ONE).map(|own| own.fatal_share(0.35)).transpose()?;
             Ok(share.map(|share| Trial::of(share, 0.05 / 0.7)))
         })?);
+        rows.push(row("AttractorStability::time_quantile", "median", &|all| {
+            // A basin of few starts may have too few of them.
+            let time = all.of(ONE).and_then(|own| own.time_quantile(0.5).ok());
+            let median = (0..).find(|steps| at_least(steps + 1) <= 0.5).unwrap_or(0) as f64;
+            Ok(time.map(|time| Trial::of(time, median)))
+        })?);
+        rows.push(row("AttractorStability::fraction_within", "ten steps", &|all| {
+            let own = all.of(ONE).map(|own| own.fraction_within(10)).transpose()?;
+            Ok(own.map(|own| Trial::of(own, EDGE * (1.0 - at_least(11)))))
+        })?);
+        rows.push(row("AttractorStability::mean_harmless", "basin of 0.7", &|all| {
+            let mean = all.of(ONE).and_then(|own| own.mean_harmless);
+            let truth =
+                (ATTRACTOR * ATTRACTOR + (EDGE - ATTRACTOR) * (EDGE - ATTRACTOR)) / (2.0 * EDGE);
+            Ok(mean.map(|mean| Trial::of(mean, truth)))
+        })?);
     }
+    rows.extend(escapes(trials)?);
+    rows.push(entropies(trials)?);
     Ok(rows)
+}
+
+/// A third of the unit interval leaves in each step of the tent map of slope 3.
+fn escapes(trials: u64) -> Result<Vec<Row>, Error> {
+    let tent = array_map(|[x]: [f64; 1]| Some([3.0 * x.min(1.0 - x)]));
+    let unit = Interval::new(0.0, 1.0)?.try_into()?;
+    let inside = |x: &[f64]| (0.0..=1.0).contains(&x[0]);
+    let row = |count: usize, (from, to)| {
+        let scene = format!("tent map of slope 3, {count} orbits, from {from} to {to} steps");
+        repeat("EscapeTimes::rate", scene, Promise::Probable, trials, |seed| {
+            let times = EscapeTimes::of_random_points(&tent, &inside, &unit, count, to, seed)?;
+            Ok(times.rate(from, to).ok().map(|rate| Trial::of(rate, pxfm::f_log(1.5))))
+        })
+    };
+    [(100, (0, 3)), (1000, (2, 8)), (10_000, (4, 12))]
+        .map(|(count, range)| row(count, range))
+        .into_iter()
+        .collect()
+}
+
+/// Tent maps of random slopes have the entropies of these.
+fn entropies(trials: u64) -> Result<Row, Error> {
+    let scene = "tent maps of random slopes".to_owned();
+    repeat("KneadingSequence::entropy", scene, Promise::Certain, trials, |seed| {
+        let slope = 1.05 + 0.95 * SplitMix64::from_seed(seed).uniform(0);
+        let tent = |x: Enclosure| match x.high <= 0.5 {
+            true => Enclosure::from(slope) * x,
+            false => Enclosure::from(slope) * (Enclosure::ONE - x),
+        };
+        let entropy = KneadingSequence::of_map(tent, Enclosure::from(0.5), 200).entropy()?;
+        Ok(Some(Trial::of_bounds(entropy, pxfm::f_log(slope))))
+    })
 }
