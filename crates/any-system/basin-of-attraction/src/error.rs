@@ -1,6 +1,6 @@
 //! Input that the crate refuses.
 
-use crate::label::Label;
+use crate::space::label::Label;
 use thiserror::Error;
 
 /// Why a basin could not be computed.

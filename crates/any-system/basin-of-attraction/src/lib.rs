@@ -95,157 +95,92 @@
 //! fatal shocks; J. D. Skufca, J. A. Yorke, B. Eckhardt, Phys. Rev. Lett. 96, 174101 (2006), edge tracking; P. J.
 //! Menck, J. Heitzig, N. Marwan, J. Kurths, Nat. Phys. 9, 89 (2013), basin stability.
 
-mod attractor_features;
-mod attractor_match;
-mod attractors_along;
-mod axis;
-mod basin_search;
-mod boundary_between;
-mod boundary_distance;
-mod bounds;
-mod boxes;
-mod branches;
-mod candidate;
-mod chaotic_saddle;
-mod common_labels;
-mod confidence_interval;
-mod confirmation;
-mod edge_tracking;
-mod entropy;
+mod attractors;
+mod boundaries;
 mod error;
-mod escape_times;
-mod fatal_shock;
-mod fate;
-mod feature_groups;
-#[cfg(feature = "figures")]
-mod files;
-mod first_steps;
-mod followed_orbit;
-mod fractions;
-mod fractions_along;
-mod gap_lengths;
-mod hyperrectangle;
-mod image_fractions;
-mod intermingledness;
-mod interval;
-mod interval_basins;
-mod itineraries;
-mod kneading;
-mod known_attractors;
-mod known_cells;
-mod label;
-mod labelled_orbits;
-mod least_squares;
-mod ln_2_criterion;
-mod low_discrepancy;
-mod many_orbits;
-mod matching;
-mod metric;
-#[cfg(feature = "figures")]
-mod pictures;
-mod pilot;
-mod pixel_shares;
-mod power_law;
-mod preimage;
-mod preimage_tree;
-mod probes;
-mod raster;
-mod recurrence_limits;
-mod recurrences;
-mod refinement;
-mod region_boxes;
-mod region_fractions;
-mod region_uncertainty;
-mod repeller;
-mod sampling;
-mod scalar_map;
-mod smooth_boundary;
-mod split_mix;
-mod stability;
-mod state_grid;
-mod state_map;
-mod suggested_radius;
-mod tipping;
-mod trap_test;
-mod uncertainty;
-mod uncertainty_fit;
-mod undecided_reason;
-mod unmatched;
-mod value_image;
-mod wada;
+mod features;
+mod line;
+mod parameters;
+mod shares;
+mod space;
+mod statistics;
 
-pub use attractor_features::{FeatureAttractor, FeatureAttractors, FeatureLimits};
-pub use attractor_match::{AttractorMatch, match_attractors, match_by};
-pub use attractors_along::{AlongSearch, AttractorsAlong, attractors_along};
-pub use basin_search::{interval_basins, interval_basins_from_known};
-pub use boundary_between::{BoundaryBracket, boundary_between};
-pub use boundary_distance::{BoundaryDistance, BoundaryDistances};
-pub use bounds::Bounds;
-pub use boxes::{BoxCount, occupied_boxes};
-pub use branches::{Branch, monotone_branches};
-pub use chaotic_saddle::{SaddleOrbit, SaddleSearch, saddle_orbit};
-pub use confidence_interval::{
-    ConfidenceInterval, proportion_interval, student_interval, wilson_interval,
+pub use attractors::known_attractors::{KnownAttractors, KnownLimits};
+pub use attractors::pilot::{Pilot, PilotEnd, PilotOrbit};
+pub use attractors::recurrence_limits::RecurrenceLimits;
+pub use attractors::recurrences::{Attractor, Attractors};
+pub use attractors::state_grid::StateGrid;
+pub use attractors::state_map::{ArrayMap, OrbitFeature, StateMap, array_map};
+pub use attractors::unmatched::{Border, Remedy, Unmatched, UnmatchedReason};
+pub use boundaries::boundary_between::{BoundaryBracket, boundary_between};
+pub use boundaries::boxes::{BoxCount, occupied_boxes};
+pub use boundaries::chaotic_saddle::{SaddleOrbit, SaddleSearch, saddle_orbit};
+pub use boundaries::edge_tracking::{EdgeEnd, EdgeLimits, EdgeTrack, track_edge};
+pub use boundaries::entropy::entropy;
+pub use boundaries::escape_times::{EscapeTimes, Inside};
+pub use boundaries::fatal_shock::{
+    FatalShock, ShockSearch, minimal_fatal_shock, minimal_fatal_shock_watched,
 };
-pub use edge_tracking::{EdgeEnd, EdgeLimits, EdgeTrack, track_edge};
-pub use entropy::entropy;
+pub use boundaries::ln_2_criterion::Ln2Criterion;
+pub use boundaries::region_boxes::region_boxes;
+pub use boundaries::region_uncertainty::{
+    PairCount, UncertaintyExponent, uncertain_pairs, uncertainty_exponent,
+};
+pub use boundaries::smooth_boundary::{
+    BallEntropy, BoundaryShape, RandomBalls, ball_entropy, smooth_boundary_entropy,
+};
+pub use boundaries::uncertainty::uncertain_fraction;
+pub use boundaries::wada::{LineWadaTest, WadaGap, WadaTest};
 pub use error::Error;
-pub use escape_times::{EscapeTimes, Inside};
-pub use fatal_shock::{FatalShock, ShockSearch, minimal_fatal_shock, minimal_fatal_shock_watched};
-pub use fate::{Fate, TrapSet, Traps, classify};
-pub use feature_groups::FeatureGroups;
-pub use fractions::{FractionRange, Fractions};
-pub use fractions_along::{
+pub use features::attractor_features::{FeatureAttractor, FeatureAttractors, FeatureLimits};
+pub use features::feature_groups::FeatureGroups;
+pub use features::intermingledness::intermingledness;
+pub use features::metric::Metric;
+pub use features::suggested_radius::{SuggestedRadius, suggested_radius, suggested_radius_by};
+pub use interval_arithmetic::Enclosure;
+pub use line::basin_search::{interval_basins, interval_basins_from_known};
+pub use line::boundary_distance::{BoundaryDistance, BoundaryDistances};
+pub use line::branches::{Branch, monotone_branches};
+pub use line::fate::{Fate, TrapSet, Traps, classify};
+pub use line::gap_lengths::GapLengths;
+pub use line::interval_basins::{IntervalBasins, LabelledInterval};
+pub use line::itineraries::Itineraries;
+pub use line::kneading::{KneadingSequence, Side};
+pub use line::pixel_shares::PixelShares;
+pub use line::preimage::{preimage_levels, preimage_levels_from_known};
+pub use line::preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};
+pub use line::probes::{TrapGround, check_branches, check_trap};
+pub use line::refinement::{Refinement, StopReason};
+pub use line::repeller::{Repeller, repeller};
+pub use line::scalar_map::{Image, ScalarMap};
+pub use parameters::attractor_match::{AttractorMatch, match_attractors, match_by};
+pub use parameters::attractors_along::{AlongSearch, AttractorsAlong, attractors_along};
+pub use parameters::fractions_along::{
     CurveLimits, FractionsAlong, UnmatchedAttractor, UnresolvedReason, UnresolvedStep,
     fractions_along, fractions_along_matched,
 };
-pub use gap_lengths::GapLengths;
-pub use hyperrectangle::Hyperrectangle;
-pub use intermingledness::intermingledness;
-pub use interval::{Interval, IntervalSet};
-pub use interval_arithmetic::Enclosure;
-pub use interval_basins::{IntervalBasins, LabelledInterval};
-pub use itineraries::Itineraries;
-pub use kneading::{KneadingSequence, Side};
-pub use known_attractors::{KnownAttractors, KnownLimits};
-pub use label::Label;
-pub use ln_2_criterion::Ln2Criterion;
-pub use low_discrepancy::{low_discrepancy_fractions, stratified_fractions, stratified_points};
-pub use matching::{LabelAt, Matching, Unlike};
-pub use metric::Metric;
-#[cfg(feature = "figures")]
-pub use pictures::{AxisNames, share_picture};
-pub use pilot::{Pilot, PilotEnd, PilotOrbit};
-pub use pixel_shares::PixelShares;
-pub use power_law::{NoInterval, PowerLaw, power_law};
-pub use preimage::{preimage_levels, preimage_levels_from_known};
-pub use preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};
-pub use probes::{TrapGround, check_branches, check_trap};
-pub use raster::{Grid, LabelImage, columns_in_parallel, raster, raster_by_strips};
-pub use recurrence_limits::RecurrenceLimits;
-pub use recurrences::{Attractor, Attractors};
-pub use refinement::{Refinement, StopReason};
-pub use region_boxes::region_boxes;
-pub use region_fractions::{LabelCounts, region_fractions};
-pub use region_uncertainty::{
-    PairCount, UncertaintyExponent, uncertain_pairs, uncertainty_exponent,
+pub use parameters::matching::{LabelAt, Matching, Unlike};
+pub use parameters::tipping::{Tipping, TippingCounts, label_after_drift, random_tipping};
+pub use shares::fractions::{FractionRange, Fractions};
+pub use shares::low_discrepancy::{
+    low_discrepancy_fractions, stratified_fractions, stratified_points,
 };
-pub use repeller::{Repeller, repeller};
-pub use sampling::{
+pub use shares::region_fractions::{LabelCounts, region_fractions};
+pub use shares::sampling::{
     EquallySpacedFraction, equally_spaced_counts, equally_spaced_fractions, random_fractions,
 };
-pub use scalar_map::{Image, ScalarMap};
-pub use smooth_boundary::{
-    BallEntropy, BoundaryShape, RandomBalls, ball_entropy, smooth_boundary_entropy,
+pub use shares::stability::{AttractorStability, LongestTime, Shock, Stability};
+pub use space::hyperrectangle::Hyperrectangle;
+pub use space::interval::{Interval, IntervalSet};
+pub use space::label::Label;
+#[cfg(feature = "figures")]
+pub use space::pictures::{AxisNames, share_picture};
+pub use space::raster::{Grid, LabelImage, columns_in_parallel, raster, raster_by_strips};
+pub use space::undecided_reason::UndecidedReason;
+pub use space::value_image::{ValueImage, value_raster};
+pub use statistics::bounds::Bounds;
+pub use statistics::confidence_interval::{
+    ConfidenceInterval, proportion_interval, student_interval, wilson_interval,
 };
-pub use split_mix::SplitMix64;
-pub use stability::{AttractorStability, LongestTime, Shock, Stability};
-pub use state_grid::StateGrid;
-pub use state_map::{ArrayMap, OrbitFeature, StateMap, array_map};
-pub use suggested_radius::{SuggestedRadius, suggested_radius, suggested_radius_by};
-pub use tipping::{Tipping, TippingCounts, label_after_drift, random_tipping};
-pub use uncertainty::uncertain_fraction;
-pub use undecided_reason::UndecidedReason;
-pub use unmatched::{Border, Remedy, Unmatched, UnmatchedReason};
-pub use value_image::{ValueImage, value_raster};
-pub use wada::{LineWadaTest, WadaGap, WadaTest};
+pub use statistics::power_law::{NoInterval, PowerLaw, power_law};
+pub use statistics::split_mix::SplitMix64;

@@ -1,0 +1,86 @@
+//! The cells along one coordinate of a region.
+
+use crate::space::interval::Interval;
+
+/// The cells along one coordinate.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Axis {
+    pub(crate) coordinate: usize,
+    pub(crate) side: Interval,
+    pub(crate) cells: u64,
+    /// Cells for each unit of length, if they are equal.
+    per_length: f64,
+    pub(crate) is_periodic: bool,
+    /// The ends of cells of given lengths; empty for equal ones.
+    pub(crate) edges: Vec<f64>,
+}
+
+impl Axis {
+    /// So many equal cells on a side.
+    pub(crate) fn new(coordinate: usize, side: Interval, cells: u64) -> Axis {
+        let per_length = cells as f64 / side.length();
+        Axis { coordinate, side, cells, per_length, is_periodic: false, edges: Vec::new() }
+    }
+
+    /// The same side with another number of cells.
+    pub(crate) fn with_cells(&self, cells: u64) -> Axis {
+        let per_length = cells as f64 / self.side.length();
+        Axis { cells, per_length, edges: self.edges.clone(), ..*self }
+    }
+
+    /// Moves a number into the period.
+    pub(crate) fn wrap(&self, x: &mut f64) {
+        let side = self.side;
+        if !(side.left <= *x && *x < side.right) && x.is_finite() {
+            let turns = ((*x - side.left) / side.length()).floor();
+            *x = (*x - turns * side.length()).clamp(side.left, side.right);
+        }
+    }
+
+    /// The number of the cell of a place on the side.
+    #[inline(always)]
+    pub(crate) fn cell(&self, x: f64) -> u64 {
+        let at = match self.edges.is_empty() {
+            true => (x - self.side.left) * self.per_length,
+            false => self.part(x) * self.cells as f64,
+        };
+        // The right end of the region belongs to the last cell.
+        (at as i64 as u64).min(self.cells - 1)
+    }
+
+    /// The cell of a place on the side, and the one beside it if the place is on their border, to rounding.
+    pub(crate) fn touched(&self, x: f64) -> Vec<u64> {
+        /// What converges to a border ends some ulps from it, on either side.
+        const BORDER: f64 = 1e-9;
+        let at = self.part(x) * self.cells as f64;
+        let own = self.cell(x);
+        let beside = match at - own as f64 {
+            off if off < BORDER => own.checked_sub(1).or(self.is_periodic.then(|| self.cells - 1)),
+            off if off > 1.0 - BORDER => {
+                let next = own + 1;
+                if next < self.cells { Some(next) } else { self.is_periodic.then_some(0) }
+            }
+            _ => None,
+        };
+        std::iter::once(own).chain(beside).collect()
+    }
+
+    /// How far along the axis a place is, from 0 to 1: cells of given lengths are equal parts.
+    fn part(&self, x: f64) -> f64 {
+        let Some(last) = self.edges.len().checked_sub(1) else {
+            return (x - self.side.left) / self.side.length();
+        };
+        let at = self.edges.partition_point(|edge| *edge <= x).clamp(1, last);
+        let (left, right) = (self.edges[at - 1], self.edges[at]);
+        ((at - 1) as f64 + (x - left) / (right - left)) / last as f64
+    }
+
+    /// The place so far along the axis.
+    pub(crate) fn place(&self, part: f64) -> f64 {
+        let Some(last) = self.edges.len().checked_sub(1) else {
+            return self.side.left + self.side.length() * part;
+        };
+        let at = ((part * last as f64) as usize).min(last - 1);
+        self.edges[at] + (self.edges[at + 1] - self.edges[at]) * (part * last as f64 - at as f64)
+    }
+}

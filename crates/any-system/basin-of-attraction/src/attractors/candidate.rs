@@ -1,0 +1,194 @@
+//! Is what recurs an attractor? Its cells are tested as a trap, on one grid after the other.
+
+use crate::attractors::followed_orbit::Settled;
+use crate::attractors::known_cells::{CellSet, KnownCells};
+use crate::attractors::many_orbits::{follow_some, in_parts};
+use crate::attractors::recurrence_limits::RecurrenceLimits;
+use crate::attractors::state_grid::StateGrid;
+use crate::attractors::state_map::{Moving, Repeats, StateMap};
+use crate::attractors::trap_test::{Test, TestOrbit, Trap};
+use crate::statistics::split_mix::SplitMix64;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::atomic::AtomicBool;
+
+/// Fewest orbits that test a candidate. With 10 a slow spiral of a factor 1 − 10⁻⁶ passed as an attractor, with 50
+/// it does not. More take longer: a test is three stretches.
+const FEWEST_TESTS: usize = 50;
+
+/// An orbit has a period if it comes back to this part of the sides of the region: some digits more than a figure or a table shows, and
+/// far above the rounding of a map.
+const CLOSED: f64 = 1e-9;
+
+/// What recurs, and how it is tested.
+pub(crate) struct Candidate<'a> {
+    pub(crate) map: &'a dyn StateMap,
+    pub(crate) known: &'a KnownCells,
+    pub(crate) limits: &'a RecurrenceLimits,
+    pub(crate) settled: &'a Settled,
+}
+
+/// A candidate that has passed the tests, on one of the grids.
+pub(crate) struct Located {
+    pub(crate) grid: usize,
+    pub(crate) cells: BTreeSet<u64>,
+    pub(crate) points: Vec<Vec<f64>>,
+    pub(crate) period: Option<usize>,
+}
+
+/// Successive points of the candidate, as many coordinates each as a state has.
+struct Points {
+    coordinates: Vec<f64>,
+    dimension: usize,
+}
+
+impl Points {
+    fn all(&self) -> impl ExactSizeIterator<Item = &[f64]> {
+        self.coordinates.chunks_exact(self.dimension)
+    }
+
+    /// The cells of a grid that they visit, each with its first point. `None` if one is outside the region.
+    fn cells(&self, grid: &StateGrid) -> Option<BTreeMap<u64, &[f64]>> {
+        let mut cells = BTreeMap::new();
+        for point in self.all() {
+            cells.entry(grid.cell(point)?).or_insert(point);
+        }
+        // An orbit that converges to the border of two cells may end in either.
+        for point in self.all() {
+            for cell in grid.touched(point) {
+                cells.entry(cell).or_insert(point);
+            }
+        }
+        Some(cells)
+    }
+
+    /// Where they are on a grid. `most` is the largest number of successive points that are kept.
+    fn located(&self, number: usize, grid: &StateGrid, most: usize) -> Option<Located> {
+        let cells = self.cells(grid)?;
+        let own: BTreeSet<u64> = cells.keys().copied().collect();
+        let last: Vec<&[f64]> = self.all().skip(self.all().len().saturating_sub(most)).collect();
+        let period = period(grid, &last);
+        let points = match period {
+            Some(period) => last[last.len() - period..].to_vec(),
+            None => {
+                let seen: BTreeSet<u64> = last.iter().filter_map(|at| grid.cell(at)).collect();
+                let others = cells.into_iter().filter(|(cell, _)| !seen.contains(cell));
+                last.into_iter().chain(others.map(|(_, point)| point)).collect()
+            }
+        };
+        let points = points.into_iter().map(<[f64]>::to_vec).collect();
+        Some(Located { grid: number, cells: own, points, period })
+    }
+}
+
+impl Candidate<'_> {
+    /// Locates and tests the candidate, on one grid after the other; `None` if the tests refuse it on all of them.
+    ///
+    /// Where the cells of a grid hold several attractors a finer one may separate them. If none does, they are one: the cycles of a turn by a
+    /// rational part of a circle, each beside the others, attract as a circle only.
+    pub(crate) fn located(&self) -> Option<Located> {
+        let points = self.points()?;
+        let finest = self.known.grids().last()?;
+        let finest: CellSet = points.all().filter_map(|point| finest.cell(point)).collect();
+        let most = self.limits.locate.max(1);
+        let mut together = None;
+        for (number, grid) in self.known.grids().iter().enumerate() {
+            let cells = points.cells(grid)?;
+            // No test can start beyond the region, where an orbit that moves on may lead.
+            let moves_to_border =
+                self.settled.drifts && cells.keys().any(|&cell| grid.is_at_border(cell));
+            if moves_to_border {
+                continue;
+            }
+            match self.test(grid, &cells, &finest) {
+                Test::Leaves => {}
+                Test::Stays => return points.located(number, grid, most),
+                Test::Apart => together = together.or(Some((number, grid))),
+            }
+        }
+        together.and_then(|(number, grid)| points.located(number, grid, most))
+    }
+
+    /// The points of the second half of the confirmation; two turns of a cycle. `None` if the map has no value at one.
+    fn points(&self) -> Option<Points> {
+        /// Half of the confirmation.
+        const PACES: usize = 5;
+        let mut point = Moving::from(&self.settled.half);
+        let (mut repeats, mut enough) = (Repeats::default(), usize::MAX);
+        let (mut coordinates, dimension) = (Vec::new(), point.at.len());
+        for number in 0..self.settled.pace.saturating_mul(PACES) {
+            if let Some(period) = repeats.see(&point.at) {
+                enough = enough.min(period.saturating_mul(2));
+            }
+            if number >= enough {
+                break;
+            }
+            coordinates.extend_from_slice(&point.at);
+            let has_image = point.step(self.map);
+            self.known.wrap(&mut point.at);
+            if !has_image {
+                return None;
+            }
+        }
+        Some(Points { coordinates, dimension })
+    }
+
+    /// Whether orbits from random points of the cells and of the cells beside them come to the cells, and come back
+    /// to them.
+    fn test(&self, grid: &StateGrid, visited: &BTreeMap<u64, &[f64]>, finest: &CellSet) -> Test {
+        /// Seed of the points. Another one tests other points.
+        const SEED: u64 = 1;
+        // A cell beside has the other coordinates of a state of a cell that it touches.
+        let mut beside: BTreeMap<u64, &[f64]> = BTreeMap::new();
+        for (&cell, &state) in visited {
+            for near in grid.neighbours(cell) {
+                if !visited.contains_key(&near) {
+                    beside.entry(near).or_insert(state);
+                }
+            }
+        }
+        let beside: Vec<(u64, &[f64])> = beside.into_iter().collect();
+        let inside: Vec<(u64, &[f64])> = visited.iter().map(|(&cell, &at)| (cell, at)).collect();
+        let cells: CellSet = visited.keys().copied().collect();
+        let random = SplitMix64::from_seed(SEED);
+        let dimension = grid.dimension() as u64;
+        let trap = Trap {
+            known: self.known,
+            grid,
+            cells,
+            finest,
+            stretch: self.limits.locate.max(1),
+            pace: self.settled.pace,
+            is_refused: AtomicBool::new(false),
+        };
+        let start = |test: usize, state: &mut [f64]| {
+            // Every second point is beside the cells: from there a slow passage shows itself first.
+            let among =
+                if test.is_multiple_of(2) && !beside.is_empty() { &beside } else { &inside };
+            let first = test as u64 * (dimension + 1);
+            let pick = (random.uniform(first) * among.len() as f64) as usize;
+            let (cell, like) = among[pick.min(among.len() - 1)];
+            state.copy_from_slice(like);
+            grid.move_into(cell, |k| random.uniform(first + 1 + k), state);
+        };
+        let tests = self.limits.tests.max(FEWEST_TESTS);
+        let found = in_parts(tests, |first, count| {
+            let begin = |k, orbit: &mut TestOrbit<'_>| orbit.restart(|at| start(first + k, at));
+            follow_some(self.map, grid.dimension(), count, || TestOrbit::new(&trap), begin)
+        });
+        found.into_iter().max().unwrap_or(Test::Leaves)
+    }
+}
+
+/// The period of successive points, if the last ones repeat themselves.
+fn period(grid: &StateGrid, points: &[&[f64]]) -> Option<usize> {
+    let closed = |a: &[f64], b: &[f64]| {
+        (0..).zip(a.iter().zip(b)).all(|(k, (a, b))| grid.apart(k, *a, *b) <= CLOSED)
+    };
+    let repeats = |period: &usize| {
+        (0..*period).all(|k| {
+            let last = points.len() - 1 - k;
+            closed(points[last], points[last - period])
+        })
+    };
+    (1..=points.len() / 2).find(repeats)
+}

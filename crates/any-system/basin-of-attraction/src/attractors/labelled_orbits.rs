@@ -1,0 +1,154 @@
+//! To which attractor do orbits come, and when: one orbit, many at once, the pixels of a window.
+
+use crate::attractors::first_steps::{FirstSteps, first_steps};
+use crate::attractors::followed_orbit::{End, Orbit, Settled};
+use crate::attractors::many_orbits::{FollowedOrbit, follow_some, in_parts};
+use crate::attractors::recurrences::Attractors;
+use crate::attractors::state_map::{Moving, StateMap};
+use crate::attractors::unmatched::UnmatchedReason;
+use crate::error::Error;
+use crate::space::label::Label;
+use crate::space::raster::{Grid, LabelImage};
+
+impl Attractors {
+    /// The label of the attractor to which the orbit of a point comes; undecided if it comes to none of them.
+    ///
+    /// The label is the same for each call: no attractor is added. A point of another dimension is undecided.
+    /// [`convergences`](Self::convergences) takes less time for many points.
+    pub fn label(&self, map: &dyn StateMap, start: &[f64]) -> Label {
+        self.convergence(map, start).map_or(Label::UNDECIDED, |(label, _)| label)
+    }
+
+    /// The label, and the number of steps after which the orbit is in a cell of the attractor, or has escaped: the time to convergence. Of
+    /// an undecided orbit it is the number of steps that were made.
+    ///
+    /// # Errors
+    /// [`Error::WrongDimension`] for a point of another dimension.
+    pub fn convergence(&self, map: &dyn StateMap, start: &[f64]) -> Result<(Label, usize), Error> {
+        self.check_dimension(start.len())?;
+        Ok(Labelled { attractors: self, orbit: Orbit::new(&self.known, &self.limits, start) }
+            .follow(map))
+    }
+
+    /// The labels and times of many starts, as [`convergence`](Self::convergence) gives them: in parallel, and some orbits at a time where
+    /// the map moves them together. `start` writes the start with a number.
+    ///
+    /// ```
+    /// # use basin_of_attraction::{Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits, StateGrid, array_map};
+    /// let cubic = array_map(|[x]| Some([1.5 * x - 0.5 * x * x * x]));
+    /// let grid = StateGrid::uniform(Interval::new(-1.7, 1.6)?.try_into()?, 100)?;
+    /// let found = Attractors::search(&cubic, grid, &[vec![0.3], vec![-0.3]], RecurrenceLimits::default())?;
+    /// let all = found.convergences(&cubic, 1000, |k, state| state[0] = 1e-3 * (k as f64 + 0.5))?;
+    /// assert!(all.iter().all(|(label, steps)| *label == Label::from(1) && *steps < 30));
+    /// # Ok::<(), basin_of_attraction::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::WrongDimension`] for a map of another dimension.
+    pub fn convergences(
+        &self,
+        map: &dyn StateMap,
+        count: usize,
+        start: impl Fn(usize, &mut [f64]) + Sync,
+    ) -> Result<Vec<(Label, usize)>, Error> {
+        let dimension = self.known.dimension();
+        self.check_dimension(map.dimension().unwrap_or(dimension))?;
+        let Attractors { known, limits, .. } = self;
+        let orbit = || Labelled {
+            attractors: self,
+            orbit: Orbit::new(known, limits, &vec![0.0; dimension]),
+        };
+        Ok(in_parts(count, |first, count| {
+            let start = |k, state: &mut [f64]| start(first + k, state);
+            let FirstSteps { ends, others } = first_steps(map, known, limits, count, start);
+            let begin = |k: usize, own: &mut Labelled<'_>| own.orbit.resume(known, &others[k]);
+            let later = follow_some(map, dimension, others.len(), orbit, begin);
+            let label = |(end, steps)| (self.label_at(&end).unwrap_or(Label::UNDECIDED), steps);
+            let mut found: Vec<(Label, usize)> =
+                ends.into_iter().map(|end| end.map_or((Label::UNDECIDED, 0), label)).collect();
+            for (other, end) in others.iter().zip(later) {
+                found[other.number] = end;
+            }
+            found
+        }))
+    }
+
+    /// The labels of the pixels of a window of the plane, in parallel: `state` writes the state for the x and y of a pixel's middle.
+    ///
+    /// # Errors
+    /// [`Error::BadRaster`] as for [`Grid::pixels`]; [`Error::WrongDimension`] for a map of another dimension.
+    pub fn raster(
+        &self,
+        map: &dyn StateMap,
+        grid: Grid,
+        state: impl Fn(f64, f64, &mut [f64]) + Sync,
+    ) -> Result<LabelImage, Error> {
+        let pixel = |k: usize, own: &mut [f64]| {
+            state(grid.x_at(k % grid.columns), grid.y_at(k / grid.columns), own);
+        };
+        let found = self.convergences(map, grid.pixels()?, pixel)?;
+        let labels = found.into_iter().map(|(label, _)| label).collect();
+        Ok(LabelImage { grid, labels })
+    }
+
+    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        let expected = self.known.dimension();
+        if dimension == expected {
+            return Ok(());
+        }
+        Err(Error::WrongDimension { dimension, expected })
+    }
+
+    /// The label at the end of an orbit; `None` if it moves on, and may come to an attractor.
+    fn label_at(&self, end: &End) -> Option<Label> {
+        match end {
+            End::Known(own) => Some(self.attractors()[*own].label),
+            End::Escaped => Some(Label::ESCAPED),
+            End::Unmatched(UnmatchedReason::Stopped) => Some(Label::UNDECIDED_MAP),
+            End::Settled(Settled { drifts: true, .. }) => None,
+            End::Unmatched(_) | End::Budget | End::Settled(_) => Some(Label::UNDECIDED),
+        }
+    }
+}
+
+/// An orbit that comes to an attractor, or to none.
+struct Labelled<'a> {
+    attractors: &'a Attractors,
+    orbit: Orbit,
+}
+
+impl Labelled<'_> {
+    fn follow(mut self, map: &dyn StateMap) -> (Label, usize) {
+        let Attractors { known, limits, .. } = self.attractors;
+        loop {
+            let end = self.orbit.follow(known, limits, map);
+            if let Some(label) = self.attractors.label_at(&end) {
+                return (label, self.orbit.steps());
+            }
+            self.orbit.go_on();
+        }
+    }
+}
+
+impl FollowedOrbit for Labelled<'_> {
+    type End = (Label, usize);
+
+    fn see(&mut self) -> Option<(Label, usize)> {
+        let Attractors { known, limits, .. } = self.attractors;
+        while let Some(end) = self.orbit.see(known, limits) {
+            if let Some(label) = self.attractors.label_at(&end) {
+                return Some((label, self.orbit.steps()));
+            }
+            self.orbit.go_on();
+        }
+        None
+    }
+
+    fn point(&mut self) -> &mut Moving {
+        self.orbit.point()
+    }
+
+    fn moved(&mut self, has_image: bool) {
+        self.orbit.moved(&self.attractors.known, has_image);
+    }
+}

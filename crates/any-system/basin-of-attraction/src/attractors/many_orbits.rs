@@ -1,0 +1,124 @@
+//! Many orbits: in parallel, and some at a time where a map moves them together.
+
+use crate::attractors::state_map::{Moving, StateMap};
+use rayon::prelude::*;
+
+/// An orbit that is followed until it has ended.
+pub(crate) trait FollowedOrbit {
+    /// What its end says.
+    type End;
+
+    /// Looks at the point where it is; `None` if it is to be moved by a step.
+    fn see(&mut self) -> Option<Self::End>;
+
+    /// Where it is, to be moved.
+    fn point(&mut self) -> &mut Moving;
+
+    /// Notes that it was moved, or that the map had no value.
+    fn moved(&mut self, has_image: bool);
+}
+
+/// Orbits that are moved together: enough for maps that compute eight at a time while some of them take longer.
+const TOGETHER: usize = 32;
+
+/// The most starts that one thread takes at once, and the fewest parts of the work: threads share it evenly.
+const MOST: usize = 1024;
+const PARTS: usize = 8;
+
+/// Parts of so many orbits, each with the number of its first one and their number, in parallel. The results are in order.
+pub(crate) fn in_parts<E: Send>(
+    count: usize,
+    follow: impl Fn(usize, usize) -> Vec<E> + Sync,
+) -> Vec<E> {
+    let part = count.div_ceil(PARTS).clamp(1, MOST);
+    let firsts = (0..count.div_ceil(part)).into_par_iter().map(|number| part * number);
+    firsts.flat_map_iter(|first| follow(first, part.min(count - first))).collect()
+}
+
+/// Follows so many orbits to their ends. `orbit` makes memory for one, and `begin` lets it be the orbit with a number.
+pub(crate) fn follow_some<O: FollowedOrbit>(
+    map: &dyn StateMap,
+    dimension: usize,
+    count: usize,
+    orbit: impl Fn() -> O,
+    begin: impl Fn(usize, &mut O),
+) -> Vec<O::End> {
+    match map.has_lanes() {
+        true => follow_together(map, dimension, count, orbit, begin),
+        false => follow_alone(map, count, orbit, begin),
+    }
+}
+
+/// One orbit after the other.
+fn follow_alone<O: FollowedOrbit>(
+    map: &dyn StateMap,
+    count: usize,
+    orbit: impl Fn() -> O,
+    begin: impl Fn(usize, &mut O),
+) -> Vec<O::End> {
+    let mut orbit = orbit();
+    let follow = |number: usize| {
+        begin(number, &mut orbit);
+        loop {
+            if let Some(end) = orbit.see() {
+                return end;
+            }
+            let has_image = orbit.point().step(map);
+            orbit.moved(has_image);
+        }
+    };
+    (0..count).map(follow).collect()
+}
+
+/// Some orbits at a time.
+fn follow_together<O: FollowedOrbit>(
+    map: &dyn StateMap,
+    dimension: usize,
+    count: usize,
+    orbit: impl Fn() -> O,
+    begin: impl Fn(usize, &mut O),
+) -> Vec<O::End> {
+    let mut ends: Vec<Option<O::End>> = (0..count).map(|_| None).collect();
+    let mut waiting = 0..count;
+    // The next orbit; `None` after the last one.
+    let mut next = |orbit: &mut O| {
+        let number = waiting.next()?;
+        begin(number, orbit);
+        Some(number)
+    };
+    let first = |_| {
+        let mut orbit = orbit();
+        next(&mut orbit).map(|number| (orbit, number))
+    };
+    let mut followed: Vec<(O, usize)> = (0..TOGETHER).map_while(first).collect();
+    let mut columns = vec![vec![0.0; followed.len()]; dimension];
+    let mut has_image = vec![false; followed.len()];
+    while !followed.is_empty() {
+        followed.retain_mut(|(orbit, number)| {
+            // Until an orbit is to be moved, or no start is left for its memory.
+            while let Some(end) = orbit.see() {
+                ends[*number] = Some(end);
+                match next(orbit) {
+                    Some(other) => *number = other,
+                    None => return false,
+                }
+            }
+            true
+        });
+        has_image.truncate(followed.len());
+        for (k, column) in columns.iter_mut().enumerate() {
+            column.truncate(followed.len());
+            column
+                .iter_mut()
+                .zip(&mut followed)
+                .for_each(|(x, (orbit, _))| *x = orbit.point().at[k]);
+        }
+        map.images(&mut columns, &mut has_image);
+        for (place, (orbit, _)) in followed.iter_mut().enumerate() {
+            let at = orbit.point().at.iter_mut().zip(&columns);
+            at.for_each(|(x, column)| *x = column[place]);
+            orbit.moved(has_image[place]);
+        }
+    }
+    ends.into_iter().flatten().collect()
+}

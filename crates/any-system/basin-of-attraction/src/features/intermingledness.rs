@@ -1,0 +1,56 @@
+//! How intermingled labelled points are.
+
+use crate::error::Error;
+use crate::features::metric::Metric;
+use crate::space::label::Label;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// The intermingledness of each basin among labelled points: the mean distance of its points from each other, over their mean distance from those of another
+/// basin, averaged over the other basins (`intermingledness` of Attractors.jl). 1 says that the points are as far from those of their
+/// own basin as from others. A point counts as a pair with itself. Points of no basin do not count; with one basin there is no value.
+///
+/// It is a number of these points: others give another one.
+///
+/// ```
+/// use basin_of_attraction::{Label, Metric, intermingledness};
+/// let points: Vec<Vec<f64>> = (0..100).map(|k| vec![f64::from(k)]).collect();
+/// let stripes: Vec<Label> = (0..100u8).map(|k| Label::from(k % 2)).collect();
+/// let halves: Vec<Label> = (0..100u8).map(|k| Label::from(k / 50)).collect();
+/// let mixed = intermingledness(&points, &stripes, &Metric::euclidean())?;
+/// assert!((mixed[&Label::from(0)] - 1.0).abs() < 0.01);
+/// let apart = intermingledness(&points, &halves, &Metric::euclidean())?;
+/// assert!(apart[&Label::from(0)] < 0.4);
+/// # Ok::<(), basin_of_attraction::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::WrongDimension`] for another number of labels than points; [`Error::TooManySamples`] for more than 20 000 points.
+pub fn intermingledness(
+    points: &[Vec<f64>],
+    labels: &[Label],
+    metric: &Metric,
+) -> Result<BTreeMap<Label, f64>, Error> {
+    let (dimension, expected) = (labels.len(), points.len());
+    if dimension != expected {
+        return Err(Error::WrongDimension { dimension, expected });
+    }
+    crate::features::feature_groups::check_feature_count(points.len())?;
+    let mut groups: BTreeMap<Label, Vec<&[f64]>> = BTreeMap::new();
+    for (point, label) in points.iter().zip(labels).filter(|(_, label)| label.is_basin()) {
+        groups.entry(*label).or_default().push(point);
+    }
+    let mean = |one: &[&[f64]], other: &[&[f64]]| {
+        let from = |a: &&[f64]| other.iter().map(|b| metric.distance(a, b)).sum::<f64>();
+        let sums: Vec<f64> = one.par_iter().map(from).collect();
+        sums.iter().sum::<f64>() / (one.len() as f64 * other.len() as f64)
+    };
+    let value = |(label, own): (&Label, &Vec<&[f64]>)| {
+        let inside = mean(own, own);
+        let others = groups.iter().filter(|(other, _)| *other != label);
+        let ratios: Vec<f64> = others.map(|(_, other)| inside / mean(own, other)).collect();
+        let average = ratios.iter().sum::<f64>() / ratios.len() as f64;
+        (!ratios.is_empty()).then_some((*label, average))
+    };
+    Ok(groups.iter().filter_map(value).collect())
+}

@@ -1,0 +1,21 @@
+//! Which basins has a map of the line, as intervals and with bounds?
+//!
+//! `fate` follows one orbit of a `scalar_map` to a trap. On `branches` there are preimages (`preimage`, `preimage_tree`), and all basins (`basin_search`,
+//! `interval_basins`), until a limit of `refinement`; `probes` test what a caller gives. Then `pixel_shares`, distances (`boundary_distance`), and what
+//! never enters a trap: `itineraries`, `gap_lengths`, `repeller`, `kneading`.
+
+pub(crate) mod basin_search;
+pub(crate) mod boundary_distance;
+pub(crate) mod branches;
+pub(crate) mod fate;
+pub(crate) mod gap_lengths;
+pub(crate) mod interval_basins;
+pub(crate) mod itineraries;
+pub(crate) mod kneading;
+pub(crate) mod pixel_shares;
+pub(crate) mod preimage;
+pub(crate) mod preimage_tree;
+pub(crate) mod probes;
+pub(crate) mod refinement;
+pub(crate) mod repeller;
+pub(crate) mod scalar_map;

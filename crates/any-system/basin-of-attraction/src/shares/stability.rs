@@ -1,0 +1,316 @@
+//! How stable attractors are against random shocks: fractions, times and distances, in one pass.
+
+use crate::boundaries::boundary_between::{boundary_between, distance};
+use crate::error::Error;
+use crate::shares::region_fractions::LabelCounts;
+use crate::space::label::Label;
+use crate::statistics::confidence_interval::{
+    ConfidenceInterval, proportion_interval, student_interval,
+};
+use std::collections::BTreeMap;
+
+/// What random starts show of the stability of each attractor.
+///
+/// A start is a shock to each attractor: the displacement from the nearest of its points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stability {
+    counts: LabelCounts,
+    attractors: BTreeMap<Label, AttractorStability>,
+}
+
+/// The stability of one attractor, by random starts.
+///
+/// The mean of time over size of shock, the pace of convergence, is not here: it is infinite on the line, and in the plane its variance is, so
+/// that no number of starts gives it an interval.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AttractorStability {
+    /// The fraction of its basin, with a 95 % interval that counts undecided starts in its upper end: basin stability (P. J. Menck et al. 2013).
+    pub fraction: ConfidenceInterval,
+    /// The mean time of convergence in its basin, with Student's 95 % interval, which holds for many starts; `None` for fewer than two.
+    pub mean_time: Option<ConfidenceInterval>,
+    /// The start that took longest; `None` without starts in its basin.
+    pub longest: Option<LongestTime>,
+    /// The smallest fatal shock that was found, to another basin or beyond escape: an upper bound on the smallest one, with its end as a witness.
+    pub fatal: Option<Shock>,
+    /// The largest harmless shock that was found: a lower bound on the largest one, with its end as a witness.
+    pub harmless: Option<Shock>,
+    /// The mean size of harmless shocks, with Student's 95 % interval; `None` for fewer than two.
+    pub mean_harmless: Option<ConfidenceInterval>,
+    /// All shocks by their sizes, and whether each is harmless, fatal, or `None` for undecided.
+    shocks: Vec<(f64, Option<bool>)>,
+    /// The times in its basin, in increasing order.
+    times: Vec<usize>,
+    /// The steps of undecided starts, and the number of all starts.
+    undecided: Vec<usize>,
+    inside: usize,
+}
+
+/// The longest time that was seen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LongestTime {
+    /// The steps.
+    pub steps: usize,
+    /// The start.
+    pub start: Vec<f64>,
+    /// At most this share of the basin takes longer, in 95 of 100 cases.
+    pub longer: f64,
+}
+
+/// A shock, and where it leads.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shock {
+    /// Its size.
+    pub size: f64,
+    /// The nearest point of the attractor, where it begins.
+    pub from: Vec<f64>,
+    /// The state after it.
+    pub state: Vec<f64>,
+    /// The label of this state.
+    pub label: Label,
+}
+
+/// No share of random starts was seen in n of them: it is below 1 − 0.05^(1/n) in 95 of 100 cases.
+const UNSEEN: f64 = 0.05;
+
+impl Stability {
+    /// The stability of attractors with these points. `starts` are independent random points of the region of shocks, and `found` has their labels and
+    /// times, as [`Attractors::convergences`](crate::Attractors::convergences) gives them.
+    ///
+    /// Distances are Euclidean; [`with_distance`](Self::with_distance) takes any.
+    ///
+    /// ```
+    /// use basin_of_attraction::{Attractors, Interval, Label, RecurrenceLimits, SplitMix64, Stability, StateGrid, array_map};
+    /// // 3x/2 − x³/2 has the attractors ±1, and 0 is between their basins.
+    /// let cubic = array_map(|[x]| Some([1.5 * x - 0.5 * x * x * x]));
+    /// let grid = StateGrid::uniform(Interval::new(-1.7, 1.6)?.try_into()?, 100)?;
+    /// let found = Attractors::search(&cubic, grid, &[vec![0.3], vec![-0.3]], RecurrenceLimits::default())?;
+    /// let random = SplitMix64::from_seed(1);
+    /// let starts: Vec<Vec<f64>> = (0..1000).map(|k| vec![3.0 * random.uniform(k) - 1.5]).collect();
+    /// let times = found.convergences(&cubic, 1000, |k, state| state.copy_from_slice(&starts[k]))?;
+    /// let mut stability = Stability::new(&found.positions(), &starts, &times)?;
+    /// stability.shorten_fatal_shocks(1e-9, |state| found.label(&cubic, state))?;
+    /// let right = stability.of(Label::from(1)).expect("an attractor");
+    /// assert!(right.fraction.covers(0.5));
+    /// assert!((right.fatal.as_ref().expect("a shock").size - 1.0).abs() < 1e-8);
+    /// // Of all shocks up to 0.9 less than one in a hundred is fatal.
+    /// assert!(right.fatal_share(0.9)?.upper < 0.01);
+    /// # Ok::<(), basin_of_attraction::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NothingInside`] without starts in the region of interest; [`Error::WrongDimension`] for another number of labels than starts, and for
+    /// points of different dimensions.
+    pub fn new(
+        attractors: &BTreeMap<Label, Vec<Vec<f64>>>,
+        starts: &[Vec<f64>],
+        found: &[(Label, usize)],
+    ) -> Result<Stability, Error> {
+        Stability::with_distance(attractors, starts, found, distance)
+    }
+
+    /// The same with distances of the caller's, such as the short way round an angle.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_distance(
+        attractors: &BTreeMap<Label, Vec<Vec<f64>>>,
+        starts: &[Vec<f64>],
+        found: &[(Label, usize)],
+        distance: impl Fn(&[f64], &[f64]) -> f64,
+    ) -> Result<Stability, Error> {
+        let (dimension, expected) = (found.len(), starts.len());
+        if dimension != expected {
+            return Err(Error::WrongDimension { dimension, expected });
+        }
+        let all = attractors.values().flatten().chain(starts);
+        let first = starts.first().map_or(0, Vec::len);
+        if let Some(other) = all.map(Vec::len).find(|length| *length != first) {
+            return Err(Error::WrongDimension { dimension: other, expected: first });
+        }
+        let counts = LabelCounts::new(found.iter().map(|(label, _)| *label))?;
+        let own = |(&label, points): (&Label, &Vec<Vec<f64>>)| {
+            let nearest = |start: &[f64]| {
+                let all = points.iter().map(|point| (distance(point, start), point));
+                all.min_by(|a, b| a.0.total_cmp(&b.0))
+            };
+            let inside = starts.iter().zip(found).filter(|(_, (label, _))| !label.is_outside());
+            let samples = inside.filter_map(|(state, &(label, steps))| {
+                let (size, from) = nearest(state)?;
+                Some((Shock { size, from: from.clone(), state: state.clone(), label }, steps))
+            });
+            Ok((label, AttractorStability::of(label, &counts, samples.collect())?))
+        };
+        let attractors = attractors.iter().map(own).collect::<Result<_, Error>>()?;
+        Ok(Stability { counts, attractors })
+    }
+
+    /// The stability of an attractor; `None` for another label.
+    pub fn of(&self, label: Label) -> Option<&AttractorStability> {
+        self.attractors.get(&label)
+    }
+
+    /// All attractors by their labels.
+    pub fn attractors(&self) -> &BTreeMap<Label, AttractorStability> {
+        &self.attractors
+    }
+
+    /// The numbers of starts with each label.
+    pub fn counts(&self) -> &LabelCounts {
+        &self.counts
+    }
+
+    /// Shortens the smallest fatal shock of each attractor, by bisection along it, to a precision: to the edge of the basin on this line.
+    /// [`minimal_fatal_shock`](crate::minimal_fatal_shock) also changes the direction.
+    ///
+    /// # Errors
+    /// As [`boundary_between`], but for shocks whose beginning, the nearest point of the attractor, has another label than the attractor.
+    pub fn shorten_fatal_shocks(
+        &mut self,
+        precision: f64,
+        label: impl Fn(&[f64]) -> Label,
+    ) -> Result<(), Error> {
+        for own in self.attractors.values_mut() {
+            let Some(fatal) = &mut own.fatal else { continue };
+            match boundary_between(&fatal.from, &fatal.state, precision, &label) {
+                Ok(found) => {
+                    // The same line: the size shrinks in proportion, whatever the distance is.
+                    let length = |to: &[f64]| distance(&fatal.from, to);
+                    fatal.size *= length(&found.second.0) / length(&fatal.state);
+                    (fatal.state, fatal.label) = found.second;
+                }
+                Err(Error::NotTwoBasins { .. }) => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(())
+    }
+}
+
+impl AttractorStability {
+    /// From all shocks, with the times of their starts.
+    fn of(
+        label: Label,
+        counts: &LabelCounts,
+        samples: Vec<(Shock, usize)>,
+    ) -> Result<AttractorStability, Error> {
+        let own: Vec<&(Shock, usize)> =
+            samples.iter().filter(|(shock, _)| shock.label == label).collect();
+        let mut times: Vec<usize> = own.iter().map(|(_, steps)| *steps).collect();
+        times.sort_unstable();
+        // Student's interval exists from two on.
+        let mean = |of: Vec<f64>| (of.len() > 1).then(|| student_interval(&of)).transpose();
+        let mean_time = mean(times.iter().map(|steps| *steps as f64).collect())?;
+        let mean_harmless = mean(own.iter().map(|(shock, _)| shock.size).collect())?;
+        let open = samples.iter().filter(|(shock, _)| shock.label.is_undecided());
+        let undecided = open.map(|(_, steps)| *steps).collect();
+        let longest = own.iter().max_by_key(|(_, steps)| *steps).map(|(shock, steps)| {
+            let longer = 1.0 - pxfm::f_pow(UNSEEN, 1.0 / own.len() as f64);
+            LongestTime { steps: *steps, start: shock.state.clone(), longer }
+        });
+        let is_fatal = |shock: &&Shock| shock.label.is_basin() && shock.label != label;
+        let all = || samples.iter().map(|(shock, _)| shock);
+        let by_size = |a: &&Shock, b: &&Shock| a.size.total_cmp(&b.size);
+        let fatal = all().filter(is_fatal).min_by(by_size).cloned();
+        let harmless = all().filter(|shock| shock.label == label).max_by(by_size).cloned();
+        let verdict = |shock: &Shock| match shock.label.is_basin() {
+            true => (shock.size, Some(shock.label != label)),
+            false => (shock.size, None),
+        };
+        let mut shocks: Vec<(f64, Option<bool>)> = all().map(verdict).collect();
+        shocks.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(AttractorStability {
+            fraction: counts.fraction(label)?,
+            mean_time,
+            longest,
+            fatal,
+            harmless,
+            mean_harmless,
+            shocks,
+            times,
+            undecided,
+            inside: counts.inside(),
+        })
+    }
+
+    /// The share of shocks up to a size that are fatal, with a 95 % interval that counts undecided ones in its upper end.
+    ///
+    /// # Errors
+    /// [`Error::NothingInside`] if no start is so near.
+    pub fn fatal_share(&self, size: f64) -> Result<ConfidenceInterval, Error> {
+        let count = self.shocks.partition_point(|shock| shock.0 <= size);
+        if count == 0 {
+            return Err(Error::NothingInside { points: self.shocks.len() });
+        }
+        let of = |verdict: Option<bool>| {
+            self.shocks[..count].iter().filter(|shock| shock.1 == verdict).count()
+        };
+        let (fatal, open) = (of(Some(true)), of(None));
+        let ConfidenceInterval { value, lower, .. } = proportion_interval(fatal, count)?;
+        let upper = proportion_interval(fatal + open, count)?.upper;
+        Ok(ConfidenceInterval { value, lower, upper })
+    }
+
+    /// The fraction of starts that come to the attractor within so many steps, with a 95 % interval: basin stability in finite time. Its upper end counts
+    /// undecided starts that were followed for fewer steps.
+    ///
+    /// # Errors
+    /// None for starts inside the region of interest, of which [`Stability::new`] demands one.
+    pub fn fraction_within(&self, steps: usize) -> Result<ConfidenceInterval, Error> {
+        let found = self.times.partition_point(|time| *time <= steps);
+        let open = self.undecided.iter().filter(|made| **made < steps).count();
+        let ConfidenceInterval { value, lower, .. } = proportion_interval(found, self.inside)?;
+        let upper = proportion_interval(found + open, self.inside)?.upper;
+        Ok(ConfidenceInterval { value, lower, upper })
+    }
+
+    /// A quantile of the times in the basin, such as ½ for the median, with the 95 % interval of the ranks of a binomial number: for any distribution.
+    ///
+    /// # Errors
+    /// [`Error::BadSearch`] unless 0 < `part` < 1, and for so few starts that no ranks enclose the quantile: some 4/`part`, or 4/(1 − `part`).
+    pub fn time_quantile(&self, part: f64) -> Result<ConfidenceInterval, Error> {
+        let refused = |value, remedy| {
+            Err(Error::BadSearch { name: "a part of the starts of a basin", value, remedy })
+        };
+        if !(0.0 < part && part < 1.0) {
+            return refused(part, ", and below 1");
+        }
+        let Some((low, high)) = ranks(self.times.len(), part) else {
+            return refused(part, "; for this one the basin has too few starts");
+        };
+        let at = |rank: usize| self.times[rank] as f64;
+        let middle = ((part * self.times.len() as f64) as usize).min(self.times.len() - 1);
+        Ok(ConfidenceInterval { value: at(middle), lower: at(low), upper: at(high) })
+    }
+
+    /// The largest size up to which at most this share of the shocks is fatal, by the upper ends of their intervals; `None` if there is none.
+    ///
+    /// Sizes are those of the starts. The nearest edge of the basin may be closer: at most this share of the shocks shows it.
+    pub fn safe_size(&self, share: f64) -> Option<f64> {
+        let is_safe = |size: &f64| self.fatal_share(*size).is_ok_and(|own| own.upper <= share);
+        self.shocks.iter().map(|shock| shock.0).rev().find(is_safe)
+    }
+}
+
+/// The ranks, from 0, between which a quantile of so many numbers is in 95 % of the samples at least.
+fn ranks(count: usize, part: f64) -> Option<(usize, usize)> {
+    /// The probability that is left on each side.
+    const TAIL: f64 = 0.025;
+    // The quantile is below the number of rank k if more than k numbers are above it. Probabilities of 0, 1, 2, … numbers below, one by one.
+    let n = count as f64;
+    let mut below = 0.0;
+    let (mut low, mut high) = (None, None);
+    for k in 0..=count {
+        let x = k as f64;
+        let choices =
+            pxfm::f_lgamma(n + 1.0) - pxfm::f_lgamma(x + 1.0) - pxfm::f_lgamma(n - x + 1.0);
+        let term = choices + x * pxfm::f_log(part) + (n - x) * pxfm::f_log1p(-part);
+        below += pxfm::f_exp(term);
+        if below <= TAIL {
+            low = Some(k);
+        }
+        if below >= 1.0 - TAIL && high.is_none() {
+            high = Some(k);
+        }
+    }
+    Some((low?, high.filter(|high| *high < count)?))
+}
