@@ -3,6 +3,7 @@
 
 #![allow(missing_docs, clippy::disallowed_methods, clippy::panic, clippy::unwrap_used)]
 
+mod attacked;
 mod attractor_features;
 mod attractors;
 mod attractors_known;

@@ -1,8 +1,8 @@
 //! Stability of attractors by random starts, with known answers.
 
 use basin_of_attraction::{
-    Attractors, Error, Hyperrectangle, Interval, Label, RecurrenceLimits, SplitMix64, Stability,
-    StateGrid, array_map,
+    Attractors, Error, Hyperrectangle, Interval, Label, Metric, RecurrenceLimits, SplitMix64,
+    Stability, StateGrid, array_map,
 };
 
 /// Newton's method for z³ = 1: the fractions of its three basins, and the minimal fatal shock 0.622046, as upper bounds.
@@ -85,7 +85,7 @@ fn undecided_starts_open_the_intervals() {
     );
     assert!(own.time_quantile(1.0).is_err() && own.time_quantile(f64::NAN).is_err());
     // By other distances, and refused ones.
-    let twice = |a: &[f64], b: &[f64]| 2.0 * (a[0] - b[0]).abs();
+    let twice = Metric::by(|a, b| 2.0 * (a[0] - b[0]).abs());
     let all = Stability::with_distance(&attractors, &starts, &found, twice).unwrap();
     assert_eq!(all.of(Label::from(1)).unwrap().fatal.as_ref().unwrap().size, 1.0);
     assert!(Stability::new(&attractors, &starts, &found[1..]).is_err());

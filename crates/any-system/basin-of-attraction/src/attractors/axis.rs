@@ -34,6 +34,10 @@ impl Axis {
         if !(side.left <= *x && *x < side.right) && x.is_finite() {
             let turns = ((*x - side.left) / side.length()).floor();
             *x = (*x - turns * side.length()).clamp(side.left, side.right);
+            // A small negative number plus a period is the period.
+            if *x == side.right {
+                *x = side.left;
+            }
         }
     }
 
@@ -66,7 +70,7 @@ impl Axis {
     }
 
     /// How far along the axis a place is, from 0 to 1: cells of given lengths are equal parts.
-    fn part(&self, x: f64) -> f64 {
+    pub(crate) fn part(&self, x: f64) -> f64 {
         let Some(last) = self.edges.len().checked_sub(1) else {
             return (x - self.side.left) / self.side.length();
         };

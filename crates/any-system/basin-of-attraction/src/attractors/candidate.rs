@@ -1,5 +1,6 @@
 //! Is what recurs an attractor? Its cells are tested as a trap, on one grid after the other.
 
+use crate::attractors::confirmation::Ends;
 use crate::attractors::followed_orbit::Settled;
 use crate::attractors::known_cells::{CellSet, KnownCells};
 use crate::attractors::many_orbits::{follow_some, in_parts};
@@ -19,12 +20,19 @@ const FEWEST_TESTS: usize = 50;
 /// far above the rounding of a map.
 const CLOSED: f64 = 1e-9;
 
+/// The most cells beside those of a candidate that are listed, and the most numbers of its points: both are memory. In spaces of many dimensions a cell has
+/// thousands of neighbours, and then only some cells have theirs listed.
+const MOST_NEIGHBOURS: usize = 200_000;
+const MOST_NUMBERS: usize = 20_000_000;
+
 /// What recurs, and how it is tested.
 pub(crate) struct Candidate<'a> {
     pub(crate) map: &'a dyn StateMap,
     pub(crate) known: &'a KnownCells,
     pub(crate) limits: &'a RecurrenceLimits,
     pub(crate) settled: &'a Settled,
+    /// The points of the attractors that are known.
+    pub(crate) others: Vec<&'a [Vec<f64>]>,
 }
 
 /// A candidate that has passed the tests, on one of the grids.
@@ -61,6 +69,18 @@ impl Points {
         Some(cells)
     }
 
+    /// The ends of the later half, in cells of the finest grid.
+    fn ends(&self, known: &KnownCells) -> Ends {
+        let grids = known.grids();
+        let finest = &grids[grids.len() - 1];
+        let in_cells = self.all().skip(self.all().len() / 2).map(|point| finest.in_cells(point));
+        let mut ends: Option<Ends> = None;
+        for point in in_cells {
+            ends.get_or_insert_with(|| Ends::new(point.len())).add(&point);
+        }
+        ends.unwrap_or_else(|| Ends::new(0))
+    }
+
     /// Where they are on a grid. `most` is the largest number of successive points that are kept.
     fn located(&self, number: usize, grid: &StateGrid, most: usize) -> Option<Located> {
         let cells = self.cells(grid)?;
@@ -83,29 +103,37 @@ impl Points {
 impl Candidate<'_> {
     /// Locates and tests the candidate, on one grid after the other; `None` if the tests refuse it on all of them.
     ///
-    /// Where the cells of a grid hold several attractors a finer one may separate them. If none does, they are one: the cycles of a turn by a
-    /// rational part of a circle, each beside the others, attract as a circle only.
+    /// Where the cells of a grid hold several attractors a finer one may separate them. If none does, they are one.
     pub(crate) fn located(&self) -> Option<Located> {
         let points = self.points()?;
         let finest = self.known.grids().last()?;
         let finest: CellSet = points.all().filter_map(|point| finest.cell(point)).collect();
         let most = self.limits.locate.max(1);
+        // Where it is together with other attractors on this and on all finer grids.
         let mut together = None;
         for (number, grid) in self.known.grids().iter().enumerate() {
             let cells = points.cells(grid)?;
             // No test can start beyond the region, where an orbit that moves on may lead.
             let moves_to_border =
                 self.settled.drifts && cells.keys().any(|&cell| grid.is_at_border(cell));
-            if moves_to_border {
-                continue;
-            }
-            match self.test(grid, &cells, &finest) {
-                Test::Leaves => {}
+            // Two attractors that are known have no cell in common.
+            let test = match moves_to_border || self.has_another(grid, &cells) {
+                true => Test::Leaves,
+                false => self.test(grid, &cells, &finest, &points),
+            };
+            match test {
+                Test::Leaves => together = None,
                 Test::Stays => return points.located(number, grid, most),
                 Test::Apart => together = together.or(Some((number, grid))),
             }
         }
         together.and_then(|(number, grid)| points.located(number, grid, most))
+    }
+
+    /// Whether a point of another attractor lies in the cells.
+    fn has_another(&self, grid: &StateGrid, cells: &BTreeMap<u64, &[f64]>) -> bool {
+        let mut points = self.others.iter().copied().flatten();
+        points.any(|point| grid.cell(point).is_some_and(|cell| cells.contains_key(&cell)))
     }
 
     /// The points of the second half of the confirmation; two turns of a cycle. `None` if the map has no value at one.
@@ -115,7 +143,8 @@ impl Candidate<'_> {
         let mut point = Moving::from(&self.settled.half);
         let (mut repeats, mut enough) = (Repeats::default(), usize::MAX);
         let (mut coordinates, dimension) = (Vec::new(), point.at.len());
-        for number in 0..self.settled.pace.saturating_mul(PACES) {
+        let most = MOST_NUMBERS / dimension.max(1);
+        for number in 0..self.settled.pace.saturating_mul(PACES).min(most) {
             if let Some(period) = repeats.see(&point.at) {
                 enough = enough.min(period.saturating_mul(2));
             }
@@ -134,12 +163,19 @@ impl Candidate<'_> {
 
     /// Whether orbits from random points of the cells and of the cells beside them come to the cells, and come back
     /// to them.
-    fn test(&self, grid: &StateGrid, visited: &BTreeMap<u64, &[f64]>, finest: &CellSet) -> Test {
+    fn test(
+        &self,
+        grid: &StateGrid,
+        visited: &BTreeMap<u64, &[f64]>,
+        finest: &CellSet,
+        points: &Points,
+    ) -> Test {
         /// Seed of the points. Another one tests other points.
         const SEED: u64 = 1;
         // A cell beside has the other coordinates of a state of a cell that it touches.
         let mut beside: BTreeMap<u64, &[f64]> = BTreeMap::new();
-        for (&cell, &state) in visited {
+        let every = visited.len().div_ceil(MOST_NEIGHBOURS / grid.most_neighbours()).max(1);
+        for (&cell, &state) in visited.iter().step_by(every) {
             for near in grid.neighbours(cell) {
                 if !visited.contains_key(&near) {
                     beside.entry(near).or_insert(state);
@@ -156,6 +192,7 @@ impl Candidate<'_> {
             grid,
             cells,
             finest,
+            ends: points.ends(self.known),
             stretch: self.limits.locate.max(1),
             pace: self.settled.pace,
             is_refused: AtomicBool::new(false),

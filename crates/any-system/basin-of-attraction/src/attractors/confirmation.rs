@@ -87,7 +87,7 @@ impl Confirmation {
 
 /// How fast an orbit moves on from a point, a step: the mean change of the ends of stretches of so many steps, in
 /// the largest coordinate. NaN if it stops.
-pub(crate) fn drift(map: &dyn StateMap, from: &[f64], stretch: usize) -> f64 {
+pub(crate) fn drift(map: &dyn StateMap, known: &KnownCells, from: &[f64], stretch: usize) -> f64 {
     let (mut point, stretch) = (Moving::from(from), stretch.max(1));
     let mut windows = Vec::new();
     for _ in 0..WINDOWS {
@@ -97,6 +97,7 @@ pub(crate) fn drift(map: &dyn StateMap, from: &[f64], stretch: usize) -> f64 {
             if !point.step(map) {
                 return f64::NAN;
             }
+            known.wrap(&mut point.at);
         }
         windows.push(ends);
     }
@@ -105,7 +106,7 @@ pub(crate) fn drift(map: &dyn StateMap, from: &[f64], stretch: usize) -> f64 {
 }
 
 /// The largest values of each coordinate, and of its negative.
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub(crate) struct Ends(Vec<f64>);
 
 impl Ends {
@@ -113,12 +114,17 @@ impl Ends {
         Ends(vec![f64::NEG_INFINITY; 2 * dimension])
     }
 
+    /// The same number of coordinates, without a point.
+    pub(crate) fn empty(&self) -> Self {
+        Ends::new(self.0.len() / 2)
+    }
+
     pub(crate) fn add(&mut self, point: &[f64]) {
         let both = point.iter().flat_map(|x| [*x, -x]);
         self.0.iter_mut().zip(both).for_each(|(end, x)| *end = end.max(x));
     }
 
-    fn distance(&self, other: &Ends) -> f64 {
+    pub(crate) fn distance(&self, other: &Ends) -> f64 {
         let changes = self.0.iter().zip(&other.0).map(|(a, b)| (a - b).abs());
         changes.fold(0.0, f64::max)
     }

@@ -195,6 +195,9 @@ impl Orbit {
             Look::Inside => true,
             Look::Outside => false,
         };
+        if self.steps < UNTRACKED.min(limits.budget / 100) {
+            return None;
+        }
         let pace = self.pace(limits);
         let track = &mut *self.track;
         let long = pace.saturating_mul(CONFIRMED);

@@ -83,7 +83,7 @@ impl KnownAttractors {
         distance: f64,
         limits: KnownLimits,
     ) -> Result<KnownAttractors, Error> {
-        let mut known = KnownAttractors::untested(points, limits)?;
+        let mut known = KnownAttractors::untested(map, points, limits)?;
         if !(distance > 0.0 && distance.is_finite()) {
             let name = "a distance from attractors";
             return Err(Error::BadSearch { name, value: distance, remedy: "" });
@@ -110,7 +110,7 @@ impl KnownAttractors {
         points: &BTreeMap<Label, Vec<Vec<f64>>>,
         limits: KnownLimits,
     ) -> Result<KnownAttractors, Error> {
-        let mut known = KnownAttractors::untested(points, limits)?;
+        let mut known = KnownAttractors::untested(map, points, limits)?;
         let size = |point: &Vec<f64>| point.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
         let largest = known.points.iter().map(|(point, _)| size(point)).fold(1.0, f64::max);
         known.distance = (0.5 * known.closest_attractors()).min(largest);
@@ -127,6 +127,7 @@ impl KnownAttractors {
     }
 
     fn untested(
+        map: &dyn StateMap,
         points: &BTreeMap<Label, Vec<Vec<f64>>>,
         limits: KnownLimits,
     ) -> Result<KnownAttractors, Error> {
@@ -152,6 +153,9 @@ impl KnownAttractors {
         let expected = points.values().flatten().next().map_or(0, Vec::len);
         if expected == 0 || points.values().any(Vec::is_empty) {
             return Err(Error::NoDimension);
+        }
+        if let Some(dimension) = map.dimension().filter(|dimension| *dimension != expected) {
+            return Err(Error::WrongDimension { dimension, expected });
         }
         let mut own = Vec::with_capacity(all);
         for (&label, points) in points {
@@ -191,8 +195,9 @@ impl KnownAttractors {
     /// # Errors
     /// [`Error::WrongDimension`] for a point of another dimension.
     pub fn convergence(&self, map: &dyn StateMap, start: &[f64]) -> Result<(Label, usize), Error> {
-        let (dimension, expected) = (start.len(), self.points[0].0.len());
-        if dimension != expected {
+        let expected = self.points[0].0.len();
+        let lengths = [start.len(), map.dimension().unwrap_or(expected)];
+        if let Some(dimension) = lengths.into_iter().find(|length| *length != expected) {
             return Err(Error::WrongDimension { dimension, expected });
         }
         let mut orbit = Approach::new(self);
@@ -326,7 +331,7 @@ impl FollowedOrbit for Approach<'_> {
     type End = (Label, usize);
 
     fn see(&mut self) -> Option<(Label, usize)> {
-        let label = if self.is_stopped {
+        let label = if self.is_stopped || self.point.at.iter().any(|x| !x.is_finite()) {
             Label::UNDECIDED_MAP
         } else if self.steps >= self.known.limits.budget {
             Label::UNDECIDED

@@ -184,7 +184,10 @@ impl KnownCells {
         for &number in self.owned.iter().skip(1) {
             self.grids[number].cells_of_columns(columns, cells);
             for (place, &cell) in places.iter_mut().zip(&*cells) {
-                if let (Place::Inside, Some(owner)) = (*place, self.owners[number].of_cell(cell)) {
+                // A state outside has no cell.
+                if matches!(place, Place::Inside)
+                    && let Some(owner) = self.owners[number].of_cell(cell)
+                {
                     *place = Place::Owned(owner);
                 }
             }

@@ -26,6 +26,7 @@ impl Attractors {
     /// [`Error::WrongDimension`] for a point of another dimension.
     pub fn convergence(&self, map: &dyn StateMap, start: &[f64]) -> Result<(Label, usize), Error> {
         self.check_dimension(start.len())?;
+        self.check_dimension(map.dimension().unwrap_or(start.len()))?;
         Ok(Labelled { attractors: self, orbit: Orbit::new(&self.known, &self.limits, start) }
             .follow(map))
     }

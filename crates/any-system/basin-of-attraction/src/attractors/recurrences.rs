@@ -14,6 +14,7 @@ use crate::attractors::state_grid::StateGrid;
 use crate::attractors::state_map::{Moving, Repeats, StateMap};
 use crate::attractors::unmatched::{Remedy, Unmatched, UnmatchedReason, remedy};
 use crate::error::Error;
+use crate::features::attractor_features::MOST_TESTS;
 use crate::space::label::Label;
 use std::collections::BTreeMap;
 
@@ -25,8 +26,8 @@ pub struct Attractor {
     /// Successive points of an orbit on it. Of a cycle these are all of them, one period; else as many as the limits locate, and then one
     /// point of each other cell.
     pub points: Vec<Vec<f64>>,
-    /// The smallest number of steps after which it comes back to each of its points, to 10⁻⁹ of the sides of the region: 1 for a fixed
-    /// point. `None` if there is none up to half of the steps that the limits locate.
+    /// The smallest number of steps after which it comes back to each of its points, to 10⁻⁹ of the sides of the region, and of its size in a
+    /// coordinate without cells: 1 for a fixed point. `None` if there is none up to half of the steps that the limits locate.
     pub period: Option<usize>,
     /// How many of the starts came to it.
     pub starts: usize,
@@ -85,7 +86,7 @@ impl Attractors {
     /// ```
     ///
     /// # Errors
-    /// [`Error::BadSearch`] for a distance of escape that is not positive and finite; [`Error::WrongDimension`] for a map or a start of
+    /// [`Error::BadSearch`] for a distance of escape that is not positive and finite; [`Error::TooManySamples`] for more than 10⁶ tests; [`Error::WrongDimension`] for a map or a start of
     /// another dimension than the states of the grid; [`Error::TooManyAttractors`] beyond 65 000.
     pub fn search(
         map: &dyn StateMap,
@@ -102,6 +103,11 @@ impl Attractors {
         if let Some(value) = limits.escape.filter(|escape| !(*escape > 0.0 && escape.is_finite())) {
             let (name, remedy) = ("a distance of escape", "; give none if there is none");
             return Err(Error::BadSearch { name, value, remedy });
+        }
+        if limits.tests > MOST_TESTS {
+            let remedy =
+                "these are the tests of one candidate: hundreds find all but small openings";
+            return Err(Error::TooManySamples { samples: limits.tests, most: MOST_TESTS, remedy });
         }
         let mut found = Attractors { known, limits, attractors: Vec::new(), unmatched: Vec::new() };
         // The end of the orbit that found each attractor, and for each unmatched start the attractors that were known.
@@ -143,7 +149,7 @@ impl Attractors {
                 End::Escaped => None,
                 End::Unmatched(reason) => Some(reason),
                 End::Budget => {
-                    let drift = drift(map, orbit.at(), self.limits.locate);
+                    let drift = drift(map, &self.known, orbit.at(), self.limits.locate);
                     Some(UnmatchedReason::NotSettled { drift })
                 }
                 End::Settled(settled) => {
@@ -188,8 +194,9 @@ impl Attractors {
 
     /// Locates and tests a candidate; `false` if the tests refuse it.
     fn add_attractor(&mut self, map: &dyn StateMap, settled: &Settled) -> Result<bool, Error> {
-        let (known, limits) = (&self.known, &self.limits);
-        let Some(located) = (Candidate { map, known, limits, settled }).located() else {
+        let Attractors { known, limits, attractors, .. } = &*self;
+        let others = attractors.iter().map(|other| other.points.as_slice()).collect();
+        let Some(located) = (Candidate { map, known, limits, settled, others }).located() else {
             return Ok(false);
         };
         let index = self.attractors.len();

@@ -177,6 +177,22 @@ impl StateGrid {
         }
     }
 
+    /// A state in units of cells: a periodic coordinate is a place on a circle. Coordinates without cells are left out.
+    pub(crate) fn in_cells(&self, state: &[f64]) -> Vec<f64> {
+        let place = |axis: &Axis| {
+            let (x, cells) = (axis.part(state[axis.coordinate]), axis.cells as f64);
+            match axis.is_periodic {
+                true => {
+                    let (sine, cosine) = pxfm::f_sincos(std::f64::consts::TAU * x);
+                    let radius = cells / std::f64::consts::TAU;
+                    vec![radius * cosine, radius * sine]
+                }
+                false => vec![cells * x],
+            }
+        };
+        self.axes.iter().flat_map(place).collect()
+    }
+
     /// The number of cells.
     pub(crate) fn count(&self) -> u64 {
         self.axes.iter().map(|axis| axis.cells).product()
@@ -272,6 +288,11 @@ impl StateGrid {
         };
         let all = self.axes.iter().filter_map(outside);
         all.max_by(|a, b| excess(a).total_cmp(&excess(b))).map(|(border, _)| border)
+    }
+
+    /// The most cells that share a corner with a cell.
+    pub(crate) fn most_neighbours(&self) -> usize {
+        3usize.pow(self.axes.len() as u32)
     }
 
     /// The cells that share at least a corner with a cell.

@@ -17,6 +17,12 @@ const PACES: usize = 4;
 /// Windows to see a trend of an orbit, as many as show that of a candidate.
 const WINDOWS: usize = 8;
 
+/// Ends that are so many cells of the finest grid apart, or fewer, are those of one attractor.
+const TOGETHER: f64 = 3.0;
+
+/// An orbit comes to the candidate if it still goes this part of the way: the estimate of the rest from three windows is rough.
+const COMES: f64 = 0.5;
+
 /// What tests show of the cells of a candidate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Test {
@@ -35,6 +41,8 @@ pub(crate) struct Trap<'a> {
     pub(crate) cells: CellSet,
     /// Its cells on the finest grid.
     pub(crate) finest: &'a CellSet,
+    /// Its ends, in cells of the finest grid.
+    pub(crate) ends: Ends,
     /// Steps of a stretch.
     pub(crate) stretch: usize,
     /// The steps that the candidate took to be found.
@@ -48,12 +56,43 @@ impl Trap<'_> {
         self.grid.cell(at).is_some_and(|cell| self.cells.contains(&cell))
     }
 
-    /// Whether a state lies in cells of the finest grid, or beside them: what lies on the border of two may be in either.
+    /// Whether a state lies in cells of the candidate on the finest grid, or on their border.
     fn is_near(&self, at: &[f64]) -> bool {
         let Some(grid) = self.known.grids().last() else { return true };
         let Some(cell) = grid.cell(at) else { return false };
-        let mut beside = grid.neighbours(cell).into_iter();
-        self.finest.contains(&cell) || beside.any(|near| self.finest.contains(&near))
+        self.finest.contains(&cell)
+            || grid.touched(at).iter().any(|near| self.finest.contains(near))
+    }
+
+    /// The memory for the ends of an orbit, in cells of the finest grid.
+    fn no_ends(&self) -> Ends {
+        self.ends.empty()
+    }
+
+    fn add_to(&self, ends: &mut Ends, at: &[f64]) {
+        if let Some(grid) = self.known.grids().last() {
+            ends.add(&grid.in_cells(at));
+        }
+    }
+
+    /// What an orbit is that stays in the cells and does not come near the candidate, by its ends in windows, one after the other.
+    ///
+    /// If the ends agree they are one: cycles beside each other that all attract as one circle. If the orbit moves it may come to the candidate: its moves
+    /// from window to window shrink by a factor q, so that it still goes as far as the last one times q/(1 − q).
+    fn compare(&self, windows: &[Ends]) -> Test {
+        let [.., before, last, now] = windows else {
+            let is_same = windows.last().is_some_and(|only| only.distance(&self.ends) <= TOGETHER);
+            return if is_same { Test::Stays } else { Test::Apart };
+        };
+        let away = now.distance(&self.ends);
+        if away <= TOGETHER {
+            return Test::Stays;
+        }
+        let (move_before, move_now) = (before.distance(last), last.distance(now));
+        let q = move_now / move_before;
+        let goes_on = if q < 1.0 { move_now * q / (1.0 - q) } else { f64::INFINITY };
+        let comes = have_trend(windows) && goes_on >= COMES * away;
+        if comes { Test::Stays } else { Test::Apart }
     }
 }
 
@@ -75,7 +114,7 @@ enum Part {
     /// So many stretches in all, so many with visits in a row, and whether there is one in this stretch.
     Visits { stretches: usize, visits: usize, comes: bool },
     /// The orbit repeats itself: a turn shows all.
-    Cycle { first: Vec<f64>, comes: bool, is_same: bool },
+    Cycle { first: Vec<f64>, comes: bool, is_same: bool, ends: Ends },
     /// The orbit stays in the cells. If it is not near the candidate, and moves nowhere, there are several attractors in them.
     Comparison(Vec<Ends>),
 }
@@ -112,7 +151,8 @@ impl<'a> TestOrbit<'a> {
         if let Part::Excursion | Part::Visits { .. } = self.part
             && self.repeats.see(&self.point.at).is_some()
         {
-            self.part = Part::Cycle { first: Vec::new(), comes: false, is_same: false };
+            let ends = self.trap.no_ends();
+            self.part = Part::Cycle { first: Vec::new(), comes: false, is_same: false, ends };
         }
         let is_end = self.ends_stretch();
         match &mut self.part {
@@ -130,22 +170,23 @@ impl<'a> TestOrbit<'a> {
                 *visits = if *comes { *visits + 1 } else { 0 };
                 (*comes, *stretches) = (false, *stretches + 1);
                 if *visits >= STRETCHES {
-                    self.part = Part::Comparison(vec![Ends::new(self.point.at.len())]);
+                    self.part = Part::Comparison(vec![self.trap.no_ends()]);
                     return None;
                 }
                 let approach = self.trap.pace.saturating_mul(PACES).div_ceil(self.trap.stretch);
                 (*stretches >= STRETCHES + approach).then_some(Test::Leaves)
             }
-            Part::Cycle { first, comes, is_same } => {
+            Part::Cycle { first, comes, is_same, ends } => {
                 let is_turn = *first == self.point.at;
                 if first.is_empty() {
                     first.clone_from(&self.point.at);
                 }
                 *comes = *comes || self.trap.contains(&self.point.at);
                 *is_same = *is_same || self.trap.is_near(&self.point.at);
+                self.trap.add_to(ends, &self.point.at);
                 match (*comes, *is_same) {
                     (true, true) => Some(Test::Stays),
-                    (true, false) if is_turn => Some(Test::Apart),
+                    (true, false) if is_turn => Some(self.trap.compare(std::slice::from_ref(ends))),
                     _ => is_turn.then_some(Test::Leaves),
                 }
             }
@@ -154,13 +195,13 @@ impl<'a> TestOrbit<'a> {
                     return Some(Test::Stays);
                 }
                 if let Some(last) = windows.last_mut() {
-                    last.add(&self.point.at);
+                    self.trap.add_to(last, &self.point.at);
                 }
                 if is_end && windows.len() == WINDOWS {
-                    return Some(if have_trend(windows) { Test::Stays } else { Test::Apart });
+                    return Some(self.trap.compare(windows));
                 }
                 if is_end {
-                    windows.push(Ends::new(self.point.at.len()));
+                    windows.push(self.trap.no_ends());
                 }
                 None
             }

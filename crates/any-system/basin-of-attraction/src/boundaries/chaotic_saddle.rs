@@ -77,7 +77,7 @@ pub fn saddle_orbit(
         return Err(Error::WrongDimension { dimension, expected });
     }
     let SaddleSearch { stays, largest, smallest, budget, seed } = search;
-    if !(0.0 < smallest && smallest <= largest && largest.is_finite()) {
+    if !(0.0 < smallest && smallest <= largest && (largest / smallest).is_finite()) {
         let remedy = ", not below the smallest one, which is positive";
         return Err(Error::BadSearch { name: "a largest change", value: largest, remedy });
     }
@@ -110,6 +110,7 @@ pub fn saddle_orbit(
         found.largest = found.largest.max(change);
         found.points.push(other);
     }
+    found.points.truncate(points);
     Ok(found)
 }
 

@@ -73,6 +73,7 @@ impl EscapeTimes {
         seed: u64,
     ) -> Result<EscapeTimes, Error> {
         check_count(count)?;
+        check_count(most)?;
         let (expected, dimension) =
             (region.dimension(), map.dimension().unwrap_or(region.dimension()));
         if dimension != expected {

@@ -68,22 +68,24 @@ impl Metric {
         match &self.0 {
             _ if a.len() != b.len() => f64::NAN,
             Kind::Euclidean => differences().map(|off| off * off).sum::<f64>().sqrt(),
-            Kind::Largest => differences()
-                .fold(0.0, |most, off| if off > most || off.is_nan() { off } else { most }),
+            Kind::Largest => differences().fold(0.0, larger),
             Kind::Sum => differences().sum(),
             Kind::Cells(widths) if widths.len() != a.len() => f64::NAN,
             Kind::Cells(widths) => {
                 let cell = |x: f64, width: &f64| (x / width).floor();
-                let apart = a
-                    .iter()
-                    .zip(b)
-                    .zip(widths)
-                    .map(|((a, b), w)| (cell(*a, w) - cell(*b, w)).abs());
-                apart.fold(0.0, |most, off| if off > most || off.is_nan() { off } else { most })
+                let apart = |(a, b): (f64, f64)| if a == b { 0.0 } else { (a - b).abs() };
+                let all = a.iter().zip(b).zip(widths);
+                let cells = all.map(|((a, b), width)| (cell(*a, width), cell(*b, width)));
+                cells.map(apart).fold(0.0, larger)
             }
             Kind::By(distance) => distance(a, b),
         }
     }
+}
+
+/// The larger of two numbers; NaN if the second one is.
+fn larger(most: f64, other: f64) -> f64 {
+    if other > most || other.is_nan() { other } else { most }
 }
 
 impl fmt::Debug for Metric {

@@ -46,7 +46,8 @@ const LONE: f64 = 0.5;
 ///
 /// # Errors
 /// [`Error::BadSearch`] for fewer vectors than `fewest`, and for a `fewest` of 0; [`Error::BadPoint`], [`Error::WrongDimension`] and
-/// [`Error::NoDimension`] for vectors that are not finite, of different lengths, or empty; [`Error::TooManySamples`].
+/// [`Error::NoDimension`] for vectors that are not finite, of different lengths, or empty, and if no two have a finite distance;
+/// [`Error::TooManySamples`].
 pub fn suggested_radius(vectors: &[Vec<f64>], fewest: usize) -> Result<SuggestedRadius, Error> {
     suggested_radius_by(&Metric::euclidean(), vectors, fewest)
 }
@@ -78,6 +79,10 @@ pub fn suggested_radius_by(
             .filter(|[from, below]| *below > WIDE * from && below.is_finite());
         gaps.max_by(|a, b| (a[1] / a[0]).total_cmp(&(b[1] / b[0])))
     };
+    if lengths.iter().all(|length| !length.is_finite()) {
+        let (name, remedy) = ("a distance of features", ", for two of them at least");
+        return Err(Error::BadSearch { name, value: f64::INFINITY, remedy });
+    }
     // Gaps before two groups join; else before lone vectors come to the only group.
     let last = ((1.0 - LONE) * lengths.len() as f64) as usize;
     let groups = joined_groups(&joins, vectors.len(), fewest);
@@ -88,7 +93,7 @@ pub fn suggested_radius_by(
             SuggestedRadius { radius, from, below: Some(below) }
         }
         None => {
-            let from = lengths.last().copied().unwrap_or(floor);
+            let from = lengths.iter().copied().filter(|x| x.is_finite()).fold(floor, f64::max);
             SuggestedRadius { radius: WIDE * from, from, below: None }
         }
     })
@@ -125,12 +130,16 @@ fn joined_groups(joins: &[Join], count: usize, fewest: usize) -> Vec<usize> {
 
 /// The edges of a shortest tree of mutual reachability, from the shortest to the longest one (R. C. Prim's algorithm).
 fn joins(metric: &Metric, vectors: &[Vec<f64>], fewest: usize) -> Vec<Join> {
+    // What has no distance is infinitely far.
+    let distance = |a: &[f64], b: &[f64]| {
+        let distance = metric.distance(a, b);
+        if distance.is_nan() { f64::INFINITY } else { distance }
+    };
     // The radius from which on a vector is dense: within it are `fewest` vectors, its own among them.
     let dense_from: Vec<f64> = vectors
         .par_iter()
         .map(|own| {
-            let mut all: Vec<f64> =
-                vectors.iter().map(|other| metric.distance(own, other)).collect();
+            let mut all: Vec<f64> = vectors.iter().map(|other| distance(own, other)).collect();
             *all.select_nth_unstable_by(fewest - 1, f64::total_cmp).1
         })
         .collect();
@@ -142,7 +151,7 @@ fn joins(metric: &Metric, vectors: &[Vec<f64>], fewest: usize) -> Vec<Join> {
     for _ in 1..vectors.len() {
         let mut next: Option<usize> = None;
         for k in (0..vectors.len()).filter(|&k| !is_in[k]) {
-            let own = metric.distance(&vectors[last], &vectors[k]);
+            let own = distance(&vectors[last], &vectors[k]);
             let reached = own.max(dense_from[last]).max(dense_from[k]);
             if reached < nearest[k].0 {
                 nearest[k] = (reached, last);

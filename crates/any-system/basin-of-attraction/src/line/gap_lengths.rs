@@ -107,7 +107,7 @@ impl GapLengths {
             let (name, remedy) = ("a range of lengths", ", increasing, with a gap that is longer");
             return Err(Error::BadSearch { name, value: long, remedy });
         }
-        Ok(pxfm::f_log(many as f64 / few as f64) / pxfm::f_log(long / short))
+        Ok(pxfm::f_log(many as f64 / few as f64) / (pxfm::f_log(long) - pxfm::f_log(short)))
     }
 }
 

@@ -115,17 +115,25 @@ fn image_of(map: &impl ScalarMap, branch: &Branch, piece: Interval) -> Option<In
     Some(Interval { left: a.min(b), right: a.max(b) })
 }
 
-/// Ends of pieces and of images are wrong by some ulps, which is less than this part of a piece: pieces of fewer ulps are not made.
-const ROUNDING_OF_ENDS: f64 = 1e-9;
+/// Ends of pieces are wrong by an ulp or two of the map, and their images by as many times its slope.
+const ULPS: f64 = 64.0;
 
-fn meets(image: &Interval, piece: &Interval) -> bool {
-    let sliver = ROUNDING_OF_ENDS * piece.length();
-    image.left < piece.right - sliver && piece.left + sliver < image.right
+/// How far ends may be off.
+fn rounding(image: &Interval, piece: &Interval) -> f64 {
+    let largest = [image.left, image.right, piece.left, piece.right];
+    ULPS * f64::EPSILON * largest.into_iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
+/// Whether they may have a point in common.
+fn meets(image: &Interval, piece: &Interval) -> bool {
+    let off = rounding(image, piece);
+    image.left <= piece.right + off && piece.left <= image.right + off
+}
+
+/// Whether the piece lies in the image, up to rounding.
 fn covers(image: &Interval, piece: &Interval) -> bool {
-    let sliver = ROUNDING_OF_ENDS * piece.length();
-    image.left <= piece.left + sliver && piece.right - sliver <= image.right
+    let off = rounding(image, piece);
+    image.left <= piece.left + off && piece.right <= image.right + off
 }
 
 /// The strongly connected component of each piece, and whether each component has a cycle.

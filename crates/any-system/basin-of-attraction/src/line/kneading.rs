@@ -109,7 +109,7 @@ impl KneadingSequence {
             known + Enclosure::new(-rest.high, rest.high)
         };
         // Up to `positive` there is no zero, and at `negative` there was one.
-        let (positive, negative) = first_zero(determinant);
+        let (positive, negative) = first_zero(determinant, MOST_TERMS / signs.len());
         let entropy = |t: f64| (-pxfm::f_log(t)).clamp(0.0, std::f64::consts::LN_2);
         let lower = negative.map_or(0.0, |t| entropy(t) * (1.0 - 2.0 * f64::EPSILON));
         let upper =
@@ -118,8 +118,15 @@ impl KneadingSequence {
     }
 }
 
+/// Terms of all evaluations together: a second. Where the sequence has no entropy the function comes near 0, and steps get short; the bounds hold wherever
+/// they end.
+const MOST_TERMS: usize = 50_000_000;
+
 /// Where a function that is 1 at 0 has no zero up to, from ½ on, and where it is negative then, below 1.
-fn first_zero(function: impl Fn(Enclosure) -> Enclosure) -> (f64, Option<f64>) {
+fn first_zero(
+    function: impl Fn(Enclosure) -> Enclosure,
+    mut evaluations: usize,
+) -> (f64, Option<f64>) {
     /// Parts of the way from ½ to 1 of the first steps. A step that is not proved is halved.
     const PARTS: f64 = 256.0;
     /// The shortest step, as a part of the place: some rounding of the sums.
@@ -127,7 +134,8 @@ fn first_zero(function: impl Fn(Enclosure) -> Enclosure) -> (f64, Option<f64>) {
     // The entropy is at most ln 2: there is no zero below ½.
     let (mut at, mut step) = (0.5, 0.5 / PARTS);
     // Proved steps double the next one.
-    while at < 1.0 && step > SHORTEST {
+    while at < 1.0 && step > SHORTEST && evaluations > 0 {
+        evaluations -= 1;
         let next = (at + step).min(1.0 - f64::EPSILON);
         if next <= at {
             break;

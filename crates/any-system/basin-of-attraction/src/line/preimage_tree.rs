@@ -158,7 +158,7 @@ impl PreimageTree {
 
     /// The nodes of one level.
     pub fn level(&self, level: usize) -> &[TreeNode] {
-        match (self.starts.get(level), self.starts.get(level + 1)) {
+        match (self.starts.get(level), self.starts.get(level.saturating_add(1))) {
             (Some(&from), Some(&to)) => &self.nodes[from..to],
             _ => &[],
         }
@@ -195,7 +195,7 @@ impl PreimageTree {
 
     /// The part of the window that the levels up to `level` leave uncovered.
     pub fn gaps(&self, level: usize) -> IntervalSet {
-        let end = self.starts.get(level + 1).copied().unwrap_or(self.nodes.len());
+        let end = self.starts.get(level.saturating_add(1)).copied().unwrap_or(self.nodes.len());
         let covered = IntervalSet::union(self.nodes[..end].iter().map(|n| n.interval).collect());
         IntervalSet::union(vec![self.window]).minus(&covered)
     }

@@ -55,7 +55,8 @@ pub(crate) fn with_common_labels(
 }
 
 fn labels(of: &Fractions) -> BTreeSet<Label> {
-    of.found.keys().chain(of.attractors.keys()).copied().collect()
+    let all = of.found.keys().chain(of.attractors.keys()).copied();
+    all.filter(|label| label.basin_number().is_some()).collect()
 }
 
 /// What is known of some attractors alone.

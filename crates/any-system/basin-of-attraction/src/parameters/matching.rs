@@ -42,9 +42,12 @@ impl Matching<'_> {
         (_, before): &(f64, Fractions),
         (parameter, after): &(f64, Fractions),
     ) -> AttractorMatch {
-        let all =
-            |own: &Fractions| own.found.keys().chain(own.attractors.keys()).copied().collect();
-        let (one, other): (BTreeSet<Label>, BTreeSet<Label>) = (all(before), all(after));
+        // An escape is the same fate at all parameters, and no attractor.
+        let all = |own: &Fractions| -> BTreeSet<Label> {
+            let labels = own.found.keys().chain(own.attractors.keys()).copied();
+            labels.filter(|label| label.basin_number().is_some()).collect()
+        };
+        let (one, other) = (all(before), all(after));
         let points = |of: &Fractions, label: &Label| of.attractors.get(label).cloned();
         let between = |of: &Unlike<'_>, a: &Label, b: &Label| {
             match (points(before, a), points(after, b)) {
@@ -54,7 +57,7 @@ impl Matching<'_> {
                 _ => None,
             }
         };
-        match self {
+        let mut found = match self {
             Matching::ByLabel => match_by(one, other, |a, b| (a == b).then_some(0.0)),
             Matching::Nearest { within } => {
                 let near = |a: &[Vec<f64>], b: &[Vec<f64>]| {
@@ -82,7 +85,12 @@ impl Matching<'_> {
                     same.then(|| distance().unwrap_or(0.0))
                 })
             }
+        };
+        let escapes = |own: &Fractions| own.found.contains_key(&Label::ESCAPED);
+        if escapes(before) || escapes(after) {
+            found.pairs.push((Label::ESCAPED, Label::ESCAPED, 0.0));
         }
+        found
     }
 }
 

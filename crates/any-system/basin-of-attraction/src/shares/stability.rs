@@ -1,7 +1,8 @@
 //! How stable attractors are against random shocks: fractions, times and distances, in one pass.
 
-use crate::boundaries::boundary_between::{boundary_between, distance};
+use crate::boundaries::boundary_between::{boundary_between, check_point};
 use crate::error::Error;
+use crate::features::metric::Metric;
 use crate::shares::region_fractions::LabelCounts;
 use crate::space::label::Label;
 use crate::statistics::confidence_interval::{
@@ -16,6 +17,7 @@ use std::collections::BTreeMap;
 pub struct Stability {
     counts: LabelCounts,
     attractors: BTreeMap<Label, AttractorStability>,
+    metric: Metric,
 }
 
 /// The stability of one attractor, by random starts.
@@ -98,17 +100,17 @@ impl Stability {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NothingInside`] without starts in the region of interest; [`Error::WrongDimension`] for another number of labels than starts, and for
+    /// [`Error::NothingInside`] without starts in the region of interest; [`Error::BadPoint`] for a coordinate that is not finite; [`Error::WrongDimension`] for another number of labels than starts, and for
     /// points of different dimensions.
     pub fn new(
         attractors: &BTreeMap<Label, Vec<Vec<f64>>>,
         starts: &[Vec<f64>],
         found: &[(Label, usize)],
     ) -> Result<Stability, Error> {
-        Stability::with_distance(attractors, starts, found, distance)
+        Stability::with_distance(attractors, starts, found, Metric::euclidean())
     }
 
-    /// The same with distances of the caller's, such as the short way round an angle.
+    /// The same with another distance, such as the short way round an angle.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -116,7 +118,7 @@ impl Stability {
         attractors: &BTreeMap<Label, Vec<Vec<f64>>>,
         starts: &[Vec<f64>],
         found: &[(Label, usize)],
-        distance: impl Fn(&[f64], &[f64]) -> f64,
+        metric: Metric,
     ) -> Result<Stability, Error> {
         let (dimension, expected) = (found.len(), starts.len());
         if dimension != expected {
@@ -127,10 +129,12 @@ impl Stability {
         if let Some(other) = all.map(Vec::len).find(|length| *length != first) {
             return Err(Error::WrongDimension { dimension: other, expected: first });
         }
+        let all = attractors.values().flatten().chain(starts);
+        all.map(Vec::as_slice).try_for_each(check_point)?;
         let counts = LabelCounts::new(found.iter().map(|(label, _)| *label))?;
         let own = |(&label, points): (&Label, &Vec<Vec<f64>>)| {
             let nearest = |start: &[f64]| {
-                let all = points.iter().map(|point| (distance(point, start), point));
+                let all = points.iter().map(|point| (metric.distance(point, start), point));
                 all.min_by(|a, b| a.0.total_cmp(&b.0))
             };
             let inside = starts.iter().zip(found).filter(|(_, (label, _))| !label.is_outside());
@@ -141,7 +145,7 @@ impl Stability {
             Ok((label, AttractorStability::of(label, &counts, samples.collect())?))
         };
         let attractors = attractors.iter().map(own).collect::<Result<_, Error>>()?;
-        Ok(Stability { counts, attractors })
+        Ok(Stability { counts, attractors, metric })
     }
 
     /// The stability of an attractor; `None` for another label.
@@ -169,14 +173,17 @@ impl Stability {
         precision: f64,
         label: impl Fn(&[f64]) -> Label,
     ) -> Result<(), Error> {
+        let metric = &self.metric;
         for own in self.attractors.values_mut() {
             let Some(fatal) = &mut own.fatal else { continue };
             match boundary_between(&fatal.from, &fatal.state, precision, &label) {
                 Ok(found) => {
-                    // The same line: the size shrinks in proportion, whatever the distance is.
-                    let length = |to: &[f64]| distance(&fatal.from, to);
-                    fatal.size *= length(&found.second.0) / length(&fatal.state);
-                    (fatal.state, fatal.label) = found.second;
+                    let (state, label) = found.second;
+                    let size = metric.distance(&fatal.from, &state);
+                    // By another distance than the Euclidean one the straight line may be the long way.
+                    if size < fatal.size {
+                        (fatal.size, fatal.state, fatal.label) = (size, state, label);
+                    }
                 }
                 Err(Error::NotTwoBasins { .. }) => {}
                 Err(error) => return Err(error),
