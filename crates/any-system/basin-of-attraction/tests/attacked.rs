@@ -116,7 +116,7 @@ fn fatal_shocks_round_a_circle_are_upper_bounds() {
         off.min(TAU - off)
     });
     let label = |x: f64| Label::from(1 + u8::from((-2.9..-1.0).contains(&x)));
-    let starts: Vec<Vec<f64>> = (0..200).map(|k| vec![0.0314 * f64::from(k) - 3.14]).collect();
+    let starts: Vec<Vec<f64>> = (0..200).map(|k| vec![0.0315 * f64::from(k) - 3.15]).collect();
     let found: Vec<(Label, usize)> = starts.iter().map(|x| (label(x[0]), 1)).collect();
     let attractors = [(Label::from(1), vec![vec![3.0]])].into();
     let mut all = Stability::with_distance(&attractors, &starts, &found, round).unwrap();
