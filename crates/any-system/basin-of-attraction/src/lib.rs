@@ -1,4 +1,4 @@
-//! Basins of attraction of scalar maps. A trap decides every label, or the label is marked as undecided.
+//! Attractors and basins of attraction of maps, return maps and flows. A trap decides every label, or the label is marked as undecided.
 //!
 //! ```text
 //!   f(trap) ⊂ trap      basin = trap ∪ f⁻¹(trap) ∪ f⁻²(trap) ∪ …       level k enters the trap after k steps
@@ -32,8 +32,9 @@
 //! | [`Hyperrectangle`], [`region_fractions`] | regions of any dimension, and the fractions of the basins in them |
 //! | [`region_boxes`] | boxes with more than one basin, and entropies, in a region of any dimension |
 //! | [`uncertain_pairs`], [`uncertainty_exponent`] | final-state uncertainty in a region of any dimension |
-//! | [`StateMap`], [`array_map`], [`StateGrid`] | maps of several variables, and cells of their states |
+//! | [`StateMap`], [`array_map`], [`watched_map`](fn@watched_map), [`StateGrid`] | maps of several variables, with progress and interruption, and cells of their states |
 //! | [`Attractors`], [`Unmatched`] | attractors of maps and flows of several variables, found by recurrences and tested as traps |
+//! | [`box_dimension`] | the dimension of an attractor, from the boxes that an orbit visits |
 //! | [`Pilot`] | the limits of a search, from some orbits that are followed before |
 //! | [`KnownAttractors`] | attractors that the caller knows by points: basins by the distance from them, and the time to convergence |
 //! | [`FeatureAttractors`], [`FeatureGroups`], [`suggested_radius`] | the same by features of orbits, grouped by density with a suggested radius, in cells, or beside templates, by any [`Metric`] |
@@ -78,7 +79,7 @@
 //!
 //! # Not here
 //! - Basins as certain sets for maps of more than one variable: regions of any dimension are sampled.
-//! - Integrators of flows: a step of a flow is a closure.
+//! - Integrators of flows: a step of a flow is a closure, or a map of states of the crate `return-map`.
 //! - Lower bounds on distances from a boundary in more than one dimension.
 //!
 //! # References
@@ -105,6 +106,7 @@ mod shares;
 mod space;
 mod statistics;
 
+pub use attractors::box_dimension::box_dimension;
 pub use attractors::known_attractors::{KnownAttractors, KnownLimits};
 pub use attractors::pilot::{Pilot, PilotEnd, PilotOrbit};
 pub use attractors::recurrence_limits::RecurrenceLimits;
@@ -112,6 +114,7 @@ pub use attractors::recurrences::{Attractor, Attractors};
 pub use attractors::state_grid::StateGrid;
 pub use attractors::state_map::{ArrayMap, OrbitFeature, StateMap, array_map};
 pub use attractors::unmatched::{Border, Remedy, Unmatched, UnmatchedReason};
+pub use attractors::watched_map::{WatchedMap, watched_map};
 pub use boundaries::boundary_between::{BoundaryBracket, boundary_between};
 pub use boundaries::boxes::{BoxCount, occupied_boxes};
 pub use boundaries::chaotic_saddle::{SaddleOrbit, SaddleSearch, saddle_orbit};

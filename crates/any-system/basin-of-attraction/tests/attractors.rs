@@ -2,7 +2,7 @@
 
 use basin_of_attraction::{
     Attractors, Error, Hyperrectangle, Interval, Label, RecurrenceLimits, SplitMix64, StateGrid,
-    UnmatchedReason, region_fractions,
+    UnmatchedReason, array_map, box_dimension, region_fractions,
 };
 
 fn region(sides: &[(f64, f64)]) -> Hyperrectangle {
@@ -136,4 +136,19 @@ fn points_without_a_value_and_of_another_dimension_are_reported() {
         let error = Attractors::search(&away, grid(&line, 100), &[vec![0.5]], limits).unwrap_err();
         assert!(matches!(error, Error::BadSearch { .. }), "{escape}: {error}");
     }
+}
+
+/// Published box dimensions of Hénon's attractor are 1.26 to 1.28. A cycle has 0, and an orbit that is not finite is refused.
+#[test]
+fn attractors_have_known_dimensions() {
+    let sizes: Vec<f64> = (0..11).map(|k| 0.5 * 10f64.powf(-0.3 * f64::from(k))).collect();
+    let henon = array_map(|[x, y]| Some([1.0 - 1.4 * x * x + y, 0.3 * x]));
+    let law = box_dimension(&henon, &[0.1, 0.1], 500_000, &sizes, 1).unwrap();
+    assert!((1.2..1.33).contains(&law.exponent), "{law:?}");
+    let flip = array_map(|[x]: [f64; 1]| Some([-x]));
+    let law = box_dimension(&flip, &[2.0], 1000, &sizes, 1).unwrap();
+    assert!(law.exponent.abs() < 1e-12, "{law:?}");
+    let away = array_map(|[x]: [f64; 1]| Some([1e10 * x]));
+    assert!(box_dimension(&away, &[1.0], 1000, &sizes, 1).is_err());
+    assert!(box_dimension(&flip, &[2.0], 1000, &[0.0, 0.1, 0.2], 1).is_err());
 }

@@ -2,6 +2,9 @@
 
 use crate::space::interval::Interval;
 
+/// What converges to the border of two cells ends some ulps from it, on either side: within this part of a cell.
+const BORDER: f64 = 1e-9;
+
 /// The cells along one coordinate.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Axis {
@@ -52,19 +55,23 @@ impl Axis {
         (at as i64 as u64).min(self.cells - 1)
     }
 
+    /// Whether a place on the side is on the border of two cells, to rounding.
+    pub(crate) fn is_on_border(&self, x: f64) -> bool {
+        let at = self.part(x) * self.cells as f64;
+        (at - at.round()).abs() < BORDER
+    }
+
     /// The cell of a place on the side, and the one beside it if the place is on their border, to rounding.
     pub(crate) fn touched(&self, x: f64) -> Vec<u64> {
-        /// What converges to a border ends some ulps from it, on either side.
-        const BORDER: f64 = 1e-9;
-        let at = self.part(x) * self.cells as f64;
         let own = self.cell(x);
-        let beside = match at - own as f64 {
-            off if off < BORDER => own.checked_sub(1).or(self.is_periodic.then(|| self.cells - 1)),
-            off if off > 1.0 - BORDER => {
-                let next = own + 1;
-                if next < self.cells { Some(next) } else { self.is_periodic.then_some(0) }
-            }
-            _ => None,
+        if !self.is_on_border(x) {
+            return vec![own];
+        }
+        // The border is on the left of the cell, or on its right.
+        let beside = match self.part(x) * self.cells as f64 - (own as f64) < 0.5 {
+            true => own.checked_sub(1).or(self.is_periodic.then(|| self.cells - 1)),
+            false if own + 1 < self.cells => Some(own + 1),
+            false => self.is_periodic.then_some(0),
         };
         std::iter::once(own).chain(beside).collect()
     }

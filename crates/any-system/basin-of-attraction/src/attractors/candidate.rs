@@ -61,7 +61,7 @@ impl Points {
             cells.entry(grid.cell(point)?).or_insert(point);
         }
         // An orbit that converges to the border of two cells may end in either.
-        for point in self.all() {
+        for point in self.all().filter(|point| grid.is_on_border(point)) {
             for cell in grid.touched(point) {
                 cells.entry(cell).or_insert(point);
             }

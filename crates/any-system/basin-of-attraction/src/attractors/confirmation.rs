@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 pub(crate) const CONFIRMED: usize = 10;
 
 /// Windows of these steps, to see a trend.
-const WINDOWS: usize = 8;
+pub(crate) const WINDOWS: usize = 8;
 
 /// The part of the steps of a quarter that must lie in cells of the other quarter. A chaotic attractor on a fine
 /// grid has cells that are visited once; of a transient hardly any cell is visited again.

@@ -1,17 +1,26 @@
 //! The first steps of many orbits, column by column: most orbits have come to a known attractor by then.
 
-use crate::attractors::followed_orbit::{End, UNTRACKED};
+use crate::attractors::followed_orbit::UNTRACKED;
 use crate::attractors::known_cells::{KnownCells, Place};
 use crate::attractors::recurrence_limits::RecurrenceLimits;
 use crate::attractors::state_map::StateMap;
-use crate::attractors::unmatched::UnmatchedReason;
 
 /// Orbits after some steps.
 pub(crate) struct FirstSteps {
     /// For each orbit its end, and the steps until then, if it has ended.
-    pub(crate) ends: Vec<Option<(End, usize)>>,
+    pub(crate) ends: Vec<Option<(EarlyEnd, usize)>>,
     /// The others.
     pub(crate) others: Vec<Unended>,
+}
+
+/// How an orbit ends before its recurrences are looked for.
+#[derive(Clone, Copy)]
+pub(crate) enum EarlyEnd {
+    /// At the attractor with this index.
+    Known(usize),
+    Escaped,
+    /// The map has no value, or one that is not finite.
+    Stopped,
 }
 
 /// An orbit that goes on.
@@ -69,7 +78,7 @@ pub(crate) fn first_steps(
         known.wrap(&mut state);
         columns.iter_mut().zip(&state).for_each(|(column, x)| column[number] = *x);
     }
-    let mut ends: Vec<Option<(End, usize)>> = (0..count).map(|_| None).collect();
+    let mut ends: Vec<Option<(EarlyEnd, usize)>> = vec![None; count];
     let mut followed = Followed {
         numbers: (0..count).collect(),
         columns,
@@ -86,8 +95,8 @@ pub(crate) fn first_steps(
         known.places(&followed.columns, &mut cells, &mut places);
         followed.retain(|followed, lane| {
             let end = match places[lane] {
-                _ if !followed.has_image[lane] => End::Unmatched(UnmatchedReason::Stopped),
-                Place::Owned(own) => End::Known(own),
+                _ if !followed.has_image[lane] => EarlyEnd::Stopped,
+                Place::Owned(own) => EarlyEnd::Known(own),
                 Place::Inside => {
                     followed.outside[lane] = 0;
                     return true;
@@ -96,9 +105,9 @@ pub(crate) fn first_steps(
                     let at = || followed.columns.iter().map(|column| column[lane]);
                     let beyond = |escape: f64| at().any(|x| x.abs() > escape);
                     if !at().all(f64::is_finite) {
-                        End::Unmatched(UnmatchedReason::Stopped)
+                        EarlyEnd::Stopped
                     } else if limits.escape.is_some_and(beyond) {
-                        End::Escaped
+                        EarlyEnd::Escaped
                     } else {
                         followed.outside[lane] += 1;
                         return true;
@@ -119,7 +128,7 @@ pub(crate) fn first_steps(
     let mut others = Vec::new();
     for (lane, &number) in followed.numbers.iter().enumerate() {
         if !followed.has_image[lane] {
-            ends[number] = Some((End::Unmatched(UnmatchedReason::Stopped), steps - 1));
+            ends[number] = Some((EarlyEnd::Stopped, steps - 1));
             continue;
         }
         let at = followed.columns.iter().map(|column| column[lane]).collect();

@@ -36,6 +36,11 @@ impl StateGrid {
         self.axes.iter().flat_map(place).collect()
     }
 
+    /// Whether a state of the region is on the border of cells, to rounding.
+    pub(crate) fn is_on_border(&self, state: &[f64]) -> bool {
+        self.axes.iter().any(|axis| axis.is_on_border(state[axis.coordinate]))
+    }
+
     /// The cells that contain a state of the region, or touch it: two where it is on the border of two, to rounding.
     pub(crate) fn touched(&self, state: &[f64]) -> Vec<u64> {
         let (mut found, mut unit) = (vec![0], 1u64);

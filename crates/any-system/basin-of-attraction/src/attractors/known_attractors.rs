@@ -1,10 +1,10 @@
 //! Attractors that the caller knows by points, and basins by the distance from them.
 
 use crate::attractors::many_orbits::{FollowedOrbit, follow_some, in_parts};
+use crate::attractors::recurrence_limits::MOST_TESTS;
 use crate::attractors::state_map::{Moving, StateMap};
 use crate::boundaries::boundary_between::distance;
 use crate::error::Error;
-use crate::features::attractor_features::MOST_TESTS;
 use crate::space::label::Label;
 use crate::statistics::split_mix::SplitMix64;
 use rayon::prelude::*;
@@ -100,8 +100,8 @@ impl KnownAttractors {
         }
     }
 
-    /// The same with a distance that is suggested from the points: half of the smallest distance between two attractors, or the size of a
-    /// single one, halved until the tests pass.
+    /// The same with a distance that is suggested from the points: half of the smallest distance between two attractors, or of
+    /// a single one the largest coordinate of its points, and 1 at least; halved until the tests pass.
     ///
     /// # Errors
     /// As [`new`](Self::new). No distance may pass: the points may be none of attractors, or too few of them.
@@ -159,7 +159,7 @@ impl KnownAttractors {
         }
         let mut own = Vec::with_capacity(all);
         for (&label, points) in points {
-            if !label.is_basin() {
+            if label.basin_number().is_none() {
                 let (name, remedy) = ("the code of a label", "; it must be that of a basin");
                 return Err(Error::BadSearch { name, value: f64::from(label.code()), remedy });
             }

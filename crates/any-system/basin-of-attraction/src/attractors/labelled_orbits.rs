@@ -1,14 +1,15 @@
 //! To which attractor do orbits come, and when: one orbit, many at once, the pixels of a window.
 
-use crate::attractors::first_steps::{FirstSteps, first_steps};
+use crate::attractors::first_steps::{EarlyEnd, FirstSteps, first_steps};
 use crate::attractors::followed_orbit::{End, Orbit, Settled};
 use crate::attractors::many_orbits::{FollowedOrbit, follow_some, in_parts};
 use crate::attractors::recurrences::Attractors;
-use crate::attractors::state_map::{Moving, StateMap};
+use crate::attractors::state_map::{Moving, StateMap, check_map};
 use crate::attractors::unmatched::UnmatchedReason;
 use crate::error::Error;
 use crate::space::label::Label;
 use crate::space::raster::{Grid, LabelImage};
+use crate::space::value_image::ValueImage;
 
 impl Attractors {
     /// The label of the attractor to which the orbit of a point comes; undecided if it comes to none of them.
@@ -26,7 +27,7 @@ impl Attractors {
     /// [`Error::WrongDimension`] for a point of another dimension.
     pub fn convergence(&self, map: &dyn StateMap, start: &[f64]) -> Result<(Label, usize), Error> {
         self.check_dimension(start.len())?;
-        self.check_dimension(map.dimension().unwrap_or(start.len()))?;
+        check_map(map, self.known.dimension())?;
         Ok(Labelled { attractors: self, orbit: Orbit::new(&self.known, &self.limits, start) }
             .follow(map))
     }
@@ -53,7 +54,7 @@ impl Attractors {
         start: impl Fn(usize, &mut [f64]) + Sync,
     ) -> Result<Vec<(Label, usize)>, Error> {
         let dimension = self.known.dimension();
-        self.check_dimension(map.dimension().unwrap_or(dimension))?;
+        check_map(map, dimension)?;
         let Attractors { known, limits, .. } = self;
         let orbit = || Labelled {
             attractors: self,
@@ -64,7 +65,11 @@ impl Attractors {
             let FirstSteps { ends, others } = first_steps(map, known, limits, count, start);
             let begin = |k: usize, own: &mut Labelled<'_>| own.orbit.resume(known, &others[k]);
             let later = follow_some(map, dimension, others.len(), orbit, begin);
-            let label = |(end, steps)| (self.label_at(&end).unwrap_or(Label::UNDECIDED), steps);
+            let label = |(end, steps)| match end {
+                EarlyEnd::Known(own) => (self.attractors()[own].label, steps),
+                EarlyEnd::Escaped => (Label::ESCAPED, steps),
+                EarlyEnd::Stopped => (Label::UNDECIDED_MAP, steps),
+            };
             let mut found: Vec<(Label, usize)> =
                 ends.into_iter().map(|end| end.map_or((Label::UNDECIDED, 0), label)).collect();
             for (other, end) in others.iter().zip(later) {
@@ -84,12 +89,29 @@ impl Attractors {
         grid: Grid,
         state: impl Fn(f64, f64, &mut [f64]) + Sync,
     ) -> Result<LabelImage, Error> {
+        self.raster_with_times(map, grid, state).map(|(labels, _)| labels)
+    }
+
+    /// The labels, and the times of convergence in steps; NaN for undecided pixels.
+    ///
+    /// # Errors
+    /// As [`raster`](Self::raster).
+    pub fn raster_with_times(
+        &self,
+        map: &dyn StateMap,
+        grid: Grid,
+        state: impl Fn(f64, f64, &mut [f64]) + Sync,
+    ) -> Result<(LabelImage, ValueImage<f64>), Error> {
         let pixel = |k: usize, own: &mut [f64]| {
             state(grid.x_at(k % grid.columns), grid.y_at(k / grid.columns), own);
         };
         let found = self.convergences(map, grid.pixels()?, pixel)?;
+        let time = |(label, steps): &(Label, usize)| {
+            if label.is_undecided() { f64::NAN } else { *steps as f64 }
+        };
+        let values = found.iter().map(time).collect();
         let labels = found.into_iter().map(|(label, _)| label).collect();
-        Ok(LabelImage { grid, labels })
+        Ok((LabelImage { grid, labels }, ValueImage { grid, values }))
     }
 
     fn check_dimension(&self, dimension: usize) -> Result<(), Error> {

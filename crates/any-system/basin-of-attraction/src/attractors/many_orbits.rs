@@ -16,6 +16,11 @@ pub(crate) trait FollowedOrbit {
 
     /// Notes that it was moved, or that the map had no value.
     fn moved(&mut self, has_image: bool);
+
+    /// Makes steps whose points need no look, if it is followed alone.
+    fn skip(&mut self, map: &dyn StateMap) {
+        let _ = map;
+    }
 }
 
 /// Orbits that are moved together: enough for maps that compute eight at a time while some of them take longer.
@@ -65,6 +70,7 @@ fn follow_alone<O: FollowedOrbit>(
             }
             let has_image = orbit.point().step(map);
             orbit.moved(has_image);
+            orbit.skip(map);
         }
     };
     (0..count).map(follow).collect()

@@ -3,7 +3,7 @@
 use crate::attractors::known_cells::{CellSet, KnownCells};
 use crate::attractors::recurrence_limits::RecurrenceLimits;
 use crate::attractors::state_grid::StateGrid;
-use crate::attractors::state_map::{Moving, Repeats, StateMap};
+use crate::attractors::state_map::{Moving, Repeats, StateMap, check_starts};
 use crate::error::Error;
 use rayon::prelude::*;
 use std::fmt;
@@ -85,10 +85,7 @@ impl Pilot {
         steps: usize,
     ) -> Result<Pilot, Error> {
         let expected = grid.dimension();
-        let lengths = map.dimension().into_iter().chain(starts.iter().map(Vec::len));
-        if let Some(dimension) = lengths.into_iter().find(|length| *length != expected) {
-            return Err(Error::WrongDimension { dimension, expected });
-        }
+        check_starts(map, starts, expected)?;
         if !(100..=1_000_000_000).contains(&steps) {
             let (name, remedy) = ("a number of steps", ", from 100 to 10⁹");
             return Err(Error::BadSearch { name, value: steps as f64, remedy });

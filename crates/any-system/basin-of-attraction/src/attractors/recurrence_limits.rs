@@ -1,5 +1,8 @@
 //! The limits of a search of attractors by recurrences.
 
+/// More tests of an attractor than this take hours, and would find openings of a hundred-thousandth of the neighbourhood.
+pub(crate) const MOST_TESTS: usize = 1_000_000;
+
 /// How attractors are searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RecurrenceLimits {

@@ -9,13 +9,12 @@ use crate::attractors::candidate::Candidate;
 use crate::attractors::confirmation::drift;
 use crate::attractors::followed_orbit::{End, Orbit, Settled};
 use crate::attractors::known_cells::KnownCells;
-use crate::attractors::recurrence_limits::RecurrenceLimits;
+use crate::attractors::recurrence_limits::{MOST_TESTS, RecurrenceLimits};
 use crate::attractors::state_grid::StateGrid;
-use crate::attractors::state_map::{Moving, Repeats, StateMap};
+use crate::attractors::state_map::{Moving, Repeats, StateMap, check_starts};
 use crate::attractors::unmatched::{Remedy, Unmatched, UnmatchedReason, remedy};
 use crate::error::Error;
-use crate::features::attractor_features::MOST_TESTS;
-use crate::space::label::Label;
+use crate::space::label::{Label, label_of_attractor};
 use std::collections::BTreeMap;
 
 /// An attractor, located to the cells of a grid.
@@ -96,10 +95,7 @@ impl Attractors {
     ) -> Result<Attractors, Error> {
         let known = KnownCells::new(grid);
         let expected = known.dimension();
-        let lengths = map.dimension().into_iter().chain(starts.iter().map(Vec::len));
-        if let Some(dimension) = lengths.into_iter().find(|length| *length != expected) {
-            return Err(Error::WrongDimension { dimension, expected });
-        }
+        check_starts(map, starts, expected)?;
         if let Some(value) = limits.escape.filter(|escape| !(*escape > 0.0 && escape.is_finite())) {
             let (name, remedy) = ("a distance of escape", "; give none if there is none");
             return Err(Error::BadSearch { name, value, remedy });
@@ -200,7 +196,8 @@ impl Attractors {
             return Ok(false);
         };
         let index = self.attractors.len();
-        let (label, points, period) = (label_of(index)?, located.points, located.period);
+        let (label, points, period) =
+            (label_of_attractor(index + 1)?, located.points, located.period);
         self.attractors.push(Attractor { label, points, period, starts: 1 });
         self.known.add(located.grid, located.cells.into_iter(), index);
         Ok(true)
@@ -253,14 +250,4 @@ impl Attractors {
         }
         None
     }
-}
-
-/// Attractors beyond this number would take labels that mean other things.
-const MOST_ATTRACTORS: u16 = 65_000;
-
-/// The label of the attractor with this index.
-fn label_of(index: usize) -> Result<Label, Error> {
-    let number = u16::try_from(index + 1).ok().filter(|&number| number <= MOST_ATTRACTORS);
-    let most = usize::from(MOST_ATTRACTORS);
-    number.and_then(Label::basin).ok_or(Error::TooManyAttractors { most })
 }

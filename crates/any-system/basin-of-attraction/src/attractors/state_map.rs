@@ -2,6 +2,8 @@
 //!
 //! Maps are called through a pointer: a search is compiled once, not for each map.
 
+use crate::error::Error;
+
 /// A map of states: a map, a return map, or a flow over some time. It is called from several threads.
 ///
 /// Closures `Fn(&[f64]) -> Option<Vec<f64>>` are maps, for any number of coordinates. [`array_map`] makes one of a closure on arrays, which
@@ -18,7 +20,7 @@ pub trait StateMap: Sync {
     /// Moves many states to their images. `states` has a column for each coordinate, and `has_image` says which of them have one. The images
     /// must have the bits of [`image`](Self::image): so a map that computes several at once is free to do so.
     ///
-    /// Called where [`has_lanes`](Self::has_lanes). Default: one after the other.
+    /// Default: one after the other.
     fn images(&self, states: &mut [Vec<f64>], has_image: &mut [bool]) {
         let mut point = Moving::from(&vec![0.0; states.len()]);
         for (k, has_image) in has_image.iter_mut().enumerate() {
@@ -28,7 +30,8 @@ pub trait StateMap: Sync {
         }
     }
 
-    /// Whether [`images`](Self::images) takes less time than the images one after the other. Default: no.
+    /// Whether [`images`](Self::images) of some tens of states takes less time than the images one after the other: then orbits are followed together to
+    /// their ends. Default: no.
     fn has_lanes(&self) -> bool {
         false
     }
@@ -96,6 +99,29 @@ impl<F: Fn([f64; N]) -> Option<[f64; N]> + Sync, const N: usize> StateMap for Ar
 
 /// Numbers that tell attractors apart, made of the successive points of a stretch of an orbit.
 pub type OrbitFeature<'a> = dyn Fn(&[Vec<f64>]) -> Vec<f64> + Sync + 'a;
+
+/// An error unless a map takes states with so many coordinates.
+pub(crate) fn check_map(map: &dyn StateMap, expected: usize) -> Result<(), Error> {
+    match map.dimension() {
+        Some(dimension) if dimension != expected => {
+            Err(Error::WrongDimension { dimension, expected })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// An error unless a map and all these states have so many coordinates.
+pub(crate) fn check_starts(
+    map: &dyn StateMap,
+    starts: &[Vec<f64>],
+    expected: usize,
+) -> Result<(), Error> {
+    check_map(map, expected)?;
+    match starts.iter().map(Vec::len).find(|length| *length != expected) {
+        Some(dimension) => Err(Error::WrongDimension { dimension, expected }),
+        None => Ok(()),
+    }
+}
 
 /// A state that moves, with memory for its image.
 #[derive(Debug, Clone)]

@@ -1,10 +1,10 @@
 //! A test of the cells of a candidate: does an orbit from in or beside them come to them, and stay?
 
-use crate::attractors::confirmation::{Ends, have_trend};
+use crate::attractors::confirmation::{Ends, WINDOWS, have_trend};
 use crate::attractors::known_cells::{CellSet, KnownCells};
 use crate::attractors::many_orbits::FollowedOrbit;
 use crate::attractors::state_grid::StateGrid;
-use crate::attractors::state_map::{Moving, Repeats};
+use crate::attractors::state_map::{Moving, Repeats, StateMap};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Successive stretches in each of which an orbit must visit the cells. A passage that is left within some thousand steps shows itself in
@@ -14,11 +14,8 @@ const STRETCHES: usize = 3;
 /// The time that an orbit may take to come to the cells, in units of the time that the candidate took to be found.
 const PACES: usize = 4;
 
-/// Windows to see a trend of an orbit, as many as show that of a candidate.
-const WINDOWS: usize = 8;
-
 /// Ends that are so many cells of the finest grid apart, or fewer, are those of one attractor.
-const TOGETHER: f64 = 3.0;
+const SAME_ENDS: f64 = 3.0;
 
 /// An orbit comes to the candidate if it still goes this part of the way: the estimate of the rest from three windows is rough.
 const COMES: f64 = 0.5;
@@ -81,11 +78,11 @@ impl Trap<'_> {
     /// from window to window shrink by a factor q, so that it still goes as far as the last one times q/(1 − q).
     fn compare(&self, windows: &[Ends]) -> Test {
         let [.., before, last, now] = windows else {
-            let is_same = windows.last().is_some_and(|only| only.distance(&self.ends) <= TOGETHER);
+            let is_same = windows.last().is_some_and(|only| only.distance(&self.ends) <= SAME_ENDS);
             return if is_same { Test::Stays } else { Test::Apart };
         };
         let away = now.distance(&self.ends);
-        if away <= TOGETHER {
+        if away <= SAME_ENDS {
             return Test::Stays;
         }
         let (move_before, move_now) = (before.distance(last), last.distance(now));
@@ -104,8 +101,14 @@ pub(crate) struct TestOrbit<'a> {
     /// Points of the stretch so far.
     points: usize,
     repeats: Repeats,
+    /// Points that were looked at for repeats.
+    looked: usize,
     is_stopped: bool,
 }
+
+/// Points in which an orbit is expected to repeat itself, if it does so soon: most orbits that come to a cycle of few points do. Those of chaos never do, and
+/// a look takes as long as a step.
+const LOOKED: usize = 256;
 
 /// The parts of a test, one after the other.
 enum Part {
@@ -127,6 +130,7 @@ impl<'a> TestOrbit<'a> {
             part: Part::Excursion,
             points: 0,
             repeats: Repeats::default(),
+            looked: 0,
             is_stopped: false,
         }
     }
@@ -135,6 +139,7 @@ impl<'a> TestOrbit<'a> {
         start(&mut self.point.at);
         (self.part, self.points, self.is_stopped) = (Part::Excursion, 0, false);
         self.repeats.forget();
+        self.looked = 0;
     }
 
     /// Counts a point; true at the end of a stretch.
@@ -149,11 +154,13 @@ impl<'a> TestOrbit<'a> {
 
     fn test(&mut self) -> Option<Test> {
         if let Part::Excursion | Part::Visits { .. } = self.part
+            && self.looked < LOOKED
             && self.repeats.see(&self.point.at).is_some()
         {
             let ends = self.trap.no_ends();
             self.part = Part::Cycle { first: Vec::new(), comes: false, is_same: false, ends };
         }
+        self.looked += 1;
         let is_end = self.ends_stretch();
         match &mut self.part {
             Part::Excursion => {
@@ -232,5 +239,18 @@ impl FollowedOrbit for TestOrbit<'_> {
     fn moved(&mut self, has_image: bool) {
         self.is_stopped = !has_image;
         self.trap.known.wrap(&mut self.point.at);
+    }
+
+    /// In an excursion, and behind a visit, only the end of the stretch counts.
+    fn skip(&mut self, map: &dyn StateMap) {
+        let waits = matches!(self.part, Part::Excursion | Part::Visits { comes: true, .. });
+        if !waits || self.looked < LOOKED {
+            return;
+        }
+        while self.points + 1 < self.trap.stretch && !self.is_stopped {
+            let has_image = self.point.step(map);
+            self.moved(has_image);
+            self.points += 1;
+        }
     }
 }

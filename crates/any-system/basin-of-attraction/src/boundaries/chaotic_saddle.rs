@@ -1,6 +1,6 @@
 //! Orbits on a chaotic saddle: the set of points whose orbits never leave a region, though almost all others do.
 
-use crate::attractors::state_map::{Moving, StateMap};
+use crate::attractors::state_map::{Moving, StateMap, check_map};
 use crate::boundaries::escape_times::Inside;
 use crate::error::Error;
 use crate::space::hyperrectangle::Hyperrectangle;
@@ -72,10 +72,8 @@ pub fn saddle_orbit(
     points: usize,
     search: SaddleSearch,
 ) -> Result<SaddleOrbit, Error> {
-    let (expected, dimension) = (region.dimension(), map.dimension().unwrap_or(region.dimension()));
-    if dimension != expected {
-        return Err(Error::WrongDimension { dimension, expected });
-    }
+    let dimension = region.dimension();
+    check_map(map, dimension)?;
     let SaddleSearch { stays, largest, smallest, budget, seed } = search;
     if !(0.0 < smallest && smallest <= largest && (largest / smallest).is_finite()) {
         let remedy = ", not below the smallest one, which is positive";

@@ -1,7 +1,7 @@
 //! How fast orbits leave a region: the numbers that are left, and the rate of escape with intervals.
 
 use crate::attractors::many_orbits::{FollowedOrbit, follow_some, in_parts};
-use crate::attractors::state_map::{Moving, StateMap};
+use crate::attractors::state_map::{Moving, StateMap, check_map};
 use crate::error::Error;
 use crate::shares::sampling::check_count;
 use crate::space::hyperrectangle::Hyperrectangle;
@@ -74,11 +74,8 @@ impl EscapeTimes {
     ) -> Result<EscapeTimes, Error> {
         check_count(count)?;
         check_count(most)?;
-        let (expected, dimension) =
-            (region.dimension(), map.dimension().unwrap_or(region.dimension()));
-        if dimension != expected {
-            return Err(Error::WrongDimension { dimension, expected });
-        }
+        let dimension = region.dimension();
+        check_map(map, dimension)?;
         let random = SplitMix64::from_seed(seed);
         let times = in_parts(count, |first, count| {
             let orbit = || Transient {

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::shares::sampling::check_count;
 use crate::space::hyperrectangle::Hyperrectangle;
 use crate::space::label::Label;
-use crate::statistics::confidence_interval::{ConfidenceInterval, proportion_interval};
+use crate::statistics::confidence_interval::{ConfidenceInterval, open_proportion};
 use crate::statistics::split_mix::SplitMix64;
 use rayon::prelude::*;
 
@@ -24,16 +24,13 @@ pub struct PairCount {
 }
 
 impl PairCount {
-    /// The fraction of uncertain pairs, with a 95 % interval: from the lower end of [`proportion_interval`] without
+    /// The fraction of uncertain pairs, with a 95 % interval: from the lower end of [`proportion_interval`](crate::proportion_interval) without
     /// the open pairs to the upper end with all of them.
     ///
     /// # Errors
     /// [`Error::BadTrials`] without pairs.
     pub fn fraction(&self) -> Result<ConfidenceInterval, Error> {
-        let ConfidenceInterval { value, lower, .. } =
-            proportion_interval(self.uncertain, self.pairs)?;
-        let upper = proportion_interval(self.uncertain + self.open, self.pairs)?.upper;
-        Ok(ConfidenceInterval { value, lower, upper })
+        open_proportion(self.uncertain, self.open, self.pairs)
     }
 }
 

@@ -6,6 +6,7 @@
 //! orbit is given to the nearest group: it belongs to a group if several successive stretches do, and a group is an
 //! attractor only if orbits beside it come to it.
 
+use crate::attractors::recurrence_limits::MOST_TESTS;
 use crate::attractors::state_map::{Moving, OrbitFeature, StateMap};
 use crate::attractors::unmatched::{Unmatched, UnmatchedReason};
 use crate::error::Error;
@@ -15,9 +16,6 @@ use crate::space::label::Label;
 use crate::statistics::split_mix::SplitMix64;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// More tests of an attractor than this take hours, and would find openings of a hundred-thousandth of the neighbourhood.
-pub(crate) const MOST_TESTS: usize = 1_000_000;
 
 /// How orbits are made into features, and features into groups.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::features::metric::Metric;
-use crate::space::label::Label;
+use crate::space::label::{Label, label_of_attractor};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -64,7 +64,7 @@ impl FeatureGroups {
         radius: f64,
     ) -> Result<Self, Error> {
         check(templates.iter().map(|(_, vector)| vector), radius)?;
-        match templates.iter().find(|(label, _)| !label.is_basin()) {
+        match templates.iter().find(|(label, _)| label.basin_number().is_none()) {
             Some(&(label, _)) => Err(Error::NoBasin { label }),
             None => Ok(FeatureGroups { metric, radius, vectors: templates.to_vec() }),
         }
@@ -170,7 +170,7 @@ impl FeatureGroups {
             }
         }
         let labelled = group.iter().zip(vectors).filter_map(|(group, (_, vector))| {
-            group.map(|number| Ok((label_of(number)?, vector.clone())))
+            group.map(|number| Ok((label_of_attractor(number)?, vector.clone())))
         });
         let vectors = labelled.collect::<Result<_, Error>>()?;
         Ok(FeatureGroups { metric, radius, vectors })
@@ -266,14 +266,6 @@ impl FeatureGroups {
 
 /// Cells have whole distances: below 1 is the same one.
 const SAME_CELL: f64 = 0.5;
-
-/// The label of group `number`.
-fn label_of(number: usize) -> Result<Label, Error> {
-    /// As for attractors by recurrences: larger numbers have other meanings.
-    const MOST: usize = 65_000;
-    let found = u16::try_from(number).ok().filter(|_| number <= MOST).and_then(Label::basin);
-    found.ok_or(Error::TooManyAttractors { most: MOST })
-}
 
 /// Tests the radius, and that all vectors are finite and of one length.
 pub(crate) fn check<'a>(

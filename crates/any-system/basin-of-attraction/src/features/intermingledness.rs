@@ -37,7 +37,9 @@ pub fn intermingledness(
     }
     crate::features::feature_groups::check_feature_count(points.len())?;
     let mut groups: BTreeMap<Label, Vec<&[f64]>> = BTreeMap::new();
-    for (point, label) in points.iter().zip(labels).filter(|(_, label)| label.is_basin()) {
+    for (point, label) in
+        points.iter().zip(labels).filter(|(_, label)| label.basin_number().is_some())
+    {
         groups.entry(*label).or_default().push(point);
     }
     let mean = |one: &[&[f64]], other: &[&[f64]]| {

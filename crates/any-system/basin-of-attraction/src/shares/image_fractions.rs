@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::space::label::Label;
 use crate::space::raster::LabelImage;
 use crate::statistics::bounds::Bounds;
-use crate::statistics::confidence_interval::{ConfidenceInterval, proportion_interval};
+use crate::statistics::confidence_interval::{ConfidenceInterval, open_proportion};
 use std::collections::BTreeMap;
 
 impl LabelImage {
@@ -12,7 +12,7 @@ impl LabelImage {
     /// points.
     ///
     /// The fractions are of the pixels inside the region of interest. An undecided pixel may belong to any basin:
-    /// the interval begins at the lower end of [`proportion_interval`] without the undecided pixels, and ends at
+    /// the interval begins at the lower end of [`proportion_interval`](crate::proportion_interval) without the undecided pixels, and ends at
     /// the upper end with all of them. Pixels on a grid have smaller errors than random points where the basins are
     /// wider than pixels; the interval is then wider than it need be. A basin that repeats with the period of the
     /// grid breaks the model.
@@ -22,11 +22,8 @@ impl LabelImage {
     /// region of interest.
     pub fn fractions_as_random_points(&self) -> Result<BTreeMap<Label, ConfidenceInterval>, Error> {
         let (counts, all, undecided) = self.inside()?;
-        let fraction = |(label, found): (Label, usize)| {
-            let ConfidenceInterval { value, lower, .. } = proportion_interval(found, all)?;
-            let upper = proportion_interval(found + undecided, all)?.upper;
-            Ok((label, ConfidenceInterval { value, lower, upper }))
-        };
+        let fraction =
+            |(label, found): (Label, usize)| Ok((label, open_proportion(found, undecided, all)?));
         counts.into_iter().map(fraction).collect()
     }
 

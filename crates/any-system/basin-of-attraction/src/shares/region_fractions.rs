@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::shares::sampling::check_count;
 use crate::space::hyperrectangle::Hyperrectangle;
 use crate::space::label::Label;
-use crate::statistics::confidence_interval::{ConfidenceInterval, proportion_interval};
+use crate::statistics::confidence_interval::{ConfidenceInterval, open_proportion};
 use crate::statistics::split_mix::SplitMix64;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -62,7 +62,7 @@ impl LabelCounts {
 
     /// The fraction of a basin, with a 95 % interval, also of one without points.
     ///
-    /// An undecided point may belong to any basin. The interval begins at the lower end of [`proportion_interval`]
+    /// An undecided point may belong to any basin. The interval begins at the lower end of [`proportion_interval`](crate::proportion_interval)
     /// for the points of the basin, and ends at the upper end for these and all undecided points. The value counts
     /// no undecided point.
     ///
@@ -71,9 +71,7 @@ impl LabelCounts {
     pub fn fraction(&self, label: Label) -> Result<ConfidenceInterval, Error> {
         let found = self.count(label);
         let open = if label.is_basin() { self.undecided } else { 0 };
-        let ConfidenceInterval { value, lower, .. } = proportion_interval(found, self.inside)?;
-        let upper = proportion_interval(found + open, self.inside)?.upper;
-        Ok(ConfidenceInterval { value, lower, upper })
+        open_proportion(found, open, self.inside)
     }
 }
 

@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::space::interval::Interval;
 use crate::space::label::Label;
 use crate::statistics::bounds::Bounds;
-use crate::statistics::confidence_interval::{ConfidenceInterval, proportion_interval};
+use crate::statistics::confidence_interval::{ConfidenceInterval, open_proportion};
 use crate::statistics::split_mix::SplitMix64;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -114,9 +114,9 @@ pub fn equally_spaced_fractions(
 /// The basin fractions among `count` independent uniform points, with 95 % intervals.
 ///
 /// The same seed gives the same points, with any number of threads. The intervals are those of
-/// [`proportion_interval`]: they contain the fraction in at least 93 % of the samples. Undecided points may belong
+/// [`proportion_interval`](crate::proportion_interval): they contain the fraction in at least 93 % of the samples. Undecided points may belong
 /// to any basin: they raise the upper end of each. A label without points is not in the result: its fraction is
-/// [`proportion_interval`]`(0, count)`.
+/// [`proportion_interval`](crate::proportion_interval)`(0, count)`.
 ///
 /// # Errors
 /// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion points,
@@ -139,9 +139,7 @@ pub fn random_fractions(
         counts.iter().filter(|(label, _)| label.is_undecided()).map(|(_, points)| points).sum();
     let fraction = |(&label, &found): (&Label, &usize)| {
         let open = if label.is_basin() { undecided } else { 0 };
-        let ConfidenceInterval { value, lower, .. } = proportion_interval(found, count)?;
-        let upper = proportion_interval(found + open, count)?.upper;
-        Ok((label, ConfidenceInterval { value, lower, upper }))
+        Ok((label, open_proportion(found, open, count)?))
     };
     counts.iter().map(fraction).collect()
 }

@@ -6,7 +6,7 @@ use crate::features::metric::Metric;
 use crate::shares::region_fractions::LabelCounts;
 use crate::space::label::Label;
 use crate::statistics::confidence_interval::{
-    ConfidenceInterval, proportion_interval, student_interval,
+    ConfidenceInterval, open_proportion, student_interval,
 };
 use std::collections::BTreeMap;
 
@@ -22,8 +22,8 @@ pub struct Stability {
 
 /// The stability of one attractor, by random starts.
 ///
-/// The mean of time over size of shock, the pace of convergence, is not here: it is infinite on the line, and in the plane its variance is, so
-/// that no number of starts gives it an interval.
+/// The pace of convergence, time over size of shock, is not here. Inside the cells of an attractor, or its distance, the time is 0, so that the pace of
+/// small shocks is a property of the cells; without them it grows like ln(1/r)/r, which has no mean on the line and no variance in the plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AttractorStability {
     /// The fraction of its basin, with a 95 % interval that counts undecided starts in its upper end: basin stability (P. J. Menck et al. 2013).
@@ -252,9 +252,7 @@ impl AttractorStability {
             self.shocks[..count].iter().filter(|shock| shock.1 == verdict).count()
         };
         let (fatal, open) = (of(Some(true)), of(None));
-        let ConfidenceInterval { value, lower, .. } = proportion_interval(fatal, count)?;
-        let upper = proportion_interval(fatal + open, count)?.upper;
-        Ok(ConfidenceInterval { value, lower, upper })
+        open_proportion(fatal, open, count)
     }
 
     /// The fraction of starts that come to the attractor within so many steps, with a 95 % interval: basin stability in finite time. Its upper end counts
@@ -265,9 +263,7 @@ impl AttractorStability {
     pub fn fraction_within(&self, steps: usize) -> Result<ConfidenceInterval, Error> {
         let found = self.times.partition_point(|time| *time <= steps);
         let open = self.undecided.iter().filter(|made| **made < steps).count();
-        let ConfidenceInterval { value, lower, .. } = proportion_interval(found, self.inside)?;
-        let upper = proportion_interval(found + open, self.inside)?.upper;
-        Ok(ConfidenceInterval { value, lower, upper })
+        open_proportion(found, open, self.inside)
     }
 
     /// A quantile of the times in the basin, such as ½ for the median, with the 95 % interval of the ranks of a binomial number: for any distribution.

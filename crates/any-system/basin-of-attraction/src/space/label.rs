@@ -1,5 +1,6 @@
 //! The label of a point: the number of its basin, or the reason why it belongs to none.
 
+use crate::error::Error;
 use crate::space::undecided_reason::UndecidedReason;
 use std::fmt;
 
@@ -109,6 +110,15 @@ impl Label {
     pub const fn from_code(code: u16) -> Label {
         Label(code)
     }
+}
+
+/// Attractors beyond this number would take labels that mean other things.
+const MOST_ATTRACTORS: usize = 65_000;
+
+/// The label of attractor `number`, counted from 1.
+pub(crate) fn label_of_attractor(number: usize) -> Result<Label, Error> {
+    let own = u16::try_from(number).ok().filter(|_| number <= MOST_ATTRACTORS);
+    own.and_then(Label::basin).ok_or(Error::TooManyAttractors { most: MOST_ATTRACTORS })
 }
 
 /// Basin 0 … 255.

@@ -128,6 +128,20 @@ fn rare_end(successes: usize, trials: usize, wilson: f64) -> f64 {
     low
 }
 
+/// The interval of a proportion of which some trials are open: they may be successes. Its lower end counts none of them, its upper end all; the value none.
+///
+/// # Errors
+/// As [`proportion_interval`].
+pub(crate) fn open_proportion(
+    successes: usize,
+    open: usize,
+    trials: usize,
+) -> Result<ConfidenceInterval, Error> {
+    let ConfidenceInterval { value, lower, .. } = proportion_interval(successes, trials)?;
+    let upper = proportion_interval(successes + open, trials)?.upper;
+    Ok(ConfidenceInterval { value, lower, upper })
+}
+
 /// The probability of at least `successes` successes in independent trials with the probability p < 1 each.
 fn at_least(successes: usize, trials: usize, p: f64) -> f64 {
     let mut term = pxfm::f_exp(trials as f64 * pxfm::f_log1p(-p));
