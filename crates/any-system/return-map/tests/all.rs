@@ -17,6 +17,7 @@ mod scalar_maps;
 mod scalar_tools;
 mod sections;
 mod starts_on_the_section;
+mod state_maps;
 mod system_returns;
 mod walkers;
 mod watched;

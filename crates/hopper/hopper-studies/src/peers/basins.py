@@ -3,8 +3,8 @@
 python basins.py job.json results.json
 
 Attractors are found by recurrences to cells of a grid, as Attractors.jl finds them: an orbit that visits only cells that it visited before is
-followed on, and the cells of its next steps are those of an attractor. Nothing tests them. The first starts are followed one after the other,
-so that all attractors are known; the others in parallel. The driven pendulum is integrated to its end by DOP853, with the coefficients and the
+followed on, and the cells of its next steps are those of an attractor. Nothing tests them. Some first starts find the attractors, one after the
+other; then all starts are labelled in parallel, a block for each thread. The driven pendulum is integrated to its end by DOP853, with the coefficients and the
 step control of SciPy.
 """
 
@@ -16,7 +16,6 @@ import numba
 import numpy
 from scipy.integrate._ivp import dop853_coefficients
 
-FIRST = 3000  # starts that are followed one after the other
 RECURRENCES, LOCATE, BUDGET, LOST = 100, 1000, 100_000, 1000
 
 
@@ -72,24 +71,33 @@ def recurrences(step):
             x, y = step(x, y)
         return -1, found
 
-    @numba.njit(parallel=True)
-    def basins(xs, ys, half, cells, escape):
-        owner = numpy.zeros(cells * cells, numpy.int32)
-        visited = numpy.zeros(cells * cells, numpy.int64)
-        labels = numpy.empty(xs.size, numpy.int32)
+    @numba.njit
+    def search(xs, ys, owner, visited, half, cells, escape):
         found = 0
-        for i in range(FIRST):
-            labels[i], found = label(xs[i], ys[i], owner, visited, i + 1, half, cells, escape, found)
-        blocks = 64
+        for i in range(xs.size):
+            _, found = label(xs[i], ys[i], owner, visited, i + 1, half, cells, escape, found)
+        return found
+
+    @numba.njit(parallel=True)
+    def basins(xs, ys, owner, half, cells, escape, found):
+        labels = numpy.empty(xs.size, numpy.int32)
+        blocks = numba.get_num_threads()
         for block in numba.prange(blocks):
             own = numpy.zeros(cells * cells, numpy.int64)
-            begin = FIRST + (xs.size - FIRST) * block // blocks
-            end = FIRST + (xs.size - FIRST) * (block + 1) // blocks
+            begin, end = xs.size * block // blocks, xs.size * (block + 1) // blocks
             for i in range(begin, end):
                 labels[i], _ = label(xs[i], ys[i], owner, own, i + 1, half, cells, escape, found)
-        return labels, found
+        return labels
 
-    return basins
+    def both(first, starts, half, cells, escape):
+        begin = time.perf_counter()
+        owner, visited = numpy.zeros(cells * cells, numpy.int32), numpy.zeros(cells * cells, numpy.int64)
+        found = search(*first, owner, visited, half, cells, escape)
+        middle = time.perf_counter()
+        labels = basins(*starts, owner, half, cells, escape, found)
+        return middle - begin, time.perf_counter() - begin, labels, found
+
+    return both
 
 
 A, B, E3, E5 = (
@@ -166,33 +174,26 @@ def rotates(side, end, tolerance):
     return found
 
 
-def least_time(call, repeats):
-    """The least seconds of some calls, and the result. The compiler has done its work before."""
-    times = []
-    for _ in range(repeats):
-        begin = time.perf_counter()
-        found = call()
-        times.append(time.perf_counter() - begin)
-    return min(times), found
-
-
 job, results = sys.argv[1:]
 with open(job) as file:
     job = json.load(file)
 rows = []
 for scene, step in (("newton", newton), ("henon", henon)):
     given = job[scene]
-    xs, ys = (numpy.array(column) for column in given["starts"])
-    basins = recurrences(step)
-    call = lambda: basins(xs, ys, given["half"], given["cells"], given["escape"])
-    call()
-    seconds, (labels, found) = least_time(call, job["repeats"])
-    rows.append({"seconds": seconds, "attractors": found, "share": float((labels == labels.max()).mean())})
+    first, starts = ([numpy.array(column) for column in given[name]] for name in ("first", "starts"))
+    both = recurrences(step)
+    # The compiler does its work in the first one.
+    runs = [both(first, starts, given["half"], given["cells"], given["escape"]) for _ in range(job["repeats"] + 1)]
+    search, seconds, labels, found = min(runs[1:], key=lambda run: run[1])
+    share = float(numpy.bincount(labels[labels > 0]).max() / labels.size)
+    rows.append({"search": search, "seconds": seconds, "attractors": found, "share": share})
 given = job["pendulum"]
 rotates(4, 1.0, 1e-3)
 exact = rotates(given["side"], given["end"], given["reference"])
 for tolerance in given["tolerances"]:
-    seconds, found = least_time(lambda: rotates(given["side"], given["end"], tolerance), 1)
+    begin = time.perf_counter()
+    found = rotates(given["side"], given["end"], tolerance)
+    seconds = time.perf_counter() - begin
     rows.append({"seconds": seconds, "wrong": float((found != exact).mean()), "share": float(found.mean())})
 with open(results, "w") as file:
     json.dump({"rows": rows, "rotates": exact.astype(int).tolist()}, file)

@@ -1,0 +1,128 @@
+//! Models as maps of states: the same bits one by one and together, sections, ends at surfaces, modes.
+
+use basin_of_attraction::{
+    Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits, SplitMix64, StateGrid, StateMap,
+};
+use equations::{Formulas, Names};
+use hybrid_system::{Equations, State};
+use return_map::{
+    EquationReturns, ExecutionSteps, FamilySteps, FlowSteps, FormulaMap, FormulaSteps,
+    lyapunov_exponents,
+};
+
+fn formulas(text: &[&str]) -> Formulas {
+    Formulas::from_text(Names::new(&["x", "v"], &[("c", "0.3")]).unwrap(), text).unwrap()
+}
+
+/// Random states, and some without an image.
+fn states(count: u64) -> Vec<[f64; 2]> {
+    let random = SplitMix64::from_seed(9);
+    let some = (0..count).map(|k| [0, 1].map(|i| 4.0 * random.uniform(2 * k + i) - 2.0));
+    some.chain([[f64::NAN, 0.0], [1e300, 1e300], [f64::INFINITY, 1.0], [-0.0, 0.0]]).collect()
+}
+
+fn compare(map: &dyn StateMap, count: u64) {
+    let all = states(count);
+    let mut columns: Vec<Vec<f64>> =
+        (0..2).map(|k| all.iter().map(|state| state[k]).collect()).collect();
+    let mut has_image = vec![false; all.len()];
+    map.images(&mut columns, &mut has_image);
+    let mut image = [0.0; 2];
+    for (k, state) in all.iter().enumerate() {
+        assert_eq!(map.image(state, &mut image), has_image[k], "{state:?}");
+        if has_image[k] {
+            let together = [columns[0][k], columns[1][k]].map(f64::to_bits);
+            assert_eq!(image.map(f64::to_bits), together, "{state:?}");
+        }
+    }
+    assert!(has_image.iter().any(|has| *has) && has_image.iter().any(|has| !*has));
+}
+
+#[test]
+fn states_together_have_the_bits_of_single_ones() {
+    compare(&FormulaSteps::new(&formulas(&["1 - x^2 + c*v", "sqrt(x + 1) - v"])).unwrap(), 301);
+    let field = formulas(&["v", "-sin(x) - c*v + cos(t)"]);
+    compare(&FlowSteps::new(&field, (0.0, 1.5), 1e-9).unwrap(), 61);
+    assert!(
+        FormulaSteps::new(&field).is_err()
+            && FlowSteps::new(&field, (0.0, f64::NAN), 1e-9).is_err()
+    );
+}
+
+/// A map by formulas, at the values of its parameters and as a family, has the same attractors, and their exponents are those of the map.
+#[test]
+fn formulas_and_families_have_the_same_attractors() {
+    let names = Names::new(&["x"], &[("r", "3.9")]).unwrap();
+    let logistic = Formulas::from_text(names, &["r*x*(1 - x)"]).unwrap();
+    let family = FormulaMap::new(&logistic, "r").unwrap();
+    let unit: Hyperrectangle = Interval::new(0.0, 1.0).unwrap().try_into().unwrap();
+    let found = |map: &dyn StateMap| {
+        let grid = StateGrid::uniform(unit.clone(), 100).unwrap();
+        Attractors::search(map, grid, &[vec![0.3]], RecurrenceLimits::default()).unwrap()
+    };
+    let one = found(&FormulaSteps::new(&logistic).unwrap());
+    let other = found(&FamilySteps::new(&family, 3.9));
+    assert_eq!((one.attractors().len(), one.attractors()[0].period), (1, None));
+    assert_eq!(other.attractors().len(), 1);
+    let start = &one.attractors()[0].points[0];
+    let exponent = lyapunov_exponents(&family, (start, 3.9), 100, 20_000).unwrap().per_image[0];
+    assert!(0.4 < exponent.lower && exponent.upper < 0.6, "{exponent:?}");
+}
+
+/// A runner on a spring leg, from apex to apex: one stable run; lower apexes stumble, and have no label.
+#[test]
+fn a_section_with_ends_at_surfaces_is_labelled() {
+    let leg = example_systems::spring_leg::spring_leg();
+    let apexes = EquationReturns::new(&leg, "attack", ("flight", "apex"), &["h"])
+        .and_then(|own| own.starting_text(&["0", "h", "sqrt(25 + 2*gravity*(1 - h))", "0"]))
+        .and_then(|own| own.coordinates_text(&["height"]))
+        .unwrap();
+    let map = FamilySteps::new(&apexes, 68.0);
+    let heights: Hyperrectangle = Interval::new(0.9, 1.1).unwrap().try_into().unwrap();
+    let limits = RecurrenceLimits { locate: 10, tests: 50, ..RecurrenceLimits::default() };
+    let grid = StateGrid::uniform(heights, 50).unwrap();
+    let found = Attractors::search(&map, grid, &[vec![0.945], vec![0.91]], limits).unwrap();
+    assert_eq!(found.attractors().len(), 1);
+    // 80 kg, 1 m, 20 kN/m, 5 m/s, 68°.
+    assert!((found.attractors()[0].points[0][0] - 0.940_267).abs() < 1e-6);
+    assert_eq!(found.label(&map, &[0.945]), Label::from(1));
+    // Below the height of touchdown the leg cannot be put down.
+    assert_eq!(found.label(&map, &[0.91]), Label::UNDECIDED_MAP);
+}
+
+/// A forced oscillator at a stop, whose hits change the mode and nothing else: the mode is the last coordinate, and cells of the two others are enough.
+#[test]
+fn the_mode_of_a_state_is_its_last_coordinate() {
+    let field = ["v", "-x - v/10 + cos(3*t)"];
+    let oscillator = Equations::new(&["x", "v"], &[("kept", "0.8")])
+        .mode_text("even", &field)
+        .rising_text("stop", "x - 1/10")
+        .resets_text(&["1/10", "-kept*v"])
+        .to("odd")
+        .mode_text("odd", &field)
+        .rising_text("stop again", "x - 1/10")
+        .resets_text(&["1/10", "-kept*v"])
+        .to("even")
+        .model::<State<3>>()
+        .unwrap();
+    let modes = ["even", "odd"].map(|name| hybrid_system::Label::new(name).unwrap());
+    let period = std::f64::consts::TAU / 3.0;
+    let steps = ExecutionSteps::new(2, &modes, |mode, x| {
+        oscillator.start(mode.as_str(), [x[0], x[1]], period)
+    });
+    assert_eq!(steps.dimension(), Some(3));
+    let side = |left, right| Interval::new(left, right).unwrap();
+    let square = Hyperrectangle::new(vec![side(-2.0, 0.2), side(-2.0, 2.0)]).unwrap();
+    let grid = StateGrid::uniform(square, 100).unwrap().of_coordinates(&[0, 1], 3).unwrap();
+    let limits = RecurrenceLimits { locate: 20, tests: 50, ..RecurrenceLimits::default() };
+    let starts = [vec![0.0, 0.0, 0.0], vec![0.0, 0.0, 1.0]];
+    let found = Attractors::search(&steps, grid, &starts, limits).unwrap();
+    assert_eq!((found.attractors().len(), found.unmatched().len()), (1, 0));
+    let mut image = [0.0; 3];
+    for (mode, others) in [(0.0, [0.0, 1.0]), (1.0, [0.0, 1.0])] {
+        assert!(steps.image(&[0.0, 0.0, mode], &mut image) && others.contains(&image[2]));
+        assert_eq!(found.label(&steps, &[0.0, 0.0, mode]), Label::from(1));
+    }
+    // There is no third mode.
+    assert_eq!(found.label(&steps, &[0.0, 0.0, 2.0]), Label::UNDECIDED_MAP);
+}
