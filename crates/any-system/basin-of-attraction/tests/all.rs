@@ -19,6 +19,8 @@ mod fractions_along;
 mod known_basins;
 mod known_flows;
 mod known_planes;
+#[cfg(feature = "figures")]
+mod pictures;
 mod planted_intervals;
 mod resilience;
 mod riddled_basin;

@@ -1,8 +1,8 @@
 //! Attractors found by recurrences: known ones are found, and slow passages are not attractors.
 
 use basin_of_attraction::{
-    Attractors, Error, Hyperrectangle, Interval, Label, RecurrenceLimits, SplitMix64, StateGrid,
-    UnmatchedReason, array_map, box_dimension, region_fractions,
+    Attractor, Attractors, Error, Hyperrectangle, Interval, Label, RecurrenceLimits, SplitMix64,
+    StateGrid, UnmatchedReason, array_map, box_dimension, region_fractions,
 };
 
 fn region(sides: &[(f64, f64)]) -> Hyperrectangle {
@@ -151,4 +151,24 @@ fn attractors_have_known_dimensions() {
     let away = array_map(|[x]: [f64; 1]| Some([1e10 * x]));
     assert!(box_dimension(&away, &[1.0], 1000, &sizes, 1).is_err());
     assert!(box_dimension(&flip, &[2.0], 1000, &[0.0, 0.1, 0.2], 1).is_err());
+}
+
+/// Two attractors at a hundredth of a region of ten: short cells are where they are.
+#[test]
+fn cells_of_given_ends_are_searched() {
+    let map = array_map(|[x]: [f64; 1]| Some([0.01 * (300.0 * x).tanh()]));
+    let ends = vec![-5.0, -1.0, -0.02, -0.015, -0.005, 0.0, 0.005, 0.015, 0.02, 1.0, 5.0];
+    let given = StateGrid::from_edges(vec![ends]).unwrap();
+    let points = starts(&region(&[(-5.0, 5.0)]), 40);
+    let found = Attractors::search(&map, given, &points, RecurrenceLimits::default()).unwrap();
+    assert_eq!((found.attractors().len(), found.unmatched().len()), (2, 0));
+    // y = tanh 3y.
+    let root = 0.009_949_015_284_526;
+    let of = |sign: f64| {
+        let near = |own: &&Attractor| (own.points[0][0] - sign * root).abs() < 1e-12;
+        found.attractors().iter().find(near).unwrap().label
+    };
+    for x in [-4.9, -0.3, -1e-3, -1e-9, 1e-9, 1e-3, 0.3, 4.9f64] {
+        assert_eq!(found.label(&map, &[x]), of(x.signum()), "{x}");
+    }
 }

@@ -141,6 +141,17 @@ fn fractions_and_boxes_of_a_cantor_basin_of_three_colours_are_exact() {
     // At the width of the undecided gaps the intervals of the last stage separate the boundaries.
     let deep = three.wada(1.01 * 3f64.powi(-19)).unwrap();
     assert!(deep.far_fraction > 0.5 && deep.undecided_fraction < 1e-3, "{deep:?}");
+    // The witness: a point between two colours of the last stage. Its own colour is near, the other one is not.
+    let (at, own, far) = deep.apart.unwrap();
+    let off = |label: Label| {
+        let parts = three.intervals().iter().filter(|part| part.label == label);
+        parts
+            .map(|part| (part.interval.left - at).max(at - part.interval.right).max(0.0))
+            .fold(f64::INFINITY, f64::min)
+    };
+    let stage = 3f64.powi(-19);
+    assert!(off(own) < 0.6 * stage && off(far) > 0.5 * stage, "{deep:?} {} {}", off(own), off(far));
+    assert_eq!(three.wada(1.0 / 3.0).unwrap().apart, None);
     assert!(matches!(coloured(&levels, 2).wada(0.1), Err(Error::TooFewLabels { labels: 2 })));
     assert!(matches!(three.wada(f64::NAN), Err(Error::BadPerturbation { .. })));
     let pixels = 729;
@@ -271,9 +282,10 @@ fn the_map_of_grebogi_mcdonald_ott_and_yorke_has_its_uncertainty_exponent() {
     };
     let law = power_law(&(0..8).map(replicate).collect::<Vec<_>>()).unwrap();
     let interval = law.interval.unwrap();
-    // The published exponent is between 0.2 and 0.3.
-    assert!(interval.upper > 0.2 && interval.lower < 0.3, "{interval:?}");
-    assert!(interval.half_width() < 0.1, "{interval:?}");
+    // The published exponent is 0.2.
+    assert!((law.exponent - 0.2).abs() < 0.02, "{law:?}");
+    assert!(interval.lower < 0.2 && interval.upper > 0.2, "{interval:?}");
+    assert!(interval.half_width() < 0.03, "{interval:?}");
 }
 
 #[test]

@@ -155,6 +155,20 @@ impl LabelImage {
     }
 }
 
+/// A number of a scale with the fewest digits that give it to a hundredth of a step; with a power of ten if the largest number of the scale is small or
+/// large.
+fn of_scale(x: f64, (step, largest): (f64, f64)) -> String {
+    let short = (0..17).filter_map(|digits| format!("{x:.digits$e}").parse::<f64>().ok());
+    let x = short.into_iter().find(|own| (own - x).abs() <= 0.01 * step).unwrap_or(x);
+    let text = match format!("{x:e}").split_once('e') {
+        Some((digits, power)) if x != 0.0 && !(1e-3..1e6).contains(&largest) => {
+            format!("{digits} · 10^{{{power}}}")
+        }
+        _ => x.to_string(),
+    };
+    text.replace('-', "−")
+}
+
 impl ValueImage<f64> {
     /// The numbers as shades, from light at the smallest to dark at the largest, with axes and a scale; what is not finite is white. `of` says what the
     /// numbers are.
@@ -167,7 +181,11 @@ impl ValueImage<f64> {
         let finite = || self.values.iter().copied().filter(|x| x.is_finite());
         let (low, high) =
             (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
-        let part = |x: f64| if high > low { (x - low) / (high - low) } else { 0.0 };
+        // Halves: the difference of the largest numbers is none.
+        let part = |x: f64| match high > low {
+            true => (0.5 * x - 0.5 * low) / (0.5 * high - 0.5 * low),
+            false => 0.0,
+        };
         let shade = |x: f64| match x.is_finite() {
             // From a light blue to a dark one.
             true => [(0xe8, 0x08), (0xf1, 0x30), (0xfa, 0x6b)].map(|(light, dark): (u8, u8)| {
@@ -183,8 +201,9 @@ impl ValueImage<f64> {
                 .iter()
                 .enumerate()
                 .map(|(k, css)| {
-                    let x = low + (high - low) * k as f64 / (SHADES - 1) as f64;
-                    (*css, format!("{x:.4}").trim_end_matches('0').trim_end_matches('.').to_owned())
+                    let part = k as f64 / (SHADES - 1) as f64;
+                    let x = low * (1.0 - part) + high * part;
+                    (*css, of_scale(x, (0.25 * high - 0.25 * low, low.abs().max(high.abs()))))
                 })
                 .collect(),
             false => Vec::new(),
