@@ -112,7 +112,7 @@ pub use attractors::pilot::{Pilot, PilotEnd, PilotOrbit};
 pub use attractors::recurrence_limits::RecurrenceLimits;
 pub use attractors::recurrences::{Attractor, Attractors};
 pub use attractors::state_grid::StateGrid;
-pub use attractors::state_map::{ArrayMap, OrbitFeature, StateMap, array_map};
+pub use attractors::state_map::{ArrayMap, OrbitFeature, StateMap, array_map, step_by_step};
 pub use attractors::unmatched::{Border, Remedy, Unmatched, UnmatchedReason};
 pub use attractors::watched_map::{WatchedMap, watched_map};
 pub use boundaries::boundary_between::{BoundaryBracket, boundary_between};

@@ -111,14 +111,15 @@ impl Formulas {
         Ok(Columns { values, failed })
     }
 
-    /// Replaces many states by the values there: their images under a map with one formula for each component, with the bits of
-    /// [`values`](Self::values). `states` has a column for each component. A state without a value is where `has_value` becomes false.
+    /// Replaces many states by the values there, so many times: their images under a map with one formula for each component, with the bits of
+    /// [`values`](Self::values). `states` has a column for each component. Where a state had no value at one of the steps `has_value` becomes false, and
+    /// its numbers mean nothing.
     ///
     /// ```
     /// use equations::{Formulas, Names};
     /// let henon = Formulas::from_text(Names::new(&["x", "y"], &[])?, &["1 - 1.4*x^2 + y", "0.3*x"])?;
     /// let (mut states, mut has_value) = ([vec![0.5, 1e200], vec![0.0, 0.0]], [false; 2]);
-    /// henon.map_columns(0.0, &mut states, &mut has_value)?;
+    /// henon.map_columns(0.0, &mut states, 1, &mut has_value)?;
     /// assert_eq!((states[1][0], has_value), (0.15, [true, false]));
     /// # Ok::<(), equations::Error>(())
     /// ```
@@ -129,6 +130,7 @@ impl Formulas {
         &self,
         time: f64,
         states: &mut [Vec<f64>],
+        steps: usize,
         has_value: &mut [bool],
     ) -> Result<(), Error> {
         let (components, count) = (self.names().states.len(), has_value.len());
@@ -146,9 +148,9 @@ impl Formulas {
                 // The last block is filled with its last state.
                 *state = Lanes(from_fn(|lane| column[first + lane.min(width - 1)]));
             }
-            let is_valid = simd::values_of_lanes(self, &time, &state, &mut parts);
-            for (column, &at) in states.iter_mut().zip(&self.outputs) {
-                column[first..first + width].copy_from_slice(&parts[at].0[..width]);
+            let is_valid = simd::images_of_lanes(self, &time, &mut state, &mut parts, steps);
+            for (column, state) in states.iter_mut().zip(&state) {
+                column[first..first + width].copy_from_slice(&state.0[..width]);
             }
             let valid = is_valid.0.iter().map(|valid| *valid == 0.0);
             has_value[first..first + width].iter_mut().zip(valid).for_each(|(has, is)| *has = is);
@@ -175,4 +177,24 @@ pub(crate) fn values_of_lanes(
         sum = sum.with(*x, |sum, x| sum + 0.0 * x);
     }
     sum
+}
+
+/// Replaces some states by the values there, so many times. For each state 0 if all values were finite, else NaN.
+#[inline(always)]
+pub(crate) fn images_of_lanes(
+    formulas: &Formulas,
+    time: &Lanes,
+    state: &mut [Lanes],
+    parts: &mut [Lanes],
+    steps: usize,
+) -> Lanes {
+    let mut all = Lanes::zero();
+    for _ in 0..steps {
+        let is_valid = values_of_lanes(formulas, time, state, parts);
+        all = all.with(is_valid, |all, is_valid| all + is_valid);
+        for (state, &at) in state.iter_mut().zip(&formulas.outputs) {
+            *state = parts[at];
+        }
+    }
+    all
 }

@@ -68,6 +68,13 @@ compiled_for_vectors!(
     wide_values
 );
 
+compiled_for_vectors!(
+    /// See [`columns::images_of_lanes`].
+    images_of_lanes = columns::images_of_lanes,
+    (formulas: &Formulas, time: &Lanes, state: &mut [Lanes], parts: &mut [Lanes], steps: usize),
+    wide_images
+);
+
 #[cfg(test)]
 mod tests {
     use super::*;

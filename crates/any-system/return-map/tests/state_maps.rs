@@ -49,6 +49,46 @@ fn states_together_have_the_bits_of_single_ones() {
     );
 }
 
+/// Many steps are the steps one by one, and end together at the first state without an image.
+#[test]
+fn many_steps_at_once_have_the_bits_of_single_ones() {
+    let map = FormulaSteps::new(&formulas(&["1 - 1.4*x^2 + v", "c*x"])).unwrap();
+    let advanced = |starts: &[[f64; 2]], steps: usize| {
+        let mut columns = [0, 1].map(|k| starts.iter().map(|at| at[k]).collect::<Vec<_>>());
+        let mut has_image = vec![true; starts.len()];
+        let made = map.advance(&mut columns, &mut has_image, steps);
+        (columns, has_image, made)
+    };
+    let alone = |start: [f64; 2], steps: usize| {
+        let (mut at, mut image) = (start, [0.0; 2]);
+        for _ in 0..steps {
+            assert!(map.image(&at, &mut image));
+            at = image;
+        }
+        at.map(f64::to_bits)
+    };
+    let inside: Vec<[f64; 2]> = (0..19).map(|k| [0.03 * f64::from(k) - 0.3, 0.1]).collect();
+    for steps in [1, 2, 700] {
+        let (columns, has_image, made) = advanced(&inside, steps);
+        assert!(made == steps && has_image.iter().all(|has| *has));
+        for (k, start) in inside.iter().enumerate() {
+            let own = [columns[0][k], columns[1][k]].map(f64::to_bits);
+            assert_eq!(own, alone(*start, steps), "{start:?} {steps}");
+        }
+    }
+    // 2 → −4.6 → … has no image in the end: each square is that of the one before.
+    let with_escape = [&inside[..9], &[[2.0, 0.0]], &inside[9..]].concat();
+    let (columns, has_image, made) = advanced(&with_escape, 700);
+    assert!((5..30).contains(&made) && has_image.iter().filter(|has| !**has).count() == 1);
+    assert!(!has_image[9]);
+    let first = [columns[0][0], columns[1][0]].map(f64::to_bits);
+    assert_eq!(first, alone(inside[0], made));
+    // 1/x of an infinite number is 0 again: the step is not forgotten.
+    let map = FormulaSteps::new(&formulas(&["1/(1/x)", "v"])).unwrap();
+    let (mut columns, mut has_image) = ([vec![0.0], vec![0.0]], [true]);
+    assert_eq!((map.advance(&mut columns, &mut has_image, 9), has_image), (1, [false]));
+}
+
 /// A map by formulas, at the values of its parameters and as a family, has the same attractors, and their exponents are those of the map.
 #[test]
 fn formulas_and_families_have_the_same_attractors() {

@@ -207,7 +207,7 @@ impl KnownAttractors {
                 return Ok(end);
             }
             let has_image = orbit.point.step(map);
-            orbit.moved(has_image);
+            orbit.moved(1, has_image);
         }
     }
 
@@ -345,7 +345,7 @@ impl FollowedOrbit for Approach<'_> {
         &mut self.point
     }
 
-    fn moved(&mut self, has_image: bool) {
+    fn moved(&mut self, _: usize, has_image: bool) {
         self.is_stopped = !has_image;
         self.steps += usize::from(has_image);
     }

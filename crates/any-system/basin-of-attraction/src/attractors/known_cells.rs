@@ -135,6 +135,11 @@ impl KnownCells {
         self.grids[0].cell(point)
     }
 
+    /// Whether a coordinate is periodic.
+    pub(crate) fn is_periodic(&self) -> bool {
+        self.is_periodic
+    }
+
     /// Moves a state into the periods of its coordinates.
     #[inline]
     pub(crate) fn wrap(&self, state: &mut [f64]) {

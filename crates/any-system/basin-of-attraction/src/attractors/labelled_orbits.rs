@@ -171,7 +171,7 @@ impl FollowedOrbit for Labelled<'_> {
         self.orbit.point()
     }
 
-    fn moved(&mut self, has_image: bool) {
+    fn moved(&mut self, _: usize, has_image: bool) {
         self.orbit.moved(&self.attractors.known, has_image);
     }
 }

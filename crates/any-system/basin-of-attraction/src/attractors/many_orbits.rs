@@ -14,13 +14,13 @@ pub(crate) trait FollowedOrbit {
     /// Where it is, to be moved.
     fn point(&mut self) -> &mut Moving;
 
-    /// Notes that it was moved, or that the map had no value.
-    fn moved(&mut self, has_image: bool);
-
-    /// Makes steps whose points need no look, if it is followed alone.
-    fn skip(&mut self, map: &dyn StateMap) {
-        let _ = map;
+    /// The steps to the next point that needs a look: at least one.
+    fn steps(&self) -> usize {
+        1
     }
+
+    /// Notes that it was moved by so many steps, or that the map had no value at the last one.
+    fn moved(&mut self, steps: usize, has_image: bool);
 }
 
 /// Orbits that are moved together: enough for maps that compute eight at a time while some of them take longer.
@@ -68,9 +68,9 @@ fn follow_alone<O: FollowedOrbit>(
             if let Some(end) = orbit.see() {
                 return end;
             }
-            let has_image = orbit.point().step(map);
-            orbit.moved(has_image);
-            orbit.skip(map);
+            let steps = orbit.steps();
+            let has_image = orbit.point().advance(map, steps);
+            orbit.moved(steps, has_image);
         }
     };
     (0..count).map(follow).collect()
@@ -119,11 +119,12 @@ fn follow_together<O: FollowedOrbit>(
                 .zip(&mut followed)
                 .for_each(|(x, (orbit, _))| *x = orbit.point().at[k]);
         }
-        map.images(&mut columns, &mut has_image);
+        let steps = followed.iter().map(|(orbit, _)| orbit.steps()).min().unwrap_or(1);
+        let steps = map.advance(&mut columns, &mut has_image, steps);
         for (place, (orbit, _)) in followed.iter_mut().enumerate() {
             let at = orbit.point().at.iter_mut().zip(&columns);
             at.for_each(|(x, column)| *x = column[place]);
-            orbit.moved(has_image[place]);
+            orbit.moved(steps, has_image[place]);
         }
     }
     ends.into_iter().flatten().collect()

@@ -30,11 +30,35 @@ pub trait StateMap: Sync {
         }
     }
 
+    /// Moves many states by so many steps, until one of them has no image. The number of steps made, of all of them: `has_image` is that of the last one.
+    /// The bits are those of [`images`](Self::images).
+    ///
+    /// Default: [`step_by_step`].
+    fn advance(&self, states: &mut [Vec<f64>], has_image: &mut [bool], steps: usize) -> usize {
+        step_by_step(self, states, has_image, steps)
+    }
+
     /// Whether [`images`](Self::images) of some tens of states takes less time than the images one after the other: then orbits are followed together to
     /// their ends. Default: no.
     fn has_lanes(&self) -> bool {
         false
     }
+}
+
+/// [`StateMap::advance`] by [`StateMap::images`].
+pub fn step_by_step<M: StateMap + ?Sized>(
+    map: &M,
+    states: &mut [Vec<f64>],
+    has_image: &mut [bool],
+    steps: usize,
+) -> usize {
+    for made in 1..=steps {
+        map.images(states, has_image);
+        if has_image.contains(&false) {
+            return made;
+        }
+    }
+    steps
 }
 
 impl<F: Fn(&[f64]) -> Option<Vec<f64>> + Sync> StateMap for F {
@@ -140,6 +164,18 @@ impl Moving {
         let found = map.image(&self.at, &mut self.next);
         std::mem::swap(&mut self.at, &mut self.next);
         found
+    }
+
+    /// By so many steps, or to where the map has no value: false.
+    pub(crate) fn advance(&mut self, map: &dyn StateMap, steps: usize) -> bool {
+        if steps == 1 {
+            return self.step(map);
+        }
+        let mut columns: Vec<Vec<f64>> = self.at.iter().map(|x| vec![*x]).collect();
+        let mut has_image = [true];
+        map.advance(&mut columns, &mut has_image, steps);
+        self.at.iter_mut().zip(&columns).for_each(|(x, column)| *x = column[0]);
+        has_image[0]
     }
 }
 

@@ -4,7 +4,7 @@ use crate::attractors::confirmation::{Ends, WINDOWS, have_trend};
 use crate::attractors::known_cells::{CellSet, KnownCells};
 use crate::attractors::many_orbits::FollowedOrbit;
 use crate::attractors::state_grid::StateGrid;
-use crate::attractors::state_map::{Moving, Repeats, StateMap};
+use crate::attractors::state_map::{Moving, Repeats};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Successive stretches in each of which an orbit must visit the cells. A passage that is left within some thousand steps shows itself in
@@ -236,21 +236,18 @@ impl FollowedOrbit for TestOrbit<'_> {
         &mut self.point
     }
 
-    fn moved(&mut self, has_image: bool) {
-        self.is_stopped = !has_image;
-        self.trap.known.wrap(&mut self.point.at);
+    /// In an excursion, and behind a visit, only the end of the stretch counts. A state with periodic coordinates is moved into the period after each step.
+    fn steps(&self) -> usize {
+        let waits = matches!(self.part, Part::Excursion | Part::Visits { comes: true, .. });
+        match waits && self.looked >= LOOKED && !self.trap.known.is_periodic() {
+            true => self.trap.stretch - self.points,
+            false => 1,
+        }
     }
 
-    /// In an excursion, and behind a visit, only the end of the stretch counts.
-    fn skip(&mut self, map: &dyn StateMap) {
-        let waits = matches!(self.part, Part::Excursion | Part::Visits { comes: true, .. });
-        if !waits || self.looked < LOOKED {
-            return;
-        }
-        while self.points + 1 < self.trap.stretch && !self.is_stopped {
-            let has_image = self.point.step(map);
-            self.moved(has_image);
-            self.points += 1;
-        }
+    fn moved(&mut self, steps: usize, has_image: bool) {
+        self.is_stopped = !has_image;
+        self.points += steps - 1;
+        self.trap.known.wrap(&mut self.point.at);
     }
 }

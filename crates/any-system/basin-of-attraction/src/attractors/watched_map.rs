@@ -73,6 +73,14 @@ impl<P: Fn(usize) -> ControlFlow<()> + Sync> StateMap for WatchedMap<'_, P> {
         }
     }
 
+    fn advance(&self, states: &mut [Vec<f64>], has_image: &mut [bool], steps: usize) -> usize {
+        if self.count(has_image.len().saturating_mul(steps)) {
+            return self.map.advance(states, has_image, steps);
+        }
+        has_image.fill(false);
+        steps.min(1)
+    }
+
     fn has_lanes(&self) -> bool {
         self.map.has_lanes()
     }

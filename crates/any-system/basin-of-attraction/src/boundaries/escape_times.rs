@@ -42,7 +42,7 @@ impl FollowedOrbit for Transient<'_> {
         &mut self.point
     }
 
-    fn moved(&mut self, has_image: bool) {
+    fn moved(&mut self, _: usize, has_image: bool) {
         self.is_stopped = !has_image;
         self.steps += 1;
     }

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::families::check_without_time;
-use basin_of_attraction::StateMap;
+use basin_of_attraction::{StateMap, step_by_step};
 use equations::Formulas;
 
 /// The map of some formulas, one for each component, at the values of their parameters. States are computed eight at a time.
@@ -52,10 +52,22 @@ impl StateMap for FormulaSteps {
     }
 
     fn images(&self, states: &mut [Vec<f64>], has_image: &mut [bool]) {
-        if self.0.map_columns(0.0, states, has_image).is_err() {
+        if self.0.map_columns(0.0, states, 1, has_image).is_err() {
             has_image.fill(false);
         }
     }
+
+    fn advance(&self, states: &mut [Vec<f64>], has_image: &mut [bool], steps: usize) -> usize {
+        let starts = states.to_vec();
+        let done = self.0.map_columns(0.0, states, steps, has_image);
+        if done.is_ok() && !has_image.contains(&false) {
+            return steps;
+        }
+        // Which step it was shows itself one by one.
+        states.clone_from_slice(&starts);
+        step_by_step(self, states, has_image, steps)
+    }
+
     fn has_lanes(&self) -> bool {
         true
     }
