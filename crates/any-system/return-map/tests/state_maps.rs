@@ -1,5 +1,7 @@
 //! Models as maps of states: the same bits one by one and together, sections, ends at surfaces, modes.
 
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
 use basin_of_attraction::{
     Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits, SplitMix64, StateGrid, StateMap,
 };
