@@ -90,13 +90,12 @@ impl Formulas {
             let lanes = |column: &[f64]| Lanes(from_fn(|lane| column[first + lane.min(width - 1)]));
             let time = Lanes(from_fn(|lane| table.time(0, first + lane.min(width - 1))));
             state.iter_mut().zip(states).for_each(|(state, column)| *state = lanes(column));
-            simd::values_of_lanes(self, &time, &state, &mut evaluator.parts);
+            let is_valid = simd::values_of_lanes(self, &time, &state, &mut evaluator.parts);
             let found = || self.outputs.iter().map(|&at| evaluator.parts[at]);
             for (column, found) in values.iter_mut().zip(found()) {
                 column[first..first + width].copy_from_slice(&found.0[..width]);
             }
-            let starts = state.iter().chain([&time]);
-            if evaluator.parts.iter().chain(starts).all(Lanes::is_valid) {
+            if is_valid.0 == [0.0; WIDTH] {
                 continue;
             }
             for lane in 0..width {

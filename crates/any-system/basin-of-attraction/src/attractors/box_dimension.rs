@@ -1,14 +1,13 @@
 //! The box dimension of an attractor, from the boxes that an orbit visits.
 
-use crate::attractors::known_cells::CellHasher;
+use crate::attractors::known_cells::{CellHasher, CellSet};
 use crate::attractors::state_map::{Moving, StateMap};
 use crate::error::Error;
 use crate::shares::sampling::check_count;
 use crate::statistics::power_law::{PowerLaw, power_law};
 use crate::statistics::split_mix::SplitMix64;
 use rayon::prelude::*;
-use std::collections::HashSet;
-use std::hash::{BuildHasherDefault, Hasher};
+use std::hash::Hasher;
 
 /// Replicates with other offsets of the boxes: enough for an interval of their chance.
 const REPLICATES: u64 = 8;
@@ -74,7 +73,7 @@ fn orbit(map: &dyn StateMap, start: &[f64], points: usize) -> Result<Vec<f64>, E
 
 /// The number of boxes of a size, shifted by these parts of it.
 fn visited(orbit: &[f64], offsets: &[f64], size: f64) -> usize {
-    let mut boxes: HashSet<u64, BuildHasherDefault<CellHasher>> = HashSet::default();
+    let mut boxes = CellSet::default();
     for point in orbit.chunks_exact(offsets.len().max(1)) {
         // Boxes by the hash of their numbers: of 10⁶ of them two have the same one in 1 of 10⁷ cases.
         let mut hasher = CellHasher::default();

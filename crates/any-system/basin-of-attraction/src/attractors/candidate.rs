@@ -152,9 +152,7 @@ impl Candidate<'_> {
                 break;
             }
             coordinates.extend_from_slice(&point.at);
-            let has_image = point.step(self.map);
-            self.known.wrap(&mut point.at);
-            if !has_image {
+            if !self.known.step(self.map, &mut point) {
                 return None;
             }
         }

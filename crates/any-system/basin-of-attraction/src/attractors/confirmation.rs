@@ -94,10 +94,9 @@ pub(crate) fn drift(map: &dyn StateMap, known: &KnownCells, from: &[f64], stretc
         let mut ends = Ends::new(point.at.len());
         for _ in 0..stretch {
             ends.add(&point.at);
-            if !point.step(map) {
+            if !known.step(map, &mut point) {
                 return f64::NAN;
             }
-            known.wrap(&mut point.at);
         }
         windows.push(ends);
     }

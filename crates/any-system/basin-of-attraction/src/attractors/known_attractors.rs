@@ -2,9 +2,10 @@
 
 use crate::attractors::many_orbits::{FollowedOrbit, follow_some, in_parts};
 use crate::attractors::recurrence_limits::MOST_TESTS;
-use crate::attractors::state_map::{Moving, StateMap};
+use crate::attractors::state_map::{Moving, StateMap, check_map};
 use crate::boundaries::boundary_between::distance;
 use crate::error::Error;
+use crate::space::hyperrectangle::check_dimension;
 use crate::space::label::Label;
 use crate::statistics::split_mix::SplitMix64;
 use rayon::prelude::*;
@@ -154,9 +155,7 @@ impl KnownAttractors {
         if expected == 0 || points.values().any(Vec::is_empty) {
             return Err(Error::NoDimension);
         }
-        if let Some(dimension) = map.dimension().filter(|dimension| *dimension != expected) {
-            return Err(Error::WrongDimension { dimension, expected });
-        }
+        check_map(map, expected)?;
         let mut own = Vec::with_capacity(all);
         for (&label, points) in points {
             if label.basin_number().is_none() {
@@ -164,10 +163,7 @@ impl KnownAttractors {
                 return Err(Error::BadSearch { name, value: f64::from(label.code()), remedy });
             }
             for point in points {
-                let dimension = point.len();
-                if dimension != expected {
-                    return Err(Error::WrongDimension { dimension, expected });
-                }
+                check_dimension(point.len(), expected)?;
                 if let Some(&value) = point.iter().find(|x| !x.is_finite()) {
                     let (name, remedy) = ("a coordinate of a point", "; finite is enough");
                     return Err(Error::BadSearch { name, value, remedy });
@@ -195,20 +191,12 @@ impl KnownAttractors {
     /// # Errors
     /// [`Error::WrongDimension`] for a point of another dimension.
     pub fn convergence(&self, map: &dyn StateMap, start: &[f64]) -> Result<(Label, usize), Error> {
-        let expected = self.points[0].0.len();
-        let lengths = [start.len(), map.dimension().unwrap_or(expected)];
-        if let Some(dimension) = lengths.into_iter().find(|length| *length != expected) {
-            return Err(Error::WrongDimension { dimension, expected });
-        }
+        let dimension = self.points[0].0.len();
+        check_dimension(start.len(), dimension)?;
+        check_map(map, dimension)?;
         let mut orbit = Approach::new(self);
         orbit.restart(|at| at.copy_from_slice(start));
-        loop {
-            if let Some(end) = orbit.see() {
-                return Ok(end);
-            }
-            let has_image = orbit.point.step(map);
-            orbit.moved(1, has_image);
-        }
+        Ok(orbit.follow(map))
     }
 
     /// The labels and times of many starts, as [`convergence`](Self::convergence) gives them: in parallel, and some orbits at a time where
@@ -222,11 +210,8 @@ impl KnownAttractors {
         count: usize,
         start: impl Fn(usize, &mut [f64]) + Sync,
     ) -> Result<Vec<(Label, usize)>, Error> {
-        let expected = self.points[0].0.len();
-        let dimension = map.dimension().unwrap_or(expected);
-        if dimension != expected {
-            return Err(Error::WrongDimension { dimension, expected });
-        }
+        let dimension = self.points[0].0.len();
+        check_map(map, dimension)?;
         Ok(in_parts(count, |first, count| {
             let begin =
                 |k: usize, orbit: &mut Approach<'_>| orbit.restart(|at| start(first + k, at));

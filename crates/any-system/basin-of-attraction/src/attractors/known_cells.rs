@@ -1,6 +1,7 @@
 //! The cells of the attractors that are known, on grids of several sizes.
 
 use crate::attractors::state_grid::StateGrid;
+use crate::attractors::state_map::{Moving, StateMap};
 use crate::attractors::unmatched::Border;
 use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
@@ -146,6 +147,14 @@ impl KnownCells {
         if self.is_periodic {
             self.grids[0].wrap(state);
         }
+    }
+
+    /// Moves a state to its image, and into the periods of its coordinates; `false` if it has none.
+    #[inline]
+    pub(crate) fn step(&self, map: &dyn StateMap, point: &mut Moving) -> bool {
+        let has_image = point.step(map);
+        self.wrap(&mut point.at);
+        has_image
     }
 
     /// Where a point is farthest outside the region; `None` inside.

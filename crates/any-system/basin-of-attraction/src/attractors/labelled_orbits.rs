@@ -7,6 +7,7 @@ use crate::attractors::recurrences::Attractors;
 use crate::attractors::state_map::{Moving, StateMap, check_map};
 use crate::attractors::unmatched::UnmatchedReason;
 use crate::error::Error;
+use crate::space::hyperrectangle::check_dimension;
 use crate::space::label::Label;
 use crate::space::raster::{Grid, LabelImage};
 use crate::space::value_image::ValueImage;
@@ -26,10 +27,11 @@ impl Attractors {
     /// # Errors
     /// [`Error::WrongDimension`] for a point of another dimension.
     pub fn convergence(&self, map: &dyn StateMap, start: &[f64]) -> Result<(Label, usize), Error> {
-        self.check_dimension(start.len())?;
-        check_map(map, self.known.dimension())?;
-        Ok(Labelled { attractors: self, orbit: Orbit::new(&self.known, &self.limits, start) }
-            .follow(map))
+        let dimension = self.known.dimension();
+        check_dimension(start.len(), dimension)?;
+        check_map(map, dimension)?;
+        let orbit = Orbit::new(&self.known, &self.limits, start);
+        Ok(Labelled { attractors: self, orbit }.follow(map))
     }
 
     /// The labels and times of many starts, as [`convergence`](Self::convergence) gives them: in parallel, and some orbits at a time where
@@ -114,14 +116,6 @@ impl Attractors {
         Ok((LabelImage { grid, labels }, ValueImage { grid, values }))
     }
 
-    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
-        let expected = self.known.dimension();
-        if dimension == expected {
-            return Ok(());
-        }
-        Err(Error::WrongDimension { dimension, expected })
-    }
-
     /// The label at the end of an orbit; `None` if it moves on, and may come to an attractor.
     fn label_at(&self, end: &End) -> Option<Label> {
         match end {
@@ -138,19 +132,6 @@ impl Attractors {
 struct Labelled<'a> {
     attractors: &'a Attractors,
     orbit: Orbit,
-}
-
-impl Labelled<'_> {
-    fn follow(mut self, map: &dyn StateMap) -> (Label, usize) {
-        let Attractors { known, limits, .. } = self.attractors;
-        loop {
-            let end = self.orbit.follow(known, limits, map);
-            if let Some(label) = self.attractors.label_at(&end) {
-                return (label, self.orbit.steps());
-            }
-            self.orbit.go_on();
-        }
-    }
 }
 
 impl FollowedOrbit for Labelled<'_> {

@@ -21,6 +21,18 @@ pub(crate) trait FollowedOrbit {
 
     /// Notes that it was moved by so many steps, or that the map had no value at the last one.
     fn moved(&mut self, steps: usize, has_image: bool);
+
+    /// Follows it alone to its end.
+    fn follow(&mut self, map: &dyn StateMap) -> Self::End {
+        loop {
+            if let Some(end) = self.see() {
+                return end;
+            }
+            let steps = self.steps();
+            let has_image = self.point().advance(map, steps);
+            self.moved(steps, has_image);
+        }
+    }
 }
 
 /// Orbits that are moved together: enough for maps that compute eight at a time while some of them take longer.
@@ -64,14 +76,7 @@ fn follow_alone<O: FollowedOrbit>(
     let mut orbit = orbit();
     let follow = |number: usize| {
         begin(number, &mut orbit);
-        loop {
-            if let Some(end) = orbit.see() {
-                return end;
-            }
-            let steps = orbit.steps();
-            let has_image = orbit.point().advance(map, steps);
-            orbit.moved(steps, has_image);
-        }
+        orbit.follow(map)
     };
     (0..count).map(follow).collect()
 }

@@ -138,10 +138,9 @@ fn orbit(map: &dyn StateMap, known: &KnownCells, start: &[f64], steps: usize) ->
             }
             break;
         }
-        if !point.step(map) {
+        if !known.step(map, &mut point) {
             return found;
         }
-        known.wrap(&mut point.at);
     }
     let second = &cells[steps / 2..];
     let last: CellSet = second.iter().flatten().copied().collect();

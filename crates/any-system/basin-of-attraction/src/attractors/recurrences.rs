@@ -243,10 +243,9 @@ impl Attractors {
                 return Some(other);
             }
             // An orbit that repeats itself to the last bit enters nothing more.
-            if repeats.see(&point.at).is_some() || !point.step(map) {
+            if repeats.see(&point.at).is_some() || !self.known.step(map, &mut point) {
                 return None;
             }
-            self.known.wrap(&mut point.at);
         }
         None
     }

@@ -3,7 +3,7 @@
 use crate::attractors::axis::Axis;
 use crate::attractors::unmatched::Border;
 use crate::error::Error;
-use crate::space::hyperrectangle::Hyperrectangle;
+use crate::space::hyperrectangle::{Hyperrectangle, check_dimension};
 use crate::space::interval::Interval;
 
 /// Cells of a region: along each axis as many as are asked for, of equal or of given lengths.
@@ -37,10 +37,7 @@ impl StateGrid {
     /// [`Error::BadStateGrid`] for more than ten sides, and more than 2⁶³ cells; [`Error::WrongDimension`] for another number of numbers
     /// than sides; [`Error::BadSearch`] for fewer than three cells along a side.
     pub fn new(region: Hyperrectangle, cells: &[usize]) -> Result<StateGrid, Error> {
-        let (dimension, expected) = (cells.len(), region.dimension());
-        if dimension != expected {
-            return Err(Error::WrongDimension { dimension, expected });
-        }
+        check_dimension(cells.len(), region.dimension())?;
         let axis = |(coordinate, (&side, &cells)): (usize, (&Interval, &usize))| {
             Axis::new(coordinate, side, cells as u64)
         };
@@ -103,10 +100,7 @@ impl StateGrid {
         coordinates: &[usize],
         dimension: usize,
     ) -> Result<StateGrid, Error> {
-        let (given, expected) = (coordinates.len(), self.axes.len());
-        if given != expected {
-            return Err(Error::WrongDimension { dimension: given, expected });
-        }
+        check_dimension(coordinates.len(), self.axes.len())?;
         for (place, &coordinate) in coordinates.iter().enumerate() {
             if coordinate >= dimension {
                 let (dimension, expected) = (coordinate + 1, dimension);
@@ -200,7 +194,7 @@ impl StateGrid {
         for axis in self.axes.iter().rev() {
             for (cell, &x) in cells.iter_mut().zip(&columns[axis.coordinate]) {
                 let number = cell.wrapping_mul(axis.cells).wrapping_add(axis.cell(x));
-                let is_in = *cell != Self::OUTSIDE && axis.side.left <= x && x <= axis.side.right;
+                let is_in = *cell != Self::OUTSIDE && axis.side.contains(x);
                 *cell = if is_in { number } else { Self::OUTSIDE };
             }
         }
@@ -209,11 +203,7 @@ impl StateGrid {
     /// Whether a state, moved into its periods, lies in the region.
     #[inline(always)]
     pub(crate) fn contains(&self, state: &[f64]) -> bool {
-        let is_in = |axis: &Axis| {
-            let x = state[axis.coordinate];
-            axis.side.left <= x && x <= axis.side.right
-        };
-        self.axes.iter().all(is_in)
+        self.axes.iter().all(|axis| axis.side.contains(state[axis.coordinate]))
     }
 
     /// The number of the cell of a state that lies in the region.

@@ -3,6 +3,7 @@
 //! Maps are called through a pointer: a search is compiled once, not for each map.
 
 use crate::error::Error;
+use crate::space::hyperrectangle::check_dimension;
 
 /// A map of states: a map, a return map, or a flow over some time. It is called from several threads.
 ///
@@ -126,12 +127,7 @@ pub type OrbitFeature<'a> = dyn Fn(&[Vec<f64>]) -> Vec<f64> + Sync + 'a;
 
 /// An error unless a map takes states with so many coordinates.
 pub(crate) fn check_map(map: &dyn StateMap, expected: usize) -> Result<(), Error> {
-    match map.dimension() {
-        Some(dimension) if dimension != expected => {
-            Err(Error::WrongDimension { dimension, expected })
-        }
-        _ => Ok(()),
-    }
+    map.dimension().map_or(Ok(()), |dimension| check_dimension(dimension, expected))
 }
 
 /// An error unless a map and all these states have so many coordinates.
@@ -141,10 +137,7 @@ pub(crate) fn check_starts(
     expected: usize,
 ) -> Result<(), Error> {
     check_map(map, expected)?;
-    match starts.iter().map(Vec::len).find(|length| *length != expected) {
-        Some(dimension) => Err(Error::WrongDimension { dimension, expected }),
-        None => Ok(()),
-    }
+    starts.iter().try_for_each(|start| check_dimension(start.len(), expected))
 }
 
 /// A state that moves, with memory for its image.

@@ -61,11 +61,6 @@ impl Trap<'_> {
             || grid.touched(at).iter().any(|near| self.finest.contains(near))
     }
 
-    /// The memory for the ends of an orbit, in cells of the finest grid.
-    fn no_ends(&self) -> Ends {
-        self.ends.empty()
-    }
-
     fn add_to(&self, ends: &mut Ends, at: &[f64]) {
         if let Some(grid) = self.known.grids().last() {
             ends.add(&grid.in_cells(at));
@@ -157,7 +152,7 @@ impl<'a> TestOrbit<'a> {
             && self.looked < LOOKED
             && self.repeats.see(&self.point.at).is_some()
         {
-            let ends = self.trap.no_ends();
+            let ends = self.trap.ends.empty();
             self.part = Part::Cycle { first: Vec::new(), comes: false, is_same: false, ends };
         }
         self.looked += 1;
@@ -177,7 +172,7 @@ impl<'a> TestOrbit<'a> {
                 *visits = if *comes { *visits + 1 } else { 0 };
                 (*comes, *stretches) = (false, *stretches + 1);
                 if *visits >= STRETCHES {
-                    self.part = Part::Comparison(vec![self.trap.no_ends()]);
+                    self.part = Part::Comparison(vec![self.trap.ends.empty()]);
                     return None;
                 }
                 let approach = self.trap.pace.saturating_mul(PACES).div_ceil(self.trap.stretch);
@@ -208,7 +203,7 @@ impl<'a> TestOrbit<'a> {
                     return Some(self.trap.compare(windows));
                 }
                 if is_end {
-                    windows.push(self.trap.no_ends());
+                    windows.push(self.trap.ends.empty());
                 }
                 None
             }

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::features::metric::Metric;
+use crate::space::hyperrectangle::check_dimension;
 use crate::space::label::{Label, label_of_attractor};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -122,10 +123,7 @@ impl FeatureGroups {
         if let Some(&value) = widths.iter().find(|width| !(**width > 0.0 && width.is_finite())) {
             return Err(Error::BadSearch { name: "a width of a cell", value, remedy: "" });
         }
-        let (dimension, expected) = (widths.len(), vectors.first().map_or(widths.len(), Vec::len));
-        if dimension != expected {
-            return Err(Error::WrongDimension { dimension, expected });
-        }
+        check_dimension(widths.len(), vectors.first().map_or(widths.len(), Vec::len))?;
         FeatureGroups::dense_by(Metric::cells(widths), vectors, SAME_CELL, fewest)
     }
 
@@ -281,9 +279,7 @@ pub(crate) fn check<'a>(
         if dimension == 0 {
             return Err(Error::NoDimension);
         }
-        if dimension != expected {
-            return Err(Error::WrongDimension { dimension, expected });
-        }
+        check_dimension(dimension, expected)?;
         if let Some(coordinate) = vector.iter().position(|x| !x.is_finite()) {
             return Err(Error::BadPoint { coordinate, value: vector[coordinate] });
         }

@@ -1,7 +1,9 @@
 //! How intermingled labelled points are.
 
 use crate::error::Error;
+use crate::features::feature_groups::check_feature_count;
 use crate::features::metric::Metric;
+use crate::space::hyperrectangle::check_dimension;
 use crate::space::label::Label;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -31,11 +33,8 @@ pub fn intermingledness(
     labels: &[Label],
     metric: &Metric,
 ) -> Result<BTreeMap<Label, f64>, Error> {
-    let (dimension, expected) = (labels.len(), points.len());
-    if dimension != expected {
-        return Err(Error::WrongDimension { dimension, expected });
-    }
-    crate::features::feature_groups::check_feature_count(points.len())?;
+    check_dimension(labels.len(), points.len())?;
+    check_feature_count(points.len())?;
     let mut groups: BTreeMap<Label, Vec<&[f64]>> = BTreeMap::new();
     for (point, label) in
         points.iter().zip(labels).filter(|(_, label)| label.basin_number().is_some())

@@ -1,5 +1,6 @@
 //! Distances of feature vectors.
 
+use crate::boundaries::boundary_between::distance;
 use std::fmt;
 use std::sync::Arc;
 
@@ -67,7 +68,7 @@ impl Metric {
         let differences = || a.iter().zip(b).map(|(a, b)| (a - b).abs());
         match &self.0 {
             _ if a.len() != b.len() => f64::NAN,
-            Kind::Euclidean => differences().map(|off| off * off).sum::<f64>().sqrt(),
+            Kind::Euclidean => distance(a, b),
             Kind::Largest => differences().fold(0.0, larger),
             Kind::Sum => differences().sum(),
             Kind::Cells(widths) if widths.len() != a.len() => f64::NAN,

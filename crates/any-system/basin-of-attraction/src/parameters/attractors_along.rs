@@ -9,7 +9,7 @@ use crate::parameters::fractions_along::{CurveLimits, FractionsAlong, fractions_
 use crate::parameters::matching::Matching;
 use crate::shares::fractions::Fractions;
 use crate::shares::region_fractions::LabelCounts;
-use crate::space::hyperrectangle::Hyperrectangle;
+use crate::space::hyperrectangle::{Hyperrectangle, check_dimension};
 use crate::space::interval::Interval;
 use crate::space::label::Label;
 use crate::statistics::split_mix::SplitMix64;
@@ -89,10 +89,7 @@ pub fn attractors_along<M: StateMap>(
     search: &AlongSearch,
     map: impl Fn(f64) -> M + Sync,
 ) -> Result<AttractorsAlong, Error> {
-    let (dimension, expected) = (search.region.dimension(), search.grid.dimension());
-    if dimension != expected {
-        return Err(Error::WrongDimension { dimension, expected });
-    }
+    check_dimension(search.region.dimension(), search.grid.dimension())?;
     // By the bits of the parameters.
     let found: Mutex<BTreeMap<u64, Attractors>> = Mutex::new(BTreeMap::new());
     let all = || found.lock().unwrap_or_else(PoisonError::into_inner);
@@ -102,7 +99,8 @@ pub fn attractors_along<M: StateMap>(
         Ok::<_, Error>(fractions)
     };
     let flow = |parameter: f64, point: &[f64]| {
-        let known = all().get(&parameter.to_bits()).cloned();
+        let all = all();
+        let known = all.get(&parameter.to_bits());
         known.map_or(Label::UNDECIDED, |known| known.label(&map(parameter), point))
     };
     let matching = matching.unwrap_or(Matching::Flow(&flow));

@@ -20,7 +20,7 @@ pub(crate) fn with_common_labels(
         _ => return Ok(unmatched),
     };
     // Labels that are taken. What was known at the last parameter has common labels already.
-    let mut taken: BTreeSet<Label> = labels(&first.1);
+    let mut taken: BTreeSet<Label> = first.1.labels_of_attractors();
     let mut last = first.clone();
     let mut vanished = Fractions::default();
     for (parameter, fractions) in points.iter_mut().skip(1) {
@@ -52,11 +52,6 @@ pub(crate) fn with_common_labels(
         last = after;
     }
     Ok(unmatched)
-}
-
-fn labels(of: &Fractions) -> BTreeSet<Label> {
-    let all = of.found.keys().chain(of.attractors.keys()).copied();
-    all.filter(|label| label.basin_number().is_some()).collect()
 }
 
 /// What is known of some attractors alone.

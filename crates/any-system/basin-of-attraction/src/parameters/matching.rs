@@ -3,7 +3,7 @@
 use crate::parameters::attractor_match::{AttractorMatch, hausdorff, match_by};
 use crate::shares::fractions::Fractions;
 use crate::space::label::Label;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// How attractors at neighbouring parameters are recognised as the same.
 #[derive(Clone, Copy, Default)]
@@ -42,16 +42,10 @@ impl Matching<'_> {
         (_, before): &(f64, Fractions),
         (parameter, after): &(f64, Fractions),
     ) -> AttractorMatch {
-        // An escape is the same fate at all parameters, and no attractor.
-        let all = |own: &Fractions| -> BTreeSet<Label> {
-            let labels = own.found.keys().chain(own.attractors.keys()).copied();
-            labels.filter(|label| label.basin_number().is_some()).collect()
-        };
-        let (one, other) = (all(before), all(after));
-        let points = |of: &Fractions, label: &Label| of.attractors.get(label).cloned();
+        let (one, other) = (before.labels_of_attractors(), after.labels_of_attractors());
         let between = |of: &Unlike<'_>, a: &Label, b: &Label| {
-            match (points(before, a), points(after, b)) {
-                (Some(a), Some(b)) => of(&a, &b),
+            match (before.attractors.get(a), after.attractors.get(b)) {
+                (Some(a), Some(b)) => of(a, b),
                 // Without points the label is all that there is.
                 (None, None) => (a == b).then_some(0.0),
                 _ => None,
@@ -78,8 +72,9 @@ impl Matching<'_> {
                 let comes: BTreeMap<Label, Label> =
                     one.iter().filter_map(|a| Some((*a, label(*parameter, first(a)?)))).collect();
                 match_by(one, other, |a, b| {
-                    let same =
-                        comes.get(a).map_or(a == b && points(after, b).is_none(), |to| to == b);
+                    let same = comes
+                        .get(a)
+                        .map_or(a == b && !after.attractors.contains_key(b), |to| to == b);
                     let distance =
                         || between(&|a: &[Vec<f64>], b: &[Vec<f64>]| hausdorff(a, b), a, b);
                     same.then(|| distance().unwrap_or(0.0))

@@ -7,7 +7,7 @@ use crate::shares::sampling::EquallySpacedFraction;
 use crate::space::label::Label;
 use crate::statistics::bounds::Bounds;
 use crate::statistics::confidence_interval::{ConfidenceInterval, proportion_interval};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A basin fraction with its range: bounds, or a 95 % interval. The source of the fraction says which.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,6 +99,12 @@ impl Fractions {
     #[must_use]
     pub fn with_attractors(self, attractors: BTreeMap<Label, Vec<Vec<f64>>>) -> Fractions {
         Fractions { attractors, ..self }
+    }
+
+    /// The labels of all attractors: an escape is the same fate at all parameters, and none.
+    pub(crate) fn labels_of_attractors(&self) -> BTreeSet<Label> {
+        let all = self.found.keys().chain(self.attractors.keys()).copied();
+        all.filter(|label| label.basin_number().is_some()).collect()
     }
 
     /// The same fractions with the labels of some points, for [`Matching::Overlap`](crate::Matching).

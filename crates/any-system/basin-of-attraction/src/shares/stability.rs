@@ -4,6 +4,7 @@ use crate::boundaries::boundary_between::{boundary_between, check_point};
 use crate::error::Error;
 use crate::features::metric::Metric;
 use crate::shares::region_fractions::LabelCounts;
+use crate::space::hyperrectangle::check_dimension;
 use crate::space::label::Label;
 use crate::statistics::confidence_interval::{
     ConfidenceInterval, open_proportion, student_interval,
@@ -38,8 +39,8 @@ pub struct AttractorStability {
     pub harmless: Option<Shock>,
     /// The mean size of harmless shocks, with Student's 95 % interval; `None` for fewer than two.
     pub mean_harmless: Option<ConfidenceInterval>,
-    /// All shocks by their sizes, and whether each is harmless, fatal, or `None` for undecided.
-    shocks: Vec<(f64, Option<bool>)>,
+    /// The sizes of all shocks in increasing order, each with the numbers of fatal and of undecided ones up to there.
+    shocks: Vec<(f64, [usize; 2])>,
     /// The times in its basin, in increasing order.
     times: Vec<usize>,
     /// The steps of undecided starts, and the number of all starts.
@@ -120,17 +121,11 @@ impl Stability {
         found: &[(Label, usize)],
         metric: Metric,
     ) -> Result<Stability, Error> {
-        let (dimension, expected) = (found.len(), starts.len());
-        if dimension != expected {
-            return Err(Error::WrongDimension { dimension, expected });
-        }
-        let all = attractors.values().flatten().chain(starts);
-        let first = starts.first().map_or(0, Vec::len);
-        if let Some(other) = all.map(Vec::len).find(|length| *length != first) {
-            return Err(Error::WrongDimension { dimension: other, expected: first });
-        }
-        let all = attractors.values().flatten().chain(starts);
-        all.map(Vec::as_slice).try_for_each(check_point)?;
+        check_dimension(found.len(), starts.len())?;
+        let dimension = starts.first().map_or(0, Vec::len);
+        let all = || attractors.values().flatten().chain(starts);
+        all().try_for_each(|point| check_dimension(point.len(), dimension))?;
+        all().try_for_each(|point| check_point(point))?;
         let counts = LabelCounts::new(found.iter().map(|(label, _)| *label))?;
         let own = |(&label, points): (&Label, &Vec<Vec<f64>>)| {
             let nearest = |start: &[f64]| {
@@ -219,12 +214,16 @@ impl AttractorStability {
         let by_size = |a: &&Shock, b: &&Shock| a.size.total_cmp(&b.size);
         let fatal = all().filter(is_fatal).min_by(by_size).cloned();
         let harmless = all().filter(|shock| shock.label == label).max_by(by_size).cloned();
-        let verdict = |shock: &Shock| match shock.label.is_basin() {
-            true => (shock.size, Some(shock.label != label)),
-            false => (shock.size, None),
+        let mut sorted: Vec<&Shock> = all().collect();
+        sorted.sort_by(by_size);
+        let mut counts_so_far = [0; 2];
+        let up_to = |shock: &Shock| {
+            let [fatal, open] = &mut counts_so_far;
+            *fatal += usize::from(is_fatal(&shock));
+            *open += usize::from(!shock.label.is_basin());
+            (shock.size, counts_so_far)
         };
-        let mut shocks: Vec<(f64, Option<bool>)> = all().map(verdict).collect();
-        shocks.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let shocks = sorted.into_iter().map(up_to).collect();
         Ok(AttractorStability {
             fraction: counts.fraction(label)?,
             mean_time,
@@ -245,14 +244,10 @@ impl AttractorStability {
     /// [`Error::NothingInside`] if no start is so near.
     pub fn fatal_share(&self, size: f64) -> Result<ConfidenceInterval, Error> {
         let count = self.shocks.partition_point(|shock| shock.0 <= size);
-        if count == 0 {
-            return Err(Error::NothingInside { points: self.shocks.len() });
+        match self.shocks[..count].last() {
+            Some(&(_, [fatal, open])) => open_proportion(fatal, open, count),
+            None => Err(Error::NothingInside { points: self.shocks.len() }),
         }
-        let of = |verdict: Option<bool>| {
-            self.shocks[..count].iter().filter(|shock| shock.1 == verdict).count()
-        };
-        let (fatal, open) = (of(Some(true)), of(None));
-        open_proportion(fatal, open, count)
     }
 
     /// The fraction of starts that come to the attractor within so many steps, with a 95 % interval: basin stability in finite time. Its upper end counts

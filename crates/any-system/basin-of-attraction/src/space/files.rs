@@ -2,6 +2,7 @@
 
 use crate::attractors::recurrences::Attractors;
 use crate::parameters::fractions_along::FractionsAlong;
+use crate::shares::fractions::FractionRange;
 use crate::space::label::Label;
 use crate::space::raster::{Grid, LabelImage};
 use crate::space::value_image::ValueImage;
@@ -14,19 +15,18 @@ fn digits(x: f64) -> String {
 
 /// What an array on a grid means, as a table of names and values.
 fn meaning(name: &str, grid: Grid, of: &str, codes: &[Label]) -> Result<DataFile, Error> {
-    let end = |x: f64| digits(x);
+    let ends = |at: &dyn Fn(usize) -> f64, count: usize| {
+        format!("{} {}", digits(at(0)), digits(at(count.saturating_sub(1))))
+    };
     let mut rows = vec![
         vec!["values".to_owned(), of.to_owned()],
         vec!["first axis".to_owned(), "rows, from the smallest y".to_owned()],
         vec!["second axis".to_owned(), "columns, from the smallest x".to_owned()],
         vec![
             "x of the first and the last column".to_owned(),
-            format!("{} {}", end(grid.x_at(0)), end(grid.x_at(grid.columns.saturating_sub(1)))),
+            ends(&|k| grid.x_at(k), grid.columns),
         ],
-        vec![
-            "y of the first and the last row".to_owned(),
-            format!("{} {}", end(grid.y_at(0)), end(grid.y_at(grid.rows.saturating_sub(1)))),
-        ],
+        vec!["y of the first and the last row".to_owned(), ends(&|k| grid.y_at(k), grid.rows)],
     ];
     rows.extend(codes.iter().map(|label| vec![label.code().to_string(), label.to_string()]));
     csv_text(name, &["name", "meaning"], rows)
@@ -67,7 +67,7 @@ impl FractionsAlong {
     /// That of the table.
     pub fn csv(&self, name: &str) -> Result<DataFile, Error> {
         let labels = self.labels();
-        let row = |parameter: f64, label: &Label, own: crate::shares::fractions::FractionRange| {
+        let row = |parameter: f64, label: &Label, own: FractionRange| {
             vec![
                 digits(parameter),
                 label.to_string(),

@@ -30,6 +30,7 @@ impl Interval {
     }
 
     /// Whether x lies in the closed interval.
+    #[inline]
     pub fn contains(&self, x: f64) -> bool {
         self.left <= x && x <= self.right
     }

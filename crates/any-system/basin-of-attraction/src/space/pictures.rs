@@ -5,7 +5,8 @@ use crate::parameters::fractions_along::FractionsAlong;
 use crate::space::label::Label;
 use crate::space::raster::{Grid, LabelImage};
 use crate::space::value_image::ValueImage;
-use journal_figures::{Anchor, Error, Frame, Pen, Svg, palette, rgb_png, ticks};
+use journal_figures::palette::{self, Color};
+use journal_figures::{Anchor, Error, Frame, Pen, Svg, rgb_png, ticks};
 use std::collections::BTreeMap;
 
 /// The frame of a picture, in points: the plane is as wide as a column of a journal.
@@ -24,24 +25,20 @@ const LARGE_DOT: f64 = 3.2;
 const FEW: usize = 40;
 
 /// Colours of basins: light enough that attractors show on them, then those in order.
-const BASINS: [[u8; 3]; 8] = [
-    [0x9c, 0xc9, 0xe8],
-    [0xf4, 0xb9, 0x8a],
-    [0xb0, 0xd8, 0x9d],
-    [0xe6, 0xa8, 0xc7],
-    [0xd9, 0xcf, 0x7f],
-    [0xa9, 0xa6, 0xdb],
-    [0x8f, 0xd3, 0xc8],
-    [0xc9, 0xb2, 0x9b],
+const BASINS: [Color; 8] = [
+    Color { css: "#9cc9e8", rgb: [0x9c, 0xc9, 0xe8] },
+    Color { css: "#f4b98a", rgb: [0xf4, 0xb9, 0x8a] },
+    Color { css: "#b0d89d", rgb: [0xb0, 0xd8, 0x9d] },
+    Color { css: "#e6a8c7", rgb: [0xe6, 0xa8, 0xc7] },
+    Color { css: "#d9cf7f", rgb: [0xd9, 0xcf, 0x7f] },
+    Color { css: "#a9a6db", rgb: [0xa9, 0xa6, 0xdb] },
+    Color { css: "#8fd3c8", rgb: [0x8f, 0xd3, 0xc8] },
+    Color { css: "#c9b29b", rgb: [0xc9, 0xb2, 0x9b] },
 ];
 
-/// The same as CSS, for curves: darker.
+/// The same, darker, for curves.
 const CURVES: [&str; 8] =
     ["#1f6fa8", "#c2571a", "#3d8a2e", "#a8326f", "#857a10", "#4a43a8", "#14796a", "#6b4a2b"];
-
-/// The CSS of [`BASINS`], for legends.
-const LIGHT: [&str; 8] =
-    ["#9cc9e8", "#f4b98a", "#b0d89d", "#e6a8c7", "#d9cf7f", "#a9a6db", "#8fd3c8", "#c9b29b"];
 
 /// The names of the axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,10 +56,10 @@ fn place(label: Label) -> Option<usize> {
     number.map(|number| number % BASINS.len())
 }
 
-fn color(label: Label) -> [u8; 3] {
+fn color(label: Label) -> Color {
     match place(label) {
-        _ if label.is_outside() => palette::GREY.rgb,
-        None => palette::WHITE.rgb,
+        _ if label.is_outside() => palette::GREY,
+        None => palette::WHITE,
         Some(place) => BASINS[place],
     }
 }
@@ -105,13 +102,11 @@ fn legend(svg: &mut Svg, lines: &[(&'static str, String)]) {
 const MOST_LINES: usize = 15;
 
 fn legend_of(svg: &mut Svg, labels: &[Label]) {
-    let css = |label: Label| match place(label) {
-        _ if label.is_outside() => palette::GREY.css,
-        None => palette::WHITE.css,
-        Some(place) => LIGHT[place],
-    };
-    let mut lines: Vec<(&'static str, String)> =
-        labels.iter().take(MOST_LINES).map(|&label| (css(label), label.to_string())).collect();
+    let mut lines: Vec<(&'static str, String)> = labels
+        .iter()
+        .take(MOST_LINES)
+        .map(|&label| (color(label).css, label.to_string()))
+        .collect();
     if labels.len() > MOST_LINES {
         lines.push((palette::WHITE.css, format!("and {} more", labels.len() - MOST_LINES)));
     }
@@ -131,7 +126,7 @@ impl LabelImage {
         names: AxisNames<'_>,
     ) -> Result<Svg, Error> {
         self.check().map_err(no_picture)?;
-        let at = |column, row| self.at(column, row).map_or(palette::WHITE.rgb, color);
+        let at = |column, row| self.at(column, row).map_or(palette::WHITE, color).rgb;
         let (mut svg, frame) = plane(self.grid, names, at)?;
         frame.clipped(&mut svg, |svg| {
             for points in attractors.values() {
@@ -235,8 +230,11 @@ pub fn share_picture(
     }
     let mix = |column: usize, row: usize| {
         let own = &columns[column];
-        let parts: Vec<(f64, [u8; 3])> =
-            own.labels().iter().map(|&label| (own.of(label, row).lower, color(label))).collect();
+        let parts: Vec<(f64, [u8; 3])> = own
+            .labels()
+            .iter()
+            .map(|&label| (own.of(label, row).lower, color(label).rgb))
+            .collect();
         let rest = 1.0 - parts.iter().map(|(share, _)| share).sum::<f64>();
         [0, 1, 2].map(|k| {
             let sum: f64 = parts.iter().map(|(share, rgb)| share * f64::from(rgb[k])).sum();
@@ -288,5 +286,17 @@ impl FractionsAlong {
         lines.truncate(MOST_LINES);
         legend(&mut svg, &lines);
         Ok(svg)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_forms_of_a_colour_are_the_same() {
+        for Color { css, rgb: [r, g, b] } in BASINS {
+            assert_eq!(css, format!("#{r:02x}{g:02x}{b:02x}"));
+        }
     }
 }
