@@ -5,6 +5,16 @@ use crate::space::interval::Interval;
 /// What converges to the border of two cells ends some ulps from it, on either side: within this part of a cell.
 const BORDER: f64 = 1e-9;
 
+/// Adding 2⁵² to a number from 0 to 2⁵² rounds it to the nearest whole one, which the low bits of the sum are. Processors do this for several
+/// numbers at once, and convert one at a time.
+const TO_WHOLE: f64 = (1u64 << 52) as f64;
+
+/// A whole number from 0 to 2³².
+#[inline(always)]
+pub(crate) fn whole(number: f64) -> usize {
+    (number + TO_WHOLE).to_bits() as u32 as usize
+}
+
 /// The cells along one coordinate.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Axis {
@@ -53,6 +63,25 @@ impl Axis {
         };
         // The right end of the region belongs to the last cell.
         (at as i64 as u64).min(self.cells - 1)
+    }
+
+    /// Multiplies numbers of cells by that of this axis, and adds the [cells](Self::cell) of these places: NaN outside the side.
+    pub(crate) fn add_cells(&self, places: &[f64], cells: &mut [f64]) {
+        let (count, Interval { left, right }) = (self.cells as f64, self.side);
+        let add = |cell: &mut f64, x: f64, own: f64| {
+            let own = if (left <= x) & (x <= right) { own } else { f64::NAN };
+            *cell = *cell * count + own;
+        };
+        if !self.edges.is_empty() {
+            cells.iter_mut().zip(places).for_each(|(cell, &x)| add(cell, x, self.cell(x) as f64));
+            return;
+        }
+        for (cell, &x) in cells.iter_mut().zip(places) {
+            let at = (x - left) * self.per_length;
+            let near = (at + TO_WHOLE) - TO_WHOLE;
+            let own = if near > at { near - 1.0 } else { near };
+            add(cell, x, if own < count - 1.0 { own } else { count - 1.0 });
+        }
     }
 
     /// Whether a place on the side is on the border of two cells, to rounding.

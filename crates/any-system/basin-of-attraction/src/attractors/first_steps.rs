@@ -1,17 +1,23 @@
 //! The first steps of many orbits, column by column: most orbits have come to a known attractor by then.
+//!
+//! No branch depends on where an orbit is. The processor does not foresee this, and a wrong guess takes as long as some steps of a simple map.
 
 use crate::attractors::followed_orbit::UNTRACKED;
-use crate::attractors::known_cells::{KnownCells, Place};
+use crate::attractors::known_cells::{KnownCells, NO_CELL, NO_OWNER};
 use crate::attractors::recurrence_limits::RecurrenceLimits;
 use crate::attractors::state_map::StateMap;
 
 /// Orbits after some steps.
 pub(crate) struct FirstSteps {
-    /// For each orbit its end, and the steps until then, if it has ended.
-    pub(crate) ends: Vec<Option<(EarlyEnd, usize)>>,
-    /// The others.
+    /// What the last look at each orbit showed, and the steps until then.
+    looks: Vec<(u16, u16)>,
+    /// The orbits that go on.
     pub(crate) others: Vec<Unended>,
 }
+
+/// What a look shows, beside the attractor that owns the cell, no owner and no cell.
+const ESCAPED: u16 = u16::MAX - 2;
+const STOPPED: u16 = u16::MAX - 3;
 
 /// How an orbit ends before its recurrences are looked for.
 #[derive(Clone, Copy)]
@@ -21,6 +27,21 @@ pub(crate) enum EarlyEnd {
     Escaped,
     /// The map has no value, or one that is not finite.
     Stopped,
+}
+
+impl FirstSteps {
+    /// For each orbit its end, and the steps until then, if it has ended.
+    pub(crate) fn ends(&self) -> impl Iterator<Item = Option<(EarlyEnd, usize)>> {
+        self.looks.iter().map(|&(look, steps)| {
+            let end = match look {
+                NO_OWNER | NO_CELL => return None,
+                ESCAPED => EarlyEnd::Escaped,
+                STOPPED => EarlyEnd::Stopped,
+                own => EarlyEnd::Known(usize::from(own)),
+            };
+            Some((end, usize::from(steps)))
+        })
+    }
 }
 
 /// An orbit that goes on.
@@ -34,29 +55,76 @@ pub(crate) struct Unended {
 
 /// Orbits that have not ended, by columns.
 struct Followed {
-    numbers: Vec<usize>,
+    numbers: Vec<u32>,
     columns: Vec<Vec<f64>>,
-    outside: Vec<usize>,
+    /// Steps outside the region since it was inside.
+    outside: Vec<u16>,
     has_image: Vec<bool>,
+    /// Memory of a look.
+    cells: Vec<f64>,
+    owners: Vec<u16>,
+    sizes: Vec<f64>,
+    kept: Vec<u32>,
 }
 
 impl Followed {
-    /// Keeps the orbits for which this holds.
-    fn retain(&mut self, mut keeps: impl FnMut(&mut Self, usize) -> bool) {
-        let mut kept = 0;
-        for lane in 0..self.numbers.len() {
-            if !keeps(self, lane) {
-                continue;
-            }
-            self.numbers[kept] = self.numbers[lane];
-            self.outside[kept] = self.outside[lane];
-            self.columns.iter_mut().for_each(|column| column[kept] = column[lane]);
-            kept += 1;
+    fn new(columns: Vec<Vec<f64>>, count: usize) -> Followed {
+        Followed {
+            numbers: (0..count as u32).collect(),
+            columns,
+            outside: vec![0; count],
+            has_image: vec![true; count],
+            cells: Vec::new(),
+            owners: Vec::new(),
+            sizes: Vec::new(),
+            kept: vec![0; count],
         }
-        self.numbers.truncate(kept);
-        self.outside.truncate(kept);
-        self.has_image.truncate(kept);
-        self.columns.iter_mut().for_each(|column| column.truncate(kept));
+    }
+
+    /// Looks at all orbits after so many steps, and keeps those that have not ended.
+    fn look(&mut self, known: &KnownCells, escape: f64, steps: u16, looks: &mut [(u16, u16)]) {
+        known.owners_of_columns(&self.columns, &mut self.cells, &mut self.owners);
+        self.sizes.clear();
+        self.sizes.resize(self.numbers.len(), 0.0);
+        for column in &self.columns {
+            for (size, x) in self.sizes.iter_mut().zip(column) {
+                // Infinite for NaN.
+                let own = if x.abs() < f64::INFINITY { x.abs() } else { f64::INFINITY };
+                *size = if own > *size { own } else { *size };
+            }
+        }
+        let mut kept = 0;
+        let each = self.numbers.iter().zip(&self.has_image).zip(&self.owners).zip(&self.sizes);
+        for (lane, (((&number, &has_image), &owner), &size)) in each.enumerate() {
+            let end = if size > escape { ESCAPED } else { owner };
+            let is_stopped = !has_image | (size == f64::INFINITY);
+            let end = if is_stopped { STOPPED } else { end };
+            // A step without a value is none.
+            looks[number as usize] = (end, steps - u16::from(!has_image));
+            self.kept[kept] = lane as u32;
+            kept += usize::from(end >= NO_CELL);
+        }
+        for (outside, owner) in self.outside.iter_mut().zip(&self.owners) {
+            *outside = if *owner == NO_CELL { *outside + 1 } else { 0 };
+        }
+        self.keep(kept);
+    }
+
+    /// Keeps the first so many of `kept`.
+    fn keep(&mut self, count: usize) {
+        fn take<T: Copy>(kept: &[u32], all: &mut Vec<T>) {
+            for (place, &lane) in kept.iter().enumerate() {
+                all[place] = all[lane as usize];
+            }
+            all.truncate(kept.len());
+        }
+        if count < self.numbers.len() {
+            let kept = &self.kept[..count];
+            take(kept, &mut self.numbers);
+            take(kept, &mut self.outside);
+            self.columns.iter_mut().for_each(|column| take(kept, column));
+        }
+        self.has_image.truncate(count);
     }
 }
 
@@ -78,47 +146,15 @@ pub(crate) fn first_steps(
         known.wrap(&mut state);
         columns.iter_mut().zip(&state).for_each(|(column, x)| column[number] = *x);
     }
-    let mut ends: Vec<Option<(EarlyEnd, usize)>> = vec![None; count];
-    let mut followed = Followed {
-        numbers: (0..count).collect(),
-        columns,
-        outside: vec![0; count],
-        has_image: vec![true; count],
-    };
     // Elsewhere an orbit needs a look at each of its coordinates at each step.
     let steps = match known.is_within(limits.escape) {
         true => UNTRACKED.min(limits.budget / 100).min(limits.lost),
         false => 0,
     };
-    let (mut cells, mut places) = (Vec::new(), Vec::new());
+    let mut looks = vec![(NO_OWNER, 0); count];
+    let mut followed = Followed::new(columns, count);
     for step in 0..steps {
-        known.places(&followed.columns, &mut cells, &mut places);
-        followed.retain(|followed, lane| {
-            let end = match places[lane] {
-                _ if !followed.has_image[lane] => EarlyEnd::Stopped,
-                Place::Owned(own) => EarlyEnd::Known(own),
-                Place::Inside => {
-                    followed.outside[lane] = 0;
-                    return true;
-                }
-                Place::Outside => {
-                    let at = || followed.columns.iter().map(|column| column[lane]);
-                    let beyond = |escape: f64| at().any(|x| x.abs() > escape);
-                    if !at().all(f64::is_finite) {
-                        EarlyEnd::Stopped
-                    } else if limits.escape.is_some_and(beyond) {
-                        EarlyEnd::Escaped
-                    } else {
-                        followed.outside[lane] += 1;
-                        return true;
-                    }
-                }
-            };
-            // A step without a value is none.
-            let made = step - usize::from(!followed.has_image[lane]);
-            ends[followed.numbers[lane]] = Some((end, made));
-            false
-        });
+        followed.look(known, limits.escape.unwrap_or(f64::INFINITY), step as u16, &mut looks);
         if followed.numbers.is_empty() {
             break;
         }
@@ -127,12 +163,13 @@ pub(crate) fn first_steps(
     }
     let mut others = Vec::new();
     for (lane, &number) in followed.numbers.iter().enumerate() {
+        let number = number as usize;
         if !followed.has_image[lane] {
-            ends[number] = Some((EarlyEnd::Stopped, steps - 1));
+            looks[number] = (STOPPED, steps as u16 - 1);
             continue;
         }
         let at = followed.columns.iter().map(|column| column[lane]).collect();
-        others.push(Unended { number, at, steps, outside: followed.outside[lane] });
+        others.push(Unended { number, at, steps, outside: followed.outside[lane].into() });
     }
-    FirstSteps { ends, others }
+    FirstSteps { looks, others }
 }

@@ -1,5 +1,6 @@
 //! The cells of the attractors that are known, on grids of several sizes.
 
+use crate::attractors::axis::whole;
 use crate::attractors::state_grid::StateGrid;
 use crate::attractors::state_map::{Moving, StateMap};
 use crate::attractors::unmatched::Border;
@@ -35,13 +36,14 @@ pub(crate) enum Place {
 /// The attractors that own cells of a grid, by the numbers of the cells.
 #[derive(Debug, Clone, PartialEq)]
 enum Owners {
-    /// For each cell its owner, or [`NO_OWNER`].
+    /// For each cell its owner, or [`NO_OWNER`]; behind the last one [`NO_CELL`].
     Dense(Vec<u16>),
     Sparse(HashMap<u64, u16, ByCell>),
 }
 
-/// No attractor has this index: there are at most 65 000.
-const NO_OWNER: u16 = u16::MAX;
+/// A cell without an owner, and a state without a cell. No attractor has these indices: there are at most 65 000.
+pub(crate) const NO_OWNER: u16 = u16::MAX;
+pub(crate) const NO_CELL: u16 = u16::MAX - 1;
 
 /// Grids of up to so many cells have a table of owners: 2 MB, which is looked up in a third of the time of a hash.
 const MOST_DENSE: u64 = 1 << 20;
@@ -49,7 +51,11 @@ const MOST_DENSE: u64 = 1 << 20;
 impl Owners {
     fn of(grid: &StateGrid) -> Owners {
         match grid.count() {
-            count if count <= MOST_DENSE => Owners::Dense(vec![NO_OWNER; count as usize]),
+            count if count <= MOST_DENSE => {
+                let mut all = vec![NO_OWNER; count as usize];
+                all.push(NO_CELL);
+                Owners::Dense(all)
+            }
             _ => Owners::Sparse(HashMap::default()),
         }
     }
@@ -74,7 +80,7 @@ impl Owners {
 
     fn renumber(&mut self, index: &[usize]) {
         let new = |own: &mut u16| {
-            if *own != NO_OWNER {
+            if *own < NO_CELL {
                 *own = index[usize::from(*own)] as u16;
             }
         };
@@ -165,45 +171,52 @@ impl KnownCells {
     /// Where a state is.
     #[inline]
     pub(crate) fn place(&self, point: &[f64]) -> Place {
-        // All grids have the same region.
-        if !self.grids[0].contains(point) {
-            return Place::Outside;
-        }
-        for &number in &self.owned {
-            let cell = self.grids[number].cell_inside(point);
-            if let Some(owner) = self.owners[number].of_cell(cell) {
-                return Place::Owned(owner);
-            }
-        }
-        Place::Inside
+        self.place_by(|coordinate| point[coordinate])
     }
 
-    /// The same of many states, by columns. `cells` is memory.
-    pub(crate) fn places(
+    /// Where a state with these coordinates is. All grids have the same region.
+    #[inline(always)]
+    pub(crate) fn place_by(&self, at: impl Fn(usize) -> f64) -> Place {
+        let mut owned = self.owned.iter();
+        let first = owned.next().copied();
+        let Some(cell) = self.grids[first.unwrap_or(0)].cell_by(&at) else {
+            return Place::Outside;
+        };
+        let owner = first.and_then(|number| self.owners[number].of_cell(cell));
+        let finer = |number: &usize| self.owners[*number].of_cell(self.grids[*number].cell_by(&at)?);
+        owner.or_else(|| owned.find_map(finer)).map_or(Place::Inside, Place::Owned)
+    }
+
+    /// The owners of the cells of many states, by columns: their indices, [`NO_OWNER`] or [`NO_CELL`]. `cells` is memory.
+    pub(crate) fn owners_of_columns(
         &self,
         columns: &[Vec<f64>],
-        cells: &mut Vec<u64>,
-        places: &mut Vec<Place>,
+        cells: &mut Vec<f64>,
+        owners: &mut Vec<u16>,
     ) {
-        let owned = self.owned.first().copied();
-        self.grids[owned.unwrap_or(0)].cells_of_columns(columns, cells);
-        places.clear();
-        places.extend(cells.iter().map(|&cell| {
-            if cell == StateGrid::OUTSIDE {
-                return Place::Outside;
+        let count = columns.first().map_or(0, Vec::len);
+        owners.clear();
+        owners.resize(count, NO_OWNER);
+        let dense = |number: &usize| match &self.owners[*number] {
+            Owners::Dense(all) => Some((&self.grids[*number], all)),
+            Owners::Sparse(_) => None,
+        };
+        let dense: Option<Vec<_>> = self.owned.iter().map(dense).collect();
+        let Some(dense) = dense.filter(|dense| !dense.is_empty()) else {
+            for (lane, owner) in owners.iter_mut().enumerate() {
+                *owner = match self.place_by(|coordinate| columns[coordinate][lane]) {
+                    Place::Owned(owner) => owner as u16,
+                    Place::Inside => NO_OWNER,
+                    Place::Outside => NO_CELL,
+                };
             }
-            let owner = owned.and_then(|number| self.owners[number].of_cell(cell));
-            owner.map_or(Place::Inside, Place::Owned)
-        }));
-        for &number in self.owned.iter().skip(1) {
-            self.grids[number].cells_of_columns(columns, cells);
-            for (place, &cell) in places.iter_mut().zip(&*cells) {
-                // A state outside has no cell.
-                if matches!(place, Place::Inside)
-                    && let Some(owner) = self.owners[number].of_cell(cell)
-                {
-                    *place = Place::Owned(owner);
-                }
+            return;
+        };
+        for (grid, all) in dense {
+            grid.cells_of_columns(columns, cells);
+            for (owner, &cell) in owners.iter_mut().zip(&*cells) {
+                let found = all[whole(cell)];
+                *owner = if *owner == NO_OWNER { found } else { *owner };
             }
         }
     }

@@ -1,6 +1,6 @@
 //! To which attractor do orbits come, and when: one orbit, many at once, the pixels of a window.
 
-use crate::attractors::first_steps::{EarlyEnd, FirstSteps, first_steps};
+use crate::attractors::first_steps::{EarlyEnd, first_steps};
 use crate::attractors::followed_orbit::{End, Orbit, Settled};
 use crate::attractors::many_orbits::{FollowedOrbit, follow_some, in_parts};
 use crate::attractors::recurrences::Attractors;
@@ -64,7 +64,8 @@ impl Attractors {
         };
         Ok(in_parts(count, |first, count| {
             let start = |k, state: &mut [f64]| start(first + k, state);
-            let FirstSteps { ends, others } = first_steps(map, known, limits, count, start);
+            let first = first_steps(map, known, limits, count, start);
+            let others = &first.others;
             let begin = |k: usize, own: &mut Labelled<'_>| own.orbit.resume(known, &others[k]);
             let later = follow_some(map, dimension, others.len(), orbit, begin);
             let label = |(end, steps)| match end {
@@ -73,7 +74,7 @@ impl Attractors {
                 EarlyEnd::Stopped => (Label::UNDECIDED_MAP, steps),
             };
             let mut found: Vec<(Label, usize)> =
-                ends.into_iter().map(|end| end.map_or((Label::UNDECIDED, 0), label)).collect();
+                first.ends().map(|end| end.map_or((Label::UNDECIDED, 0), label)).collect();
             for (other, end) in others.iter().zip(later) {
                 found[other.number] = end;
             }

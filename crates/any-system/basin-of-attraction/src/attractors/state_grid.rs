@@ -184,41 +184,36 @@ impl StateGrid {
         }
     }
 
-    /// What stands for the number of a cell outside the region: there are fewer cells.
-    pub(crate) const OUTSIDE: u64 = u64::MAX;
-
-    /// The numbers of the cells of many states, by columns.
-    pub(crate) fn cells_of_columns(&self, columns: &[Vec<f64>], cells: &mut Vec<u64>) {
-        cells.clear();
-        cells.resize(columns.first().map_or(0, Vec::len), 0);
-        for axis in self.axes.iter().rev() {
-            for (cell, &x) in cells.iter_mut().zip(&columns[axis.coordinate]) {
-                let number = cell.wrapping_mul(axis.cells).wrapping_add(axis.cell(x));
-                let is_in = *cell != Self::OUTSIDE && axis.side.contains(x);
-                *cell = if is_in { number } else { Self::OUTSIDE };
-            }
-        }
-    }
-
-    /// Whether a state, moved into its periods, lies in the region.
-    #[inline(always)]
-    pub(crate) fn contains(&self, state: &[f64]) -> bool {
-        self.axes.iter().all(|axis| axis.side.contains(state[axis.coordinate]))
-    }
-
-    /// The number of the cell of a state that lies in the region.
-    #[inline(always)]
-    pub(crate) fn cell_inside(&self, state: &[f64]) -> u64 {
-        let mut number = 0;
-        for axis in self.axes.iter().rev() {
-            number = number * axis.cells + axis.cell(state[axis.coordinate]);
-        }
-        number
-    }
-
     /// The number of the cell that contains a state, moved into its periods; `None` outside the region.
     pub(crate) fn cell(&self, state: &[f64]) -> Option<u64> {
-        self.contains(state).then(|| self.cell_inside(state))
+        self.cell_by(|coordinate| state[coordinate])
+    }
+
+    /// The same of a state with these coordinates.
+    #[inline(always)]
+    pub(crate) fn cell_by(&self, at: impl Fn(usize) -> f64) -> Option<u64> {
+        let mut number = 0;
+        for axis in self.axes.iter().rev() {
+            let x = at(axis.coordinate);
+            if !axis.side.contains(x) {
+                return None;
+            }
+            number = number * axis.cells + axis.cell(x);
+        }
+        Some(number)
+    }
+
+    /// The numbers of the cells of many states, by columns, and the number of all cells for states outside the region. There are fewer than 2³².
+    ///
+    /// There is no branch: the processor does not foresee where orbits end, and a wrong guess takes as long as some steps of a simple map.
+    pub(crate) fn cells_of_columns(&self, columns: &[Vec<f64>], cells: &mut Vec<f64>) {
+        cells.clear();
+        cells.resize(columns.first().map_or(0, Vec::len), 0.0);
+        for axis in self.axes.iter().rev() {
+            axis.add_cells(&columns[axis.coordinate], cells);
+        }
+        let all = self.count() as f64;
+        cells.iter_mut().for_each(|cell| *cell = if cell.is_nan() { all } else { *cell });
     }
 
     /// Where a state is farthest outside the region, in lengths of its sides; `None` inside.
