@@ -206,9 +206,10 @@ impl Candidate<'_> {
             grid.move_into(cell, |k| random.uniform(first + 1 + k), state);
         };
         let tests = self.limits.tests.max(FEWEST_TESTS);
-        let found = in_parts(tests, |first, count| {
+        let mut found = vec![Test::Leaves; tests];
+        in_parts(&mut found, |first, ends| {
             let begin = |k, orbit: &mut TestOrbit<'_>| orbit.restart(|at| start(first + k, at));
-            follow_some(self.map, grid.dimension(), count, || TestOrbit::new(&trap), begin)
+            follow_some(self.map, grid.dimension(), || TestOrbit::new(&trap), begin, ends);
         });
         found.into_iter().max().unwrap_or(Test::Leaves)
     }

@@ -3,46 +3,11 @@
 //! No branch depends on where an orbit is. The processor does not foresee this, and a wrong guess takes as long as some steps of a simple map.
 
 use crate::attractors::followed_orbit::UNTRACKED;
-use crate::attractors::known_cells::{KnownCells, NO_CELL, NO_OWNER};
+use crate::attractors::known_cells::KnownCells;
 use crate::attractors::recurrence_limits::RecurrenceLimits;
 use crate::attractors::state_map::StateMap;
-
-/// Orbits after some steps.
-pub(crate) struct FirstSteps {
-    /// What the last look at each orbit showed, and the steps until then.
-    looks: Vec<(u16, u16)>,
-    /// The orbits that go on.
-    pub(crate) others: Vec<Unended>,
-}
-
-/// What a look shows, beside the attractor that owns the cell, no owner and no cell.
-const ESCAPED: u16 = u16::MAX - 2;
-const STOPPED: u16 = u16::MAX - 3;
-
-/// How an orbit ends before its recurrences are looked for.
-#[derive(Clone, Copy)]
-pub(crate) enum EarlyEnd {
-    /// At the attractor with this index.
-    Known(usize),
-    Escaped,
-    /// The map has no value, or one that is not finite.
-    Stopped,
-}
-
-impl FirstSteps {
-    /// For each orbit its end, and the steps until then, if it has ended.
-    pub(crate) fn ends(&self) -> impl Iterator<Item = Option<(EarlyEnd, usize)>> {
-        self.looks.iter().map(|&(look, steps)| {
-            let end = match look {
-                NO_OWNER | NO_CELL => return None,
-                ESCAPED => EarlyEnd::Escaped,
-                STOPPED => EarlyEnd::Stopped,
-                own => EarlyEnd::Known(usize::from(own)),
-            };
-            Some((end, usize::from(steps)))
-        })
-    }
-}
+use crate::space::label::Label;
+use std::hint::select_unpredictable;
 
 /// An orbit that goes on.
 pub(crate) struct Unended {
@@ -62,7 +27,7 @@ struct Followed {
     has_image: Vec<bool>,
     /// Memory of a look.
     cells: Vec<f64>,
-    owners: Vec<u16>,
+    labels: Vec<Label>,
     sizes: Vec<f64>,
     kept: Vec<u32>,
 }
@@ -75,15 +40,15 @@ impl Followed {
             outside: vec![0; count],
             has_image: vec![true; count],
             cells: Vec::new(),
-            owners: Vec::new(),
+            labels: Vec::new(),
             sizes: Vec::new(),
             kept: vec![0; count],
         }
     }
 
     /// Looks at all orbits after so many steps, and keeps those that have not ended.
-    fn look(&mut self, known: &KnownCells, escape: f64, steps: u16, looks: &mut [(u16, u16)]) {
-        known.owners_of_columns(&self.columns, &mut self.cells, &mut self.owners);
+    fn look(&mut self, known: &KnownCells, escape: f64, steps: usize, ends: &mut [(Label, usize)]) {
+        known.labels_of_columns(&self.columns, &mut self.cells, &mut self.labels);
         self.sizes.clear();
         self.sizes.resize(self.numbers.len(), 0.0);
         for column in &self.columns {
@@ -94,18 +59,18 @@ impl Followed {
             }
         }
         let mut kept = 0;
-        let each = self.numbers.iter().zip(&self.has_image).zip(&self.owners).zip(&self.sizes);
-        for (lane, (((&number, &has_image), &owner), &size)) in each.enumerate() {
-            let end = if size > escape { ESCAPED } else { owner };
+        let each = self.numbers.iter().zip(&self.has_image).zip(&self.labels).zip(&self.sizes);
+        for (lane, (((&number, &has_image), &label), &size)) in each.enumerate() {
+            let end = select_unpredictable(size > escape, Label::ESCAPED, label);
             let is_stopped = !has_image | (size == f64::INFINITY);
-            let end = if is_stopped { STOPPED } else { end };
+            let end = select_unpredictable(is_stopped, Label::UNDECIDED_MAP, end);
             // A step without a value is none.
-            looks[number as usize] = (end, steps - u16::from(!has_image));
+            ends[number as usize] = (end, steps - usize::from(!has_image));
             self.kept[kept] = lane as u32;
-            kept += usize::from(end >= NO_CELL);
+            kept += usize::from((end == Label::UNDECIDED) | (end == Label::OUTSIDE));
         }
-        for (outside, owner) in self.outside.iter_mut().zip(&self.owners) {
-            *outside = if *owner == NO_CELL { *outside + 1 } else { 0 };
+        for (outside, label) in self.outside.iter_mut().zip(&self.labels) {
+            *outside = if *label == Label::OUTSIDE { *outside + 1 } else { 0 };
         }
         self.keep(kept);
     }
@@ -128,7 +93,7 @@ impl Followed {
     }
 }
 
-/// The first steps of so many orbits. `start` writes the start with a number.
+/// The first steps of as many orbits as `ends` has places: the labels and steps of those that end, and the others. `start` writes the start with a number.
 ///
 /// An orbit ends as it would alone: in a cell of a known attractor, beyond the distance of escape, where the map has no value. Recurrences are
 /// not looked for so early.
@@ -136,12 +101,12 @@ pub(crate) fn first_steps(
     map: &dyn StateMap,
     known: &KnownCells,
     limits: &RecurrenceLimits,
-    count: usize,
     start: impl Fn(usize, &mut [f64]),
-) -> FirstSteps {
+    ends: &mut [(Label, usize)],
+) -> Vec<Unended> {
     let mut state = vec![0.0; known.dimension()];
-    let mut columns = vec![vec![0.0; count]; known.dimension()];
-    for number in 0..count {
+    let mut columns = vec![vec![0.0; ends.len()]; known.dimension()];
+    for number in 0..ends.len() {
         start(number, &mut state);
         known.wrap(&mut state);
         columns.iter_mut().zip(&state).for_each(|(column, x)| column[number] = *x);
@@ -151,10 +116,9 @@ pub(crate) fn first_steps(
         true => UNTRACKED.min(limits.budget / 100).min(limits.lost),
         false => 0,
     };
-    let mut looks = vec![(NO_OWNER, 0); count];
-    let mut followed = Followed::new(columns, count);
+    let mut followed = Followed::new(columns, ends.len());
     for step in 0..steps {
-        followed.look(known, limits.escape.unwrap_or(f64::INFINITY), step as u16, &mut looks);
+        followed.look(known, limits.escape.unwrap_or(f64::INFINITY), step, ends);
         if followed.numbers.is_empty() {
             break;
         }
@@ -165,11 +129,11 @@ pub(crate) fn first_steps(
     for (lane, &number) in followed.numbers.iter().enumerate() {
         let number = number as usize;
         if !followed.has_image[lane] {
-            looks[number] = (STOPPED, steps as u16 - 1);
+            ends[number] = (Label::UNDECIDED_MAP, steps - 1);
             continue;
         }
         let at = followed.columns.iter().map(|column| column[lane]).collect();
         others.push(Unended { number, at, steps, outside: followed.outside[lane].into() });
     }
-    FirstSteps { looks, others }
+    others
 }

@@ -212,11 +212,13 @@ impl KnownAttractors {
     ) -> Result<Vec<(Label, usize)>, Error> {
         let dimension = self.points[0].0.len();
         check_map(map, dimension)?;
-        Ok(in_parts(count, |first, count| {
+        let mut all = vec![(Label::UNDECIDED, 0); count];
+        in_parts(&mut all, |first, ends| {
             let begin =
                 |k: usize, orbit: &mut Approach<'_>| orbit.restart(|at| start(first + k, at));
-            follow_some(map, dimension, count, || Approach::new(self), begin)
-        }))
+            follow_some(map, dimension, || Approach::new(self), begin, ends);
+        });
+        Ok(all)
     }
 
     /// The nearest point within a distance: its label, and how far it is.

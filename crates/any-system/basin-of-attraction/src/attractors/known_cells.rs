@@ -4,8 +4,10 @@ use crate::attractors::axis::whole;
 use crate::attractors::state_grid::StateGrid;
 use crate::attractors::state_map::{Moving, StateMap};
 use crate::attractors::unmatched::Border;
+use crate::space::label::{Label, attractor_of_label};
 use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
+use std::hint::select_unpredictable;
 
 /// Finer grids than that of the caller. An attractor that comes within a cell or two of the boundary of its basin
 /// is no trap at the scale of the first grid, and is one at the scale of a finer one. With four of them, up to 16
@@ -36,14 +38,13 @@ pub(crate) enum Place {
 /// The attractors that own cells of a grid, by the numbers of the cells.
 #[derive(Debug, Clone, PartialEq)]
 enum Owners {
-    /// For each cell its owner, or [`NO_OWNER`]; behind the last one [`NO_CELL`].
-    Dense(Vec<u16>),
-    Sparse(HashMap<u64, u16, ByCell>),
+    /// For each cell the label of its owner, or [`FREE`]; behind the last one [`Label::OUTSIDE`].
+    Dense(Vec<Label>),
+    Sparse(HashMap<u64, Label, ByCell>),
 }
 
-/// A cell without an owner, and a state without a cell. No attractor has these indices: there are at most 65 000.
-pub(crate) const NO_OWNER: u16 = u16::MAX;
-pub(crate) const NO_CELL: u16 = u16::MAX - 1;
+/// What an orbit is in a cell without an owner: undecided.
+const FREE: Label = Label::UNDECIDED;
 
 /// Grids of up to so many cells have a table of owners: 2 MB, which is looked up in a third of the time of a hash.
 const MOST_DENSE: u64 = 1 << 20;
@@ -52,8 +53,8 @@ impl Owners {
     fn of(grid: &StateGrid) -> Owners {
         match grid.count() {
             count if count <= MOST_DENSE => {
-                let mut all = vec![NO_OWNER; count as usize];
-                all.push(NO_CELL);
+                let mut all = vec![FREE; count as usize];
+                all.push(Label::OUTSIDE);
                 Owners::Dense(all)
             }
             _ => Owners::Sparse(HashMap::default()),
@@ -61,15 +62,14 @@ impl Owners {
     }
 
     #[inline]
-    fn of_cell(&self, cell: u64) -> Option<usize> {
-        let owner = match self {
+    fn of_cell(&self, cell: u64) -> Label {
+        match self {
             Owners::Dense(all) => all[cell as usize],
-            Owners::Sparse(some) => some.get(&cell).copied().unwrap_or(NO_OWNER),
-        };
-        (owner != NO_OWNER).then_some(usize::from(owner))
+            Owners::Sparse(some) => some.get(&cell).copied().unwrap_or(FREE),
+        }
     }
 
-    fn add(&mut self, cell: u64, owner: u16) {
+    fn add(&mut self, cell: u64, owner: Label) {
         match self {
             Owners::Dense(all) => all[cell as usize] = owner,
             Owners::Sparse(some) => {
@@ -78,10 +78,10 @@ impl Owners {
         }
     }
 
-    fn renumber(&mut self, index: &[usize]) {
-        let new = |own: &mut u16| {
-            if *own < NO_CELL {
-                *own = index[usize::from(*own)] as u16;
+    fn renumber(&mut self, labels: &[Label]) {
+        let new = |own: &mut Label| {
+            if let Some(index) = attractor_of_label(*own) {
+                *own = labels[index];
             }
         };
         match self {
@@ -171,52 +171,58 @@ impl KnownCells {
     /// Where a state is.
     #[inline]
     pub(crate) fn place(&self, point: &[f64]) -> Place {
-        self.place_by(|coordinate| point[coordinate])
+        let label = self.label_by(|coordinate| point[coordinate]);
+        match attractor_of_label(label) {
+            Some(owner) => Place::Owned(owner),
+            None if label == FREE => Place::Inside,
+            None => Place::Outside,
+        }
     }
 
-    /// Where a state with these coordinates is. All grids have the same region.
+    /// What an orbit is at a state with these coordinates: the label of the attractor that owns its cell, undecided, or outside the region.
     #[inline(always)]
-    pub(crate) fn place_by(&self, at: impl Fn(usize) -> f64) -> Place {
+    fn label_by(&self, at: impl Fn(usize) -> f64) -> Label {
         let mut owned = self.owned.iter();
         let first = owned.next().copied();
+        // All grids have the same region.
         let Some(cell) = self.grids[first.unwrap_or(0)].cell_by(&at) else {
-            return Place::Outside;
+            return Label::OUTSIDE;
         };
-        let owner = first.and_then(|number| self.owners[number].of_cell(cell));
-        let finer = |number: &usize| self.owners[*number].of_cell(self.grids[*number].cell_by(&at)?);
-        owner.or_else(|| owned.find_map(finer)).map_or(Place::Inside, Place::Owned)
+        let mut label = first.map_or(FREE, |number| self.owners[number].of_cell(cell));
+        for &number in owned {
+            if label == FREE
+                && let Some(cell) = self.grids[number].cell_by(&at)
+            {
+                label = self.owners[number].of_cell(cell);
+            }
+        }
+        label
     }
 
-    /// The owners of the cells of many states, by columns: their indices, [`NO_OWNER`] or [`NO_CELL`]. `cells` is memory.
-    pub(crate) fn owners_of_columns(
+    /// The same at many states, by columns. `cells` is memory.
+    pub(crate) fn labels_of_columns(
         &self,
         columns: &[Vec<f64>],
         cells: &mut Vec<f64>,
-        owners: &mut Vec<u16>,
+        labels: &mut Vec<Label>,
     ) {
-        let count = columns.first().map_or(0, Vec::len);
-        owners.clear();
-        owners.resize(count, NO_OWNER);
+        labels.clear();
+        labels.resize(columns.first().map_or(0, Vec::len), FREE);
         let dense = |number: &usize| match &self.owners[*number] {
             Owners::Dense(all) => Some((&self.grids[*number], all)),
             Owners::Sparse(_) => None,
         };
         let dense: Option<Vec<_>> = self.owned.iter().map(dense).collect();
         let Some(dense) = dense.filter(|dense| !dense.is_empty()) else {
-            for (lane, owner) in owners.iter_mut().enumerate() {
-                *owner = match self.place_by(|coordinate| columns[coordinate][lane]) {
-                    Place::Owned(owner) => owner as u16,
-                    Place::Inside => NO_OWNER,
-                    Place::Outside => NO_CELL,
-                };
+            for (lane, label) in labels.iter_mut().enumerate() {
+                *label = self.label_by(|coordinate| columns[coordinate][lane]);
             }
             return;
         };
         for (grid, all) in dense {
             grid.cells_of_columns(columns, cells);
-            for (owner, &cell) in owners.iter_mut().zip(&*cells) {
-                let found = all[whole(cell)];
-                *owner = if *owner == NO_OWNER { found } else { *owner };
+            for (label, &cell) in labels.iter_mut().zip(&*cells) {
+                *label = select_unpredictable(*label == FREE, all[whole(cell)], *label);
             }
         }
     }
@@ -236,22 +242,24 @@ impl KnownCells {
 
     /// The attractor, other than this one, in one of whose cells a point lies: cells of two grids may overlap.
     pub(crate) fn other_owner(&self, point: &[f64], own: usize) -> Option<usize> {
-        let owner = |number: &usize| self.owners[*number].of_cell(self.grids[*number].cell(point)?);
+        let owner = |number: &usize| {
+            attractor_of_label(self.owners[*number].of_cell(self.grids[*number].cell(point)?))
+        };
         self.owned.iter().filter_map(owner).find(|other| *other != own)
     }
 
     /// The cells of one grid belong to an attractor.
-    pub(crate) fn add(&mut self, grid: usize, cells: impl Iterator<Item = u64>, attractor: usize) {
+    pub(crate) fn add(&mut self, grid: usize, cells: impl Iterator<Item = u64>, label: Label) {
         if !self.owned.contains(&grid) {
             self.owners[grid] = Owners::of(&self.grids[grid]);
             self.owned.push(grid);
             self.owned.sort_unstable();
         }
-        cells.for_each(|cell| self.owners[grid].add(cell, attractor as u16));
+        cells.for_each(|cell| self.owners[grid].add(cell, label));
     }
 
-    /// Each attractor gets a new index.
-    pub(crate) fn renumber(&mut self, index: &[usize]) {
-        self.owners.iter_mut().for_each(|owners| owners.renumber(index));
+    /// Each attractor gets a new label.
+    pub(crate) fn renumber(&mut self, labels: &[Label]) {
+        self.owners.iter_mut().for_each(|owners| owners.renumber(labels));
     }
 }

@@ -1,6 +1,6 @@
 //! To which attractor do orbits come, and when: one orbit, many at once, the pixels of a window.
 
-use crate::attractors::first_steps::{EarlyEnd, first_steps};
+use crate::attractors::first_steps::first_steps;
 use crate::attractors::followed_orbit::{End, Orbit, Settled};
 use crate::attractors::many_orbits::{FollowedOrbit, follow_some, in_parts};
 use crate::attractors::recurrences::Attractors;
@@ -62,24 +62,16 @@ impl Attractors {
             attractors: self,
             orbit: Orbit::new(known, limits, &vec![0.0; dimension]),
         };
-        Ok(in_parts(count, |first, count| {
+        let mut all = vec![(Label::UNDECIDED, 0); count];
+        in_parts(&mut all, |first, ends| {
             let start = |k, state: &mut [f64]| start(first + k, state);
-            let first = first_steps(map, known, limits, count, start);
-            let others = &first.others;
+            let others = first_steps(map, known, limits, start, ends);
             let begin = |k: usize, own: &mut Labelled<'_>| own.orbit.resume(known, &others[k]);
-            let later = follow_some(map, dimension, others.len(), orbit, begin);
-            let label = |(end, steps)| match end {
-                EarlyEnd::Known(own) => (self.attractors()[own].label, steps),
-                EarlyEnd::Escaped => (Label::ESCAPED, steps),
-                EarlyEnd::Stopped => (Label::UNDECIDED_MAP, steps),
-            };
-            let mut found: Vec<(Label, usize)> =
-                first.ends().map(|end| end.map_or((Label::UNDECIDED, 0), label)).collect();
-            for (other, end) in others.iter().zip(later) {
-                found[other.number] = end;
-            }
-            found
-        }))
+            let mut later = vec![(Label::UNDECIDED, 0); others.len()];
+            follow_some(map, dimension, orbit, begin, &mut later);
+            others.iter().zip(later).for_each(|(other, end)| ends[other.number] = end);
+        });
+        Ok(all)
     }
 
     /// The labels of the pixels of a window of the plane, in parallel: `state` writes the state for the x and y of a pixel's middle.

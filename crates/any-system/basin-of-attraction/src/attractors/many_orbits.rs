@@ -42,55 +42,50 @@ const TOGETHER: usize = 32;
 const MOST: usize = 1024;
 const PARTS: usize = 8;
 
-/// Parts of so many orbits, each with the number of its first one and their number, in parallel. The results are in order.
-pub(crate) fn in_parts<E: Send>(
-    count: usize,
-    follow: impl Fn(usize, usize) -> Vec<E> + Sync,
-) -> Vec<E> {
-    let part = count.div_ceil(PARTS).clamp(1, MOST);
-    let firsts = (0..count.div_ceil(part)).into_par_iter().map(|number| part * number);
-    firsts.flat_map_iter(|first| follow(first, part.min(count - first))).collect()
+/// Gives each of many orbits its end, in parallel: `follow` gets parts of them, each with the number of its first one.
+pub(crate) fn in_parts<E: Send>(ends: &mut [E], follow: impl Fn(usize, &mut [E]) + Sync) {
+    let part = ends.len().div_ceil(PARTS).clamp(1, MOST);
+    let parts = ends.par_chunks_mut(part).enumerate();
+    parts.for_each(|(number, ends)| follow(part * number, ends));
 }
 
-/// Follows so many orbits to their ends. `orbit` makes memory for one, and `begin` lets it be the orbit with a number.
+/// Follows orbits, and gives each its end. `orbit` makes memory for one, and `begin` lets it be the orbit with a number.
 pub(crate) fn follow_some<O: FollowedOrbit>(
     map: &dyn StateMap,
     dimension: usize,
-    count: usize,
     orbit: impl Fn() -> O,
     begin: impl Fn(usize, &mut O),
-) -> Vec<O::End> {
+    ends: &mut [O::End],
+) {
     match map.has_lanes() {
-        true => follow_together(map, dimension, count, orbit, begin),
-        false => follow_alone(map, count, orbit, begin),
+        true => follow_together(map, dimension, orbit, begin, ends),
+        false => follow_alone(map, orbit, begin, ends),
     }
 }
 
 /// One orbit after the other.
 fn follow_alone<O: FollowedOrbit>(
     map: &dyn StateMap,
-    count: usize,
     orbit: impl Fn() -> O,
     begin: impl Fn(usize, &mut O),
-) -> Vec<O::End> {
+    ends: &mut [O::End],
+) {
     let mut orbit = orbit();
-    let follow = |number: usize| {
+    for (number, end) in ends.iter_mut().enumerate() {
         begin(number, &mut orbit);
-        orbit.follow(map)
-    };
-    (0..count).map(follow).collect()
+        *end = orbit.follow(map);
+    }
 }
 
 /// Some orbits at a time.
 fn follow_together<O: FollowedOrbit>(
     map: &dyn StateMap,
     dimension: usize,
-    count: usize,
     orbit: impl Fn() -> O,
     begin: impl Fn(usize, &mut O),
-) -> Vec<O::End> {
-    let mut ends: Vec<Option<O::End>> = (0..count).map(|_| None).collect();
-    let mut waiting = 0..count;
+    ends: &mut [O::End],
+) {
+    let mut waiting = 0..ends.len();
     // The next orbit; `None` after the last one.
     let mut next = |orbit: &mut O| {
         let number = waiting.next()?;
@@ -108,7 +103,7 @@ fn follow_together<O: FollowedOrbit>(
         followed.retain_mut(|(orbit, number)| {
             // Until an orbit is to be moved, or no start is left for its memory.
             while let Some(end) = orbit.see() {
-                ends[*number] = Some(end);
+                ends[*number] = end;
                 match next(orbit) {
                     Some(other) => *number = other,
                     None => return false,
@@ -132,5 +127,4 @@ fn follow_together<O: FollowedOrbit>(
             orbit.moved(steps, has_image[place]);
         }
     }
-    ends.into_iter().flatten().collect()
 }

@@ -199,7 +199,7 @@ impl Attractors {
         let (label, points, period) =
             (label_of_attractor(index + 1)?, located.points, located.period);
         self.attractors.push(Attractor { label, points, period, starts: 1 });
-        self.known.add(located.grid, located.cells.into_iter(), index);
+        self.known.add(located.grid, located.cells.into_iter(), label);
         Ok(true)
     }
 
@@ -222,8 +222,10 @@ impl Attractors {
         let mut classes = first.clone();
         classes.sort_unstable();
         classes.dedup();
-        let index: Vec<usize> =
-            first.iter().map(|class| classes.partition_point(|other| other < class)).collect();
+        let label = |class: &usize| {
+            self.attractors[classes.partition_point(|other| other < class)].label
+        };
+        let labels: Vec<Label> = first.iter().map(label).collect();
         let kept = classes.iter().enumerate().map(|(at, &class)| {
             // The orbit that enters no other one has come to the attractor.
             let members = || (0..first.len()).filter(|&own| first[own] == class);
@@ -232,7 +234,7 @@ impl Attractors {
             Attractor { label: self.attractors[at].label, starts, ..self.attractors[own].clone() }
         });
         self.attractors = kept.collect();
-        self.known.renumber(&index);
+        self.known.renumber(&labels);
     }
 
     /// The attractor that the orbit of another one enters within the budget.

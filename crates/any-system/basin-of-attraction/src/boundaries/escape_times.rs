@@ -77,7 +77,8 @@ impl EscapeTimes {
         let dimension = region.dimension();
         check_map(map, dimension)?;
         let random = SplitMix64::from_seed(seed);
-        let times = in_parts(count, |first, count| {
+        let mut times = vec![None; count];
+        in_parts(&mut times, |first, ends| {
             let orbit = || Transient {
                 point: Moving::from(&vec![0.0; dimension]),
                 inside,
@@ -89,7 +90,7 @@ impl EscapeTimes {
                 orbit.point.at = region.random_point(&random, (first + k) as u64);
                 (orbit.steps, orbit.is_stopped) = (0, false);
             };
-            follow_some(map, dimension, count, orbit, begin)
+            follow_some(map, dimension, orbit, begin, ends);
         });
         let mut survivors = vec![0usize; most + 1];
         times.into_iter().flatten().for_each(|steps| survivors[steps] += 1);

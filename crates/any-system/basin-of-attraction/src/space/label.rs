@@ -121,6 +121,12 @@ pub(crate) fn label_of_attractor(number: usize) -> Result<Label, Error> {
     own.and_then(Label::basin).ok_or(Error::TooManyAttractors { most: MOST_ATTRACTORS })
 }
 
+/// The index of an attractor, from its label.
+#[inline]
+pub(crate) fn attractor_of_label(label: Label) -> Option<usize> {
+    usize::from(label.basin_number()?).checked_sub(1)
+}
+
 /// Basin 0 … 255.
 impl From<u8> for Label {
     fn from(number: u8) -> Self {
