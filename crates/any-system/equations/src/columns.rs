@@ -138,34 +138,53 @@ impl Formulas {
         for column in states.iter() {
             length("states in a column", count, column.len())?;
         }
-        let time = Lanes([time; WIDTH]);
-        let mut parts: Vec<Lanes> = self.numbers();
-        let mut state = vec![Lanes::zero(); components];
-        for first in (0..count).step_by(WIDTH) {
-            let width = WIDTH.min(count - first);
+        match count {
+            0..=WIDTH => self.map_lanes(time, states, steps, has_value, simd::images_of_lanes),
+            _ => self.map_lanes(time, states, steps, has_value, simd::images_of_many_lanes),
+        }
+        Ok(())
+    }
+
+    /// The same, N states at a time.
+    fn map_lanes<const N: usize>(
+        &self,
+        time: f64,
+        states: &mut [Vec<f64>],
+        steps: usize,
+        has_value: &mut [bool],
+        images: ImagesOfLanes<N>,
+    ) {
+        let time = Lanes([time; N]);
+        let mut parts: Vec<Lanes<N>> = self.numbers();
+        let mut state = vec![Lanes::zero(); states.len()];
+        for first in (0..has_value.len()).step_by(N) {
+            let width = N.min(has_value.len() - first);
             for (state, column) in state.iter_mut().zip(states.iter()) {
                 // The last block is filled with its last state.
                 *state = Lanes(from_fn(|lane| column[first + lane.min(width - 1)]));
             }
-            let is_valid = simd::images_of_lanes(self, &time, &mut state, &mut parts, steps);
+            let is_valid = images(self, &time, &mut state, &mut parts, steps);
             for (column, state) in states.iter_mut().zip(&state) {
                 column[first..first + width].copy_from_slice(&state.0[..width]);
             }
             let valid = is_valid.0.iter().map(|valid| *valid == 0.0);
             has_value[first..first + width].iter_mut().zip(valid).for_each(|(has, is)| *has = is);
         }
-        Ok(())
     }
 }
 
+/// See [`images_of_lanes`].
+type ImagesOfLanes<const N: usize> =
+    fn(&Formulas, &Lanes<N>, &mut [Lanes<N>], &mut [Lanes<N>], usize) -> Lanes<N>;
+
 /// The values of all parts for some states, and for each state 0 if all of them are finite, else NaN.
 #[inline(always)]
-pub(crate) fn values_of_lanes(
+pub(crate) fn values_of_lanes<const N: usize>(
     formulas: &Formulas,
-    time: &Lanes,
-    state: &[Lanes],
-    parts: &mut [Lanes],
-) -> Lanes {
+    time: &Lanes<N>,
+    state: &[Lanes<N>],
+    parts: &mut [Lanes<N>],
+) -> Lanes<N> {
     compute(&formulas.nodes, time, state, parts, 1);
     // 0 times what is not finite is NaN. Plain loops: what is not inlined would be compiled for narrow vectors.
     let mut sum = time.each(|x| 0.0 * x);
@@ -180,13 +199,13 @@ pub(crate) fn values_of_lanes(
 
 /// Replaces some states by the values there, so many times. For each state 0 if all values were finite, else NaN.
 #[inline(always)]
-pub(crate) fn images_of_lanes(
+pub(crate) fn images_of_lanes<const N: usize>(
     formulas: &Formulas,
-    time: &Lanes,
-    state: &mut [Lanes],
-    parts: &mut [Lanes],
+    time: &Lanes<N>,
+    state: &mut [Lanes<N>],
+    parts: &mut [Lanes<N>],
     steps: usize,
-) -> Lanes {
+) -> Lanes<N> {
     let mut all = Lanes::zero();
     for _ in 0..steps {
         let is_valid = values_of_lanes(formulas, time, state, parts);

@@ -11,15 +11,19 @@ use std::array::from_fn;
 /// part of a formula is then looked up once for all of them.
 pub(crate) const WIDTH: usize = 8;
 
+/// States whose images under a map are computed side by side: looking up a part, and waiting for its operands, then takes a quarter of the
+/// time. A step of a flow has more to do for each part, and its numbers would not stay in the fastest memory.
+pub(crate) const MANY: usize = 32;
+
 /// A number for each of some states.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
-pub(crate) struct Lanes(pub(crate) [f64; WIDTH]);
+pub(crate) struct Lanes<const N: usize = WIDTH>(pub(crate) [f64; N]);
 
-impl Elementwise for Lanes {
+impl<const N: usize> Elementwise for Lanes<N> {
     #[inline(always)]
     fn number(value: f64) -> Self {
-        Lanes([value; WIDTH])
+        Lanes([value; N])
     }
 
     #[inline(always)]
@@ -43,10 +47,10 @@ impl Elementwise for Lanes {
     }
 }
 
-impl Arithmetic for Lanes {
+impl<const N: usize> Arithmetic for Lanes<N> {
     #[inline(always)]
     fn one() -> Self {
-        Lanes([1.0; WIDTH])
+        Lanes([1.0; N])
     }
 
     #[inline(always)]
@@ -81,11 +85,11 @@ impl Arithmetic for Lanes {
 
     #[inline(always)]
     fn convolution(x: &[Self], y: &[Self]) -> Self {
-        let add = |sum: Lanes, x: &Lanes, y: &Lanes| {
+        let add = |sum: Self, x: &Self, y: &Self| {
             Lanes(from_fn(|lane| sum.0[lane] + x.0[lane] * y.0[lane]))
         };
         let ((x, x_left), (y_left, y)) = (x.as_chunks::<4>(), y.as_rchunks::<4>());
-        let mut sums = [Lanes::zero(); 4];
+        let mut sums = [Self::zero(); 4];
         for (x, y) in x.iter().zip(y.iter().rev()) {
             sums = from_fn(|k| add(sums[k], &x[k], &y[3 - k]));
         }
@@ -101,7 +105,7 @@ impl Arithmetic for Lanes {
 
     #[inline(always)]
     fn zero() -> Self {
-        Lanes([0.0; WIDTH])
+        Lanes([0.0; N])
     }
 
     #[inline(always)]
@@ -110,10 +114,10 @@ impl Arithmetic for Lanes {
     }
 }
 
-impl Algebra for Lanes {
+impl<const N: usize> Algebra for Lanes<N> {
     #[inline(always)]
     fn constant(constant: &Constant) -> Self {
-        Lanes([constant.value(); WIDTH])
+        Lanes([constant.value(); N])
     }
 
     #[inline(always)]

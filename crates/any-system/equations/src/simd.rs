@@ -8,7 +8,7 @@
 
 use crate::columns;
 use crate::formulas::Formulas;
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, MANY};
 use crate::side_by_side;
 use crate::step::Step;
 use crate::taylor_flow::TaylorFlow;
@@ -16,24 +16,24 @@ use crate::taylor_flow::TaylorFlow;
 /// A function that is compiled with wider vectors, and chosen by the processor. All that it calls is compiled with them, as it is always
 /// inlined.
 macro_rules! compiled_for_vectors {
-    ($(#[$doc:meta])* $name:ident = $plain:path, ($($argument:ident: $type:ty),*), $wide:ident) => {
+    ($(#[$doc:meta])* $name:ident = $plain:path, ($($argument:ident: $type:ty),*) -> $result:ty, $wide:ident) => {
         #[cfg(target_arch = "x86_64")]
         mod $wide {
             use super::*;
             // The four parts of AVX-512 that the compiler uses in these loops. All four are asked for.
             #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
-            pub(super) fn with_avx512($($argument: $type),*) -> Lanes {
+            pub(super) fn with_avx512($($argument: $type),*) -> $result {
                 $plain($($argument),*)
             }
 
             #[target_feature(enable = "avx2")]
-            pub(super) fn with_avx2($($argument: $type),*) -> Lanes {
+            pub(super) fn with_avx2($($argument: $type),*) -> $result {
                 $plain($($argument),*)
             }
         }
 
         $(#[$doc])*
-        pub(crate) fn $name($($argument: $type),*) -> Lanes {
+        pub(crate) fn $name($($argument: $type),*) -> $result {
             #[cfg(target_arch = "x86_64")]
             {
                 if is_x86_feature_detected!("avx512f")
@@ -57,22 +57,35 @@ macro_rules! compiled_for_vectors {
 compiled_for_vectors!(
     /// See [`side_by_side::step_of_lanes`].
     step_of_lanes = side_by_side::step_of_lanes,
-    (flow: &TaylorFlow<'_>, times: (Lanes, Lanes), state: &[Lanes], step: &mut Step<Lanes>),
+    (flow: &TaylorFlow<'_>, times: (Lanes, Lanes), state: &[Lanes], step: &mut Step<Lanes>) -> Lanes,
     wide_steps
 );
 
 compiled_for_vectors!(
     /// See [`columns::values_of_lanes`].
     values_of_lanes = columns::values_of_lanes,
-    (formulas: &Formulas, time: &Lanes, state: &[Lanes], parts: &mut [Lanes]),
+    (formulas: &Formulas, time: &Lanes, state: &[Lanes], parts: &mut [Lanes]) -> Lanes,
     wide_values
 );
 
 compiled_for_vectors!(
     /// See [`columns::images_of_lanes`].
     images_of_lanes = columns::images_of_lanes,
-    (formulas: &Formulas, time: &Lanes, state: &mut [Lanes], parts: &mut [Lanes], steps: usize),
+    (formulas: &Formulas, time: &Lanes, state: &mut [Lanes], parts: &mut [Lanes], steps: usize) -> Lanes,
     wide_images
+);
+
+compiled_for_vectors!(
+    /// See [`columns::images_of_lanes`].
+    images_of_many_lanes = columns::images_of_lanes,
+    (
+        formulas: &Formulas,
+        time: &Lanes<MANY>,
+        state: &mut [Lanes<MANY>],
+        parts: &mut [Lanes<MANY>],
+        steps: usize
+    ) -> Lanes<MANY>,
+    wide_images_of_many
 );
 
 #[cfg(test)]

@@ -87,7 +87,8 @@ impl Axis {
     /// Whether a place on the side is on the border of two cells, to rounding.
     pub(crate) fn is_on_border(&self, x: f64) -> bool {
         let at = self.part(x) * self.cells as f64;
-        (at - at.round()).abs() < BORDER
+        let into_cell = at - at as i64 as f64;
+        !(BORDER..=1.0 - BORDER).contains(&into_cell)
     }
 
     /// The cell of a place on the side, and the one beside it if the place is on their border, to rounding.

@@ -2,7 +2,7 @@
 
 use crate::attractors::confirmation::Ends;
 use crate::attractors::followed_orbit::Settled;
-use crate::attractors::known_cells::{CellSet, KnownCells};
+use crate::attractors::known_cells::{CellMap, CellSet, KnownCells};
 use crate::attractors::many_orbits::{follow_some, in_parts};
 use crate::attractors::recurrence_limits::RecurrenceLimits;
 use crate::attractors::state_grid::StateGrid;
@@ -43,6 +43,9 @@ pub(crate) struct Located {
     pub(crate) period: Option<usize>,
 }
 
+/// The number of a grid, the grid, and its cells that the candidate visits, each with a point.
+type Cells<'a> = (usize, &'a StateGrid, BTreeMap<u64, &'a [f64]>);
+
 /// Successive points of the candidate, as many coordinates each as a state has.
 struct Points {
     coordinates: Vec<f64>,
@@ -56,7 +59,7 @@ impl Points {
 
     /// The cells of a grid that they visit, each with its first point. `None` if one is outside the region.
     fn cells(&self, grid: &StateGrid) -> Option<BTreeMap<u64, &[f64]>> {
-        let mut cells = BTreeMap::new();
+        let mut cells = CellMap::default();
         for point in self.all() {
             cells.entry(grid.cell(point)?).or_insert(point);
         }
@@ -66,24 +69,22 @@ impl Points {
                 cells.entry(cell).or_insert(point);
             }
         }
-        Some(cells)
+        Some(cells.into_iter().collect())
     }
 
     /// The ends of the later half, in cells of the finest grid.
     fn ends(&self, known: &KnownCells) -> Ends {
         let grids = known.grids();
         let finest = &grids[grids.len() - 1];
-        let in_cells = self.all().skip(self.all().len() / 2).map(|point| finest.in_cells(point));
-        let mut ends: Option<Ends> = None;
-        for point in in_cells {
-            ends.get_or_insert_with(|| Ends::new(point.len())).add(&point);
-        }
-        ends.unwrap_or_else(|| Ends::new(0))
+        let numbers = self.all().next().map_or(0, |point| finest.in_cells(point).count());
+        let mut ends = Ends::new(numbers);
+        let later = self.all().skip(self.all().len() / 2);
+        later.for_each(|point| ends.add(finest.in_cells(point)));
+        ends
     }
 
     /// Where they are on a grid. `most` is the largest number of successive points that are kept.
-    fn located(&self, number: usize, grid: &StateGrid, most: usize) -> Option<Located> {
-        let cells = self.cells(grid)?;
+    fn located(&self, (number, grid, cells): Cells<'_>, most: usize) -> Located {
         let own: BTreeSet<u64> = cells.keys().copied().collect();
         let last: Vec<&[f64]> = self.all().skip(self.all().len().saturating_sub(most)).collect();
         let period = period(grid, &last);
@@ -96,7 +97,7 @@ impl Points {
             }
         };
         let points = points.into_iter().map(<[f64]>::to_vec).collect();
-        Some(Located { grid: number, cells: own, points, period })
+        Located { grid: number, cells: own, points, period }
     }
 }
 
@@ -123,11 +124,11 @@ impl Candidate<'_> {
             };
             match test {
                 Test::Leaves => together = None,
-                Test::Stays => return points.located(number, grid, most),
-                Test::Apart => together = together.or(Some((number, grid))),
+                Test::Stays => return Some(points.located((number, grid, cells), most)),
+                Test::Apart => together = together.or(Some((number, grid, cells))),
             }
         }
-        together.and_then(|(number, grid)| points.located(number, grid, most))
+        together.map(|cells| points.located(cells, most))
     }
 
     /// Whether a point of another attractor lies in the cells.
@@ -171,18 +172,19 @@ impl Candidate<'_> {
         /// Seed of the points. Another one tests other points.
         const SEED: u64 = 1;
         // A cell beside has the other coordinates of a state of a cell that it touches.
-        let mut beside: BTreeMap<u64, &[f64]> = BTreeMap::new();
+        let cells: CellSet = visited.keys().copied().collect();
+        let mut beside: CellMap<&[f64]> = CellMap::default();
         let every = visited.len().div_ceil(MOST_NEIGHBOURS / grid.most_neighbours()).max(1);
         for (&cell, &state) in visited.iter().step_by(every) {
             for near in grid.neighbours(cell) {
-                if !visited.contains_key(&near) {
+                if !cells.contains(&near) {
                     beside.entry(near).or_insert(state);
                 }
             }
         }
-        let beside: Vec<(u64, &[f64])> = beside.into_iter().collect();
+        let mut beside: Vec<(u64, &[f64])> = beside.into_iter().collect();
+        beside.sort_unstable_by_key(|(cell, _)| *cell);
         let inside: Vec<(u64, &[f64])> = visited.iter().map(|(&cell, &at)| (cell, at)).collect();
-        let cells: CellSet = visited.keys().copied().collect();
         let random = SplitMix64::from_seed(SEED);
         let dimension = grid.dimension() as u64;
         let trap = Trap {

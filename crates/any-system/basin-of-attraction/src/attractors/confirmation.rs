@@ -1,10 +1,9 @@
 //! Has an orbit that recurs settled, or is it a transient?
 
 use crate::attractors::followed_orbit::{End, Settled};
-use crate::attractors::known_cells::KnownCells;
+use crate::attractors::known_cells::{CellMap, KnownCells};
 use crate::attractors::state_map::{Moving, StateMap};
 use crate::attractors::unmatched::{Border, UnmatchedReason};
-use std::collections::BTreeMap;
 
 /// An orbit is followed so many times as long as it took to be found. A point that is approached by a factor of 1 −
 /// 10⁻⁴ a step has then come closer by e^−10. A larger number takes longer for each candidate.
@@ -52,7 +51,7 @@ impl Confirmation {
         {
             self.window += 1;
         }
-        self.windows[self.window].add(at);
+        self.windows[self.window].add(at.iter().copied());
         if self.points == self.length / 2 {
             self.half = at.to_vec();
         }
@@ -93,7 +92,7 @@ pub(crate) fn drift(map: &dyn StateMap, known: &KnownCells, from: &[f64], stretc
     for _ in 0..WINDOWS {
         let mut ends = Ends::new(point.at.len());
         for _ in 0..stretch {
-            ends.add(&point.at);
+            ends.add(point.at.iter().copied());
             if !known.step(map, &mut point) {
                 return f64::NAN;
             }
@@ -118,9 +117,11 @@ impl Ends {
         Ends::new(self.0.len() / 2)
     }
 
-    pub(crate) fn add(&mut self, point: &[f64]) {
-        let both = point.iter().flat_map(|x| [*x, -x]);
-        self.0.iter_mut().zip(both).for_each(|(end, x)| *end = end.max(x));
+    pub(crate) fn add(&mut self, point: impl Iterator<Item = f64>) {
+        for (ends, x) in self.0.chunks_exact_mut(2).zip(point) {
+            ends[0] = ends[0].max(x);
+            ends[1] = ends[1].max(-x);
+        }
     }
 
     pub(crate) fn distance(&self, other: &Ends) -> f64 {
@@ -144,7 +145,7 @@ pub(crate) fn have_trend(windows: &[Ends]) -> bool {
 #[derive(Default)]
 struct Quarter {
     /// Steps in each cell.
-    cells: BTreeMap<u64, usize>,
+    cells: CellMap<usize>,
     /// The farthest point outside the region.
     farthest: Option<Border>,
 }

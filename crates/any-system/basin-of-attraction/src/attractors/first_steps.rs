@@ -53,16 +53,15 @@ impl Followed {
         self.sizes.resize(self.numbers.len(), 0.0);
         for column in &self.columns {
             for (size, x) in self.sizes.iter_mut().zip(column) {
-                // Infinite for NaN.
-                let own = if x.abs() < f64::INFINITY { x.abs() } else { f64::INFINITY };
-                *size = if own > *size { own } else { *size };
+                // NaN stays.
+                *size = if *size >= x.abs() { *size } else { x.abs() + 0.0 * *size };
             }
         }
         let mut kept = 0;
         let each = self.numbers.iter().zip(&self.has_image).zip(&self.labels).zip(&self.sizes);
         for (lane, (((&number, &has_image), &label), &size)) in each.enumerate() {
             let end = select_unpredictable(size > escape, Label::ESCAPED, label);
-            let is_stopped = !has_image | (size == f64::INFINITY);
+            let is_stopped = !has_image | !(size < f64::INFINITY);
             let end = select_unpredictable(is_stopped, Label::UNDECIDED_MAP, end);
             // A step without a value is none.
             ends[number as usize] = (end, steps - usize::from(!has_image));

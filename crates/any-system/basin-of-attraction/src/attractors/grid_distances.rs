@@ -21,19 +21,19 @@ impl StateGrid {
     }
 
     /// A state in units of cells: a periodic coordinate is a place on a circle. Coordinates without cells are left out.
-    pub(crate) fn in_cells(&self, state: &[f64]) -> Vec<f64> {
+    pub(crate) fn in_cells(&self, state: &[f64]) -> impl Iterator<Item = f64> {
         let place = |axis: &Axis| {
             let (x, cells) = (axis.part(state[axis.coordinate]), axis.cells as f64);
             match axis.is_periodic {
                 true => {
                     let (sine, cosine) = pxfm::f_sincos(std::f64::consts::TAU * x);
                     let radius = cells / std::f64::consts::TAU;
-                    vec![radius * cosine, radius * sine]
+                    [Some(radius * cosine), Some(radius * sine)]
                 }
-                false => vec![cells * x],
+                false => [Some(cells * x), None],
             }
         };
-        self.axes.iter().flat_map(place).collect()
+        self.axes.iter().flat_map(place).flatten()
     }
 
     /// Whether a state of the region is on the border of cells, to rounding.

@@ -40,7 +40,7 @@ pub(crate) enum Place {
 enum Owners {
     /// For each cell the label of its owner, or [`FREE`]; behind the last one [`Label::OUTSIDE`].
     Dense(Vec<Label>),
-    Sparse(HashMap<u64, Label, ByCell>),
+    Sparse(CellMap<Label>),
 }
 
 /// What an orbit is in a cell without an owner: undecided.
@@ -93,6 +93,9 @@ impl Owners {
 
 /// Cells that are looked up once a step. They have no order.
 pub(crate) type CellSet = HashSet<u64, ByCell>;
+
+/// The same, each with something of its own.
+pub(crate) type CellMap<V> = HashMap<u64, V, ByCell>;
 
 type ByCell = BuildHasherDefault<CellHasher>;
 
@@ -220,9 +223,11 @@ impl KnownCells {
             return;
         };
         for (grid, all) in dense {
+            let outside = grid.count() as f64;
             grid.cells_of_columns(columns, cells);
             for (label, &cell) in labels.iter_mut().zip(&*cells) {
-                *label = select_unpredictable(*label == FREE, all[whole(cell)], *label);
+                let cell = whole(if cell.is_nan() { outside } else { cell });
+                *label = select_unpredictable(*label == FREE, all[cell], *label);
             }
         }
     }

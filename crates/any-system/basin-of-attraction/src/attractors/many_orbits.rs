@@ -35,9 +35,6 @@ pub(crate) trait FollowedOrbit {
     }
 }
 
-/// Orbits that are moved together: enough for maps that compute eight at a time while some of them take longer.
-const TOGETHER: usize = 32;
-
 /// The most starts that one thread takes at once, and the fewest parts of the work: threads share it evenly.
 const MOST: usize = 1024;
 const PARTS: usize = 8;
@@ -57,9 +54,9 @@ pub(crate) fn follow_some<O: FollowedOrbit>(
     begin: impl Fn(usize, &mut O),
     ends: &mut [O::End],
 ) {
-    match map.has_lanes() {
-        true => follow_together(map, dimension, orbit, begin, ends),
-        false => follow_alone(map, orbit, begin, ends),
+    match map.together() {
+        0 | 1 => follow_alone(map, orbit, begin, ends),
+        together => follow_together(map, dimension, together, orbit, begin, ends),
     }
 }
 
@@ -77,10 +74,11 @@ fn follow_alone<O: FollowedOrbit>(
     }
 }
 
-/// Some orbits at a time.
+/// So many orbits at a time.
 fn follow_together<O: FollowedOrbit>(
     map: &dyn StateMap,
     dimension: usize,
+    together: usize,
     orbit: impl Fn() -> O,
     begin: impl Fn(usize, &mut O),
     ends: &mut [O::End],
@@ -96,7 +94,7 @@ fn follow_together<O: FollowedOrbit>(
         let mut orbit = orbit();
         next(&mut orbit).map(|number| (orbit, number))
     };
-    let mut followed: Vec<(O, usize)> = (0..TOGETHER).map_while(first).collect();
+    let mut followed: Vec<(O, usize)> = (0..together).map_while(first).collect();
     let mut columns = vec![vec![0.0; followed.len()]; dimension];
     let mut has_image = vec![false; followed.len()];
     while !followed.is_empty() {

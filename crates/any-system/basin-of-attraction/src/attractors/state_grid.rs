@@ -203,7 +203,7 @@ impl StateGrid {
         Some(number)
     }
 
-    /// The numbers of the cells of many states, by columns, and the number of all cells for states outside the region. There are fewer than 2³².
+    /// The numbers of the cells of many states, by columns; NaN outside the region. For fewer than 2⁵² cells.
     ///
     /// There is no branch: the processor does not foresee where orbits end, and a wrong guess takes as long as some steps of a simple map.
     pub(crate) fn cells_of_columns(&self, columns: &[Vec<f64>], cells: &mut Vec<f64>) {
@@ -212,8 +212,6 @@ impl StateGrid {
         for axis in self.axes.iter().rev() {
             axis.add_cells(&columns[axis.coordinate], cells);
         }
-        let all = self.count() as f64;
-        cells.iter_mut().for_each(|cell| *cell = if cell.is_nan() { all } else { *cell });
     }
 
     /// Where a state is farthest outside the region, in lengths of its sides; `None` inside.

@@ -39,10 +39,10 @@ pub trait StateMap: Sync {
         step_by_step(self, states, has_image, steps)
     }
 
-    /// Whether [`images`](Self::images) of some tens of states takes less time than the images one after the other: then orbits are followed together to
-    /// their ends. Default: no.
-    fn has_lanes(&self) -> bool {
-        false
+    /// How many orbits are followed together to their ends, by [`images`](Self::images) and [`advance`](Self::advance): as many as take the least time for
+    /// each. Default: one.
+    fn together(&self) -> usize {
+        1
     }
 }
 
@@ -119,6 +119,11 @@ impl<F: Fn([f64; N]) -> Option<[f64; N]> + Sync, const N: usize> StateMap for Ar
                 columns.iter_mut().zip(next).for_each(|(column, x)| column[k] = x);
             }
         }
+    }
+
+    /// A processor computes some images at once, where an orbit alone waits for each of its steps.
+    fn together(&self) -> usize {
+        4
     }
 }
 

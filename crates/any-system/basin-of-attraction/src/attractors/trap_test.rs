@@ -63,7 +63,7 @@ impl Trap<'_> {
 
     fn add_to(&self, ends: &mut Ends, at: &[f64]) {
         if let Some(grid) = self.known.grids().last() {
-            ends.add(&grid.in_cells(at));
+            ends.add(grid.in_cells(at));
         }
     }
 

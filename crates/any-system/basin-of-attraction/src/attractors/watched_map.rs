@@ -81,7 +81,7 @@ impl<P: Fn(usize) -> ControlFlow<()> + Sync> StateMap for WatchedMap<'_, P> {
         steps.min(1)
     }
 
-    fn has_lanes(&self) -> bool {
-        self.map.has_lanes()
+    fn together(&self) -> usize {
+        self.map.together()
     }
 }

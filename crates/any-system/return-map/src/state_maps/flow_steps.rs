@@ -79,7 +79,7 @@ impl StateMap for FlowSteps {
             states.iter_mut().zip(ends.values).for_each(|(column, ends)| *column = ends);
         }
     }
-    fn has_lanes(&self) -> bool {
-        true
+    fn together(&self) -> usize {
+        32
     }
 }

@@ -68,7 +68,7 @@ impl StateMap for FormulaSteps {
         step_by_step(self, states, has_image, steps)
     }
 
-    fn has_lanes(&self) -> bool {
-        true
+    fn together(&self) -> usize {
+        32
     }
 }
