@@ -35,3 +35,29 @@ fn values_and_motions_have_the_committed_bits() {
     let digest = all.fold(0xcbf2_9ce4_8422_2325, |hash, value| mix(hash, value.to_bits()));
     assert_eq!(digest, DIGEST, "{digest:#x}");
 }
+
+/// Some, many, and a part of many at the end; where a state has no value; several steps at once.
+#[test]
+fn images_of_any_number_of_states_have_the_bits_of_one() {
+    let names = Names::new(&["x", "y"], &[("a", "0.9")]).unwrap();
+    let map = Formulas::from_text(names, &["sqrt(x) - a*y^2", "x/(y - 0.25) + sin(x)"]).unwrap();
+    for count in [1, 7, 8, 9, 31, 32, 33, 100] {
+        let at = |k: usize, by: f64| ((k + 1) as f64 * by).fract() - 0.1;
+        let starts: Vec<[f64; 2]> =
+            (0..count).map(|k| [at(k, 0.618_033_988_75), at(k, 0.754_877_666_25)]).collect();
+        for steps in [1, 3] {
+            let mut columns = [0, 1].map(|axis| starts.iter().map(|at| at[axis]).collect());
+            let mut has_value = vec![false; count];
+            map.map_columns(0.0, &mut columns, steps, &mut has_value).unwrap();
+            for (k, start) in starts.iter().enumerate() {
+                let step = |at: Option<Vec<f64>>, _| map.values(0.0, &at?).ok();
+                let alone = (0..steps).fold(Some(start.to_vec()), step);
+                assert_eq!(has_value[k], alone.is_some(), "{start:?}");
+                let bits = |at: &[f64]| at.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+                if let Some(alone) = alone {
+                    assert_eq!(bits(&[columns[0][k], columns[1][k]]), bits(&alone), "{start:?}");
+                }
+            }
+        }
+    }
+}

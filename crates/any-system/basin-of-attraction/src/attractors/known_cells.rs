@@ -268,3 +268,53 @@ impl KnownCells {
         self.owners.iter_mut().for_each(|owners| owners.renumber(labels));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::hyperrectangle::Hyperrectangle;
+    use crate::space::interval::Interval;
+    use crate::space::label::label_of_attractor;
+    use crate::statistics::split_mix::SplitMix64;
+
+    /// Many states have the labels of single ones: no owner, on one grid, on two, on grids with too many cells for a table, with given edges; on all borders and
+    /// where there is no number.
+    #[test]
+    fn columns_have_the_labels_of_single_states() {
+        let square = Hyperrectangle::new(vec![Interval { left: -1.0, right: 2.0 }; 2]).unwrap();
+        let given = vec![vec![-1.0, -0.5, 0.1, 2.0], vec![-1.0, 0.0, 0.5, 1.9, 2.0]];
+        let grids = [
+            StateGrid::new(square.clone(), &[10, 7]).unwrap(),
+            StateGrid::uniform(square, 1200).unwrap(),
+            StateGrid::from_edges(given).unwrap(),
+        ];
+        let random = SplitMix64::from_seed(7);
+        let anywhere = |k: u64| 4.0 * random.uniform(k) - 1.5;
+        let mut states: Vec<[f64; 2]> =
+            (0..1000).map(|k| [anywhere(2 * k), anywhere(2 * k + 1)]).collect();
+        let ends = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 2.0, 2.0f64.next_up()];
+        let borders = (0..=10).map(|k| -1.0 + 0.3 * f64::from(k));
+        let special: Vec<f64> =
+            borders.chain(ends).chain([-1.0f64.next_down(), 0.0, 0.5]).collect();
+        states.extend(special.iter().flat_map(|x| special.iter().map(|y| [*x, *y])));
+        let columns = [0, 1].map(|axis| states.iter().map(|at| at[axis]).collect::<Vec<f64>>());
+        for grid in grids {
+            let mut known = KnownCells::new(grid);
+            for owners in 0..3 {
+                let (mut cells, mut labels) = (Vec::new(), Vec::new());
+                known.labels_of_columns(&columns, &mut cells, &mut labels);
+                for (state, label) in states.iter().zip(labels) {
+                    let place = match known.place(state) {
+                        Place::Owned(own) => label_of_attractor(own + 1).unwrap(),
+                        Place::Inside => Label::UNDECIDED,
+                        Place::Outside => Label::OUTSIDE,
+                    };
+                    assert_eq!(label, place, "{owners} {state:?}");
+                }
+                let (label, of) = (label_of_attractor(owners + 1).unwrap(), 2 * owners);
+                let count = known.grids()[of].count();
+                known.add(of, (0..count).step_by(3 + count as usize / 3000), label);
+            }
+        }
+    }
+}

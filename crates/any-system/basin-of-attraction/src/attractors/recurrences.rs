@@ -222,9 +222,8 @@ impl Attractors {
         let mut classes = first.clone();
         classes.sort_unstable();
         classes.dedup();
-        let label = |class: &usize| {
-            self.attractors[classes.partition_point(|other| other < class)].label
-        };
+        let label =
+            |class: &usize| self.attractors[classes.partition_point(|other| other < class)].label;
         let labels: Vec<Label> = first.iter().map(label).collect();
         let kept = classes.iter().enumerate().map(|(at, &class)| {
             // The orbit that enters no other one has come to the attractor.
