@@ -161,7 +161,9 @@ impl Formulas {
             let width = N.min(has_value.len() - first);
             for (state, column) in state.iter_mut().zip(states.iter()) {
                 // The last block is filled with its last state.
-                *state = Lanes(from_fn(|lane| column[first + lane.min(width - 1)]));
+                let block = &column[first..first + width];
+                let filled = |_| from_fn(|lane| block[lane.min(width - 1)]);
+                *state = Lanes(block.try_into().unwrap_or_else(filled));
             }
             let is_valid = images(self, &time, &mut state, &mut parts, steps);
             for (column, state) in states.iter_mut().zip(&state) {

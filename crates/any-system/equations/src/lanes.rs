@@ -28,12 +28,16 @@ impl<const N: usize> Elementwise for Lanes<N> {
 
     #[inline(always)]
     fn each(self, f: impl Fn(f64) -> f64) -> Self {
-        Lanes(from_fn(|lane| f(self.0[lane])))
+        let mut all = self;
+        all.0.iter_mut().for_each(|x| *x = f(*x));
+        all
     }
 
     #[inline(always)]
     fn with(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        Lanes(from_fn(|lane| f(self.0[lane], other.0[lane])))
+        let mut all = self;
+        all.0.iter_mut().zip(&other.0).for_each(|(x, y)| *x = f(*x, *y));
+        all
     }
 
     #[inline(always)]

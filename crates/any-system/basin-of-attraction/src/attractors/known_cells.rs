@@ -211,18 +211,16 @@ impl KnownCells {
     ) {
         labels.clear();
         labels.resize(columns.first().map_or(0, Vec::len), FREE);
-        let dense = |number: &usize| match &self.owners[*number] {
-            Owners::Dense(all) => Some((&self.grids[*number], all)),
-            Owners::Sparse(_) => None,
-        };
-        let dense: Option<Vec<_>> = self.owned.iter().map(dense).collect();
-        let Some(dense) = dense.filter(|dense| !dense.is_empty()) else {
+        let is_dense = |number: &usize| matches!(self.owners[*number], Owners::Dense(_));
+        if self.owned.is_empty() || !self.owned.iter().all(is_dense) {
             for (lane, label) in labels.iter_mut().enumerate() {
                 *label = self.label_by(|coordinate| columns[coordinate][lane]);
             }
             return;
-        };
-        for (grid, all) in dense {
+        }
+        for &number in &self.owned {
+            let Owners::Dense(all) = &self.owners[number] else { continue };
+            let grid = &self.grids[number];
             let outside = grid.count() as f64;
             grid.cells_of_columns(columns, cells);
             for (label, &cell) in labels.iter_mut().zip(&*cells) {
