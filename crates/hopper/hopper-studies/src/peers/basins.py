@@ -3,8 +3,9 @@
 python basins.py job.json results.json
 
 Attractors are found by recurrences to cells of a grid, as Attractors.jl finds them: an orbit that visits only cells that it visited before is
-followed on, and the cells of its next steps are those of an attractor. Nothing tests them. Some first starts find the attractors, one after the
-other; then all starts are labelled in parallel, a block for each thread. The driven pendulum is integrated to its end by DOP853, with the coefficients and the
+followed on, and the cells of its next steps are those of an attractor. Some first starts find the attractors, one after the
+other; then all starts are labelled in parallel, a block for each thread. Each map is measured twice: without tests of the attractors, and with
+tests in parallel, by orbits from the cells and from those beside them. The driven pendulum is integrated to its end by DOP853, with the coefficients and the
 step control of SciPy.
 """
 
@@ -17,6 +18,8 @@ import numpy
 from scipy.integrate._ivp import dop853_coefficients
 
 RECURRENCES, LOCATE, BUDGET, LOST = 100, 1000, 100_000, 1000
+# Stretches of a test with visits of the cells, and the steps in which an orbit is expected to repeat itself.
+STRETCHES, LOOKED = 3, 256
 
 
 @numba.njit
@@ -72,11 +75,50 @@ def recurrences(step):
         return -1, found
 
     @numba.njit
-    def search(xs, ys, owner, visited, half, cells, escape):
-        found = 0
+    def stays(x, y, owner, own, half, cells):
+        anchor_x, anchor_y, anchored = x, y, 1
+        for k in range(1, LOCATE):
+            x, y = step(x, y)
+            if k < LOOKED:
+                if x == anchor_x and y == anchor_y:
+                    c = cell(x, y, half, cells)
+                    return c >= 0 and owner[c] == own
+                if k == 2 * anchored:
+                    anchor_x, anchor_y, anchored = x, y, k
+        for _ in range(STRETCHES):
+            comes = False
+            for _ in range(LOCATE):
+                if not comes:
+                    c = cell(x, y, half, cells)
+                    comes = c >= 0 and owner[c] == own
+                x, y = step(x, y)
+            if not comes:
+                return False
+        return True
+
+    @numba.njit(parallel=True)
+    def is_trap(owner, own, half, cells, tests):
+        its = numpy.flatnonzero(owner == own)
+        good = numpy.zeros(tests, numpy.bool_)
+        for k in numba.prange(tests):
+            c = its[numpy.random.randint(its.size)]
+            i, j = c % cells, c // cells
+            if k % 2 == 0:
+                i, j = i + numpy.random.randint(-1, 2), j + numpy.random.randint(-1, 2)
+            x = -half + 2 * half * (i + numpy.random.random()) / cells
+            y = -half + 2 * half * (j + numpy.random.random()) / cells
+            good[k] = stays(x, y, owner, own, half, cells)
+        return good.all()
+
+    @numba.njit
+    def search(xs, ys, owner, visited, half, cells, escape, tests):
+        found, tested = 0, True
         for i in range(xs.size):
+            known = found
             _, found = label(xs[i], ys[i], owner, visited, i + 1, half, cells, escape, found)
-        return found
+            if found > known and tests > 0:
+                tested = is_trap(owner, found, half, cells, tests) and tested
+        return found if tested else -found
 
     @numba.njit(parallel=True)
     def basins(xs, ys, owner, half, cells, escape, found):
@@ -89,10 +131,10 @@ def recurrences(step):
                 labels[i], _ = label(xs[i], ys[i], owner, own, i + 1, half, cells, escape, found)
         return labels
 
-    def both(first, starts, half, cells, escape):
+    def both(first, starts, half, cells, escape, tests):
         begin = time.perf_counter()
         owner, visited = numpy.zeros(cells * cells, numpy.int32), numpy.zeros(cells * cells, numpy.int64)
-        found = search(*first, owner, visited, half, cells, escape)
+        found = search(*first, owner, visited, half, cells, escape, tests)
         middle = time.perf_counter()
         labels = basins(*starts, owner, half, cells, escape, found)
         return middle - begin, time.perf_counter() - begin, labels, found
@@ -182,11 +224,15 @@ for scene, step in (("newton", newton), ("henon", henon)):
     given = job[scene]
     first, starts = ([numpy.array(column) for column in given[name]] for name in ("first", "starts"))
     both = recurrences(step)
-    # The compiler does its work in the first one.
-    runs = [both(first, starts, given["half"], given["cells"], given["escape"]) for _ in range(job["repeats"] + 1)]
-    search, seconds, labels, found = min(runs[1:], key=lambda run: run[1])
-    share = float(numpy.bincount(labels[labels > 0]).max() / labels.size)
-    rows.append({"search": search, "seconds": seconds, "attractors": found, "share": share})
+    for tests in (0, job["tests"]):
+        # The compiler does its work in the first one.
+        runs = [
+            both(first, starts, given["half"], given["cells"], given["escape"], tests)
+            for _ in range(job["repeats"] + 1)
+        ]
+        search, seconds, labels, found = min(runs[1:], key=lambda run: run[1])
+        share = float(numpy.bincount(labels[labels > 0]).max() / labels.size)
+        rows.append({"search": search, "seconds": seconds, "attractors": found, "share": share})
 given = job["pendulum"]
 rotates(4, 1.0, 1e-3)
 exact = rotates(given["side"], given["end"], given["reference"])
