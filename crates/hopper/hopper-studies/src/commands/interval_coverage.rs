@@ -1,7 +1,9 @@
 //! `interval-coverage`: how often does every interval of `basin-of-attraction` contain the true number?
 
 use crate::coverage::tally::Row;
-use crate::coverage::{boundaries, exponents, interval_bounds, proportions, shocks, table};
+use crate::coverage::{
+    boundaries, cantor_sets, exponents, interval_bounds, proportions, shocks, table,
+};
 use crate::error::Error;
 use crate::repository::{Folder, read, repository, say};
 use crate::text::replace_block;
@@ -26,6 +28,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
         boundaries::measure(trials)?,
         interval_bounds::measure(trials)?,
         shocks::measure(trials)?,
+        cantor_sets::measure(trials)?,
     ]
     .concat();
     let text = table::markdown(&rows)?;

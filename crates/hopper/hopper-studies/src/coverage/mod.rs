@@ -9,11 +9,13 @@
 //!   boundaries.rs        means of replicates, balls on smooth boundaries, and bounds that are certain
 //!   interval_bounds.rs   bounds from basins as intervals
 //!   shocks.rs            stability by random shocks
+//!   cantor_sets.rs       rates of escape, entropies and lengths of Cantor sets
 //! ```
 //!
 //! `known_sets.rs` has the sets, `tally.rs` counts, `table.rs` writes the rows down.
 
 pub(crate) mod boundaries;
+pub(crate) mod cantor_sets;
 pub(crate) mod exponents;
 pub(crate) mod interval_bounds;
 mod known_sets;

@@ -4,7 +4,7 @@ use super::known_sets::cantor_label;
 use super::tally::{Promise, Row, Trial, repeat};
 use crate::error::Error;
 use basin_of_attraction::{
-    ConfidenceInterval, Grid, Hyperrectangle, Interval, Label, SplitMix64,
+    Bounds, ConfidenceInterval, Fractions, Grid, Hyperrectangle, Interval, Label, SplitMix64,
     low_discrepancy_fractions, proportion_interval, random_fractions, random_tipping, raster,
     region_fractions, stratified_fractions, stratified_points, uncertain_fraction, uncertain_pairs,
     wilson_interval,
@@ -125,6 +125,15 @@ fn regions(trials: u64) -> Result<Vec<Row>, Error> {
             Trial::of_proportion(found, truth, POINTS).map(Some)
         })?);
     }
+    let scene = format!("two basins of three, N = {POINTS}");
+    rows.push(repeat("Fractions::aggregated", scene, Promise::Probable, trials, |seed| {
+        let label = |x: &[f64]| Label::from(((x[0] > -0.6) as u8) + ((x[0] > 0.5) as u8));
+        let all = region_fractions(&side.try_into()?, POINTS, seed, label)?;
+        let all = Fractions::from_counts(&all)?;
+        let outer = all.aggregated(|own, _| Label::from(own != ONE)).of(ONE);
+        let bounds = Bounds { lower: outer.lower, upper: outer.upper };
+        Ok(Some(Trial::of_bounds(bounds, 0.45)))
+    })?);
     let line = Hyperrectangle::try_from(side)?;
     let right_of = |place: f64| move |x: &[f64]| Label::from(x[0] > place);
     rows.push(repeat(

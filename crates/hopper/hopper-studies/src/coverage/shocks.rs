@@ -1,11 +1,8 @@
-//! Random shocks to one attractor: fractions, times of convergence, fatal shares; rates of escape; entropies by kneading sequences.
+//! Random shocks to one attractor: fractions, times of convergence, fatal shares.
 
 use super::tally::{Promise, Row, Trial, repeat};
 use crate::error::Error;
-use basin_of_attraction::{
-    Bounds, Enclosure, EscapeTimes, Interval, KneadingSequence, Label, SplitMix64, Stability,
-    array_map,
-};
+use basin_of_attraction::{Bounds, Label, SplitMix64, Stability};
 
 const ONE: Label = Label::numbered::<1>();
 
@@ -83,39 +80,5 @@ pub(crate) fn measure(trials: u64) -> Result<Vec<Row>, Error> {
             Ok(mean.map(|mean| Trial::of(mean, truth)))
         })?);
     }
-    rows.extend(escapes(trials)?);
-    rows.push(entropies(trials)?);
     Ok(rows)
-}
-
-/// A third of the unit interval leaves in each step of the tent map of slope 3.
-fn escapes(trials: u64) -> Result<Vec<Row>, Error> {
-    let tent = array_map(|[x]: [f64; 1]| Some([3.0 * x.min(1.0 - x)]));
-    let unit = Interval::new(0.0, 1.0)?.try_into()?;
-    let inside = |x: &[f64]| (0.0..=1.0).contains(&x[0]);
-    let row = |count: usize, (from, to)| {
-        let scene = format!("tent map of slope 3, {count} orbits, from {from} to {to} steps");
-        repeat("EscapeTimes::rate", scene, Promise::Probable, trials, |seed| {
-            let times = EscapeTimes::of_random_points(&tent, &inside, &unit, count, to, seed)?;
-            Ok(times.rate(from, to).ok().map(|rate| Trial::of(rate, pxfm::f_log(1.5))))
-        })
-    };
-    [(100, (0, 3)), (1000, (2, 8)), (10_000, (4, 12))]
-        .map(|(count, range)| row(count, range))
-        .into_iter()
-        .collect()
-}
-
-/// Tent maps of random slopes have the entropies of these.
-fn entropies(trials: u64) -> Result<Row, Error> {
-    let scene = "tent maps of random slopes".to_owned();
-    repeat("KneadingSequence::entropy", scene, Promise::Certain, trials, |seed| {
-        let slope = 1.05 + 0.95 * SplitMix64::from_seed(seed).uniform(0);
-        let tent = |x: Enclosure| match x.high <= 0.5 {
-            true => Enclosure::from(slope) * x,
-            false => Enclosure::from(slope) * (Enclosure::ONE - x),
-        };
-        let entropy = KneadingSequence::of_map(tent, Enclosure::from(0.5), 200).entropy()?;
-        Ok(Some(Trial::of_bounds(entropy, pxfm::f_log(slope))))
-    })
 }
