@@ -68,8 +68,8 @@ fn pictures() -> Result<Vec<DataFile>, Box<dyn Error>> {
     let limits = CurveLimits { shortest: 1e-3, ..CurveLimits::default() };
     let along = attractors_along(Interval::new(-0.6, 0.6)?, &[], limits, None, &along, wells)?;
     draw("wells", along.fractions.picture(AxisNames { x: "$c$", y: "fraction" })?)?;
-    files.push(along.fractions.csv("wells.csv")?);
-    files.push(found.csv("henon_attractor.csv")?);
+    files.extend(along.fractions.files("wells", "tilt of the wells", "95 % interval")?);
+    files.extend(found.files("henon_attractor")?);
     files.extend(labels.files("henon_basins")?);
     Ok(files)
 }

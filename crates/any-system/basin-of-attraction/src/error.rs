@@ -115,13 +115,13 @@ pub enum Error {
         /// Number of rows.
         rows: usize,
     },
-    /// The caller stopped the work.
-    #[error("interrupted after {finished} of {columns} columns")]
+    /// The caller stopped the work. Its parts are the columns of an image, or the parameters of a curve.
+    #[error("interrupted after {finished} of {parts} parts")]
     Interrupted {
-        /// Columns finished.
+        /// Parts finished.
         finished: usize,
-        /// Columns in all.
-        columns: usize,
+        /// Parts in all; at most, for a curve.
+        parts: usize,
     },
     /// A search for monotone branches with too few samples.
     #[error("monotone branches cannot be found with {samples} samples: at least 3 are needed")]

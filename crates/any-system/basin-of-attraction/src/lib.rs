@@ -157,7 +157,9 @@ pub use line::refinement::{Refinement, StopReason};
 pub use line::repeller::{Repeller, repeller};
 pub use line::scalar_map::{Image, ScalarMap};
 pub use parameters::attractor_match::{AttractorMatch, match_attractors, match_by};
-pub use parameters::attractors_along::{AlongSearch, AttractorsAlong, attractors_along};
+pub use parameters::attractors_along::{
+    AlongProgress, AlongSearch, AttractorsAlong, attractors_along, attractors_along_watched,
+};
 pub use parameters::fractions_along::{
     CurveLimits, FractionsAlong, UnmatchedAttractor, UnresolvedReason, UnresolvedStep,
     fractions_along, fractions_along_matched,

@@ -2,11 +2,14 @@
 //! attractors whose numbers change.
 
 use basin_of_attraction::{
-    Attractors, CurveLimits, Error, FractionRange, Fractions, FractionsAlong, Hyperrectangle,
-    Interval, Label, LabelCounts, Matching, RecurrenceLimits, StateGrid, UnresolvedReason,
-    fractions_along, fractions_along_matched, region_fractions,
+    AlongProgress, AlongSearch, Attractors, CurveLimits, Error, FractionRange, Fractions,
+    FractionsAlong, Hyperrectangle, Interval, Label, LabelCounts, Matching, RecurrenceLimits,
+    StateGrid, UnresolvedReason, array_map, attractors_along_watched, fractions_along,
+    fractions_along_matched, region_fractions,
 };
 use std::collections::BTreeMap;
+use std::ops::ControlFlow::{Break, Continue};
+use std::sync::Mutex;
 
 fn grid(region: &Hyperrectangle, cells: usize) -> StateGrid {
     StateGrid::uniform(region.clone(), cells).unwrap()
@@ -268,4 +271,42 @@ fn an_attractor_that_vanishes_is_remembered_by_any_matching() {
             assert!((all.of(Label::from(7)).value - 1.0).abs() < 1e-12);
         }
     }
+}
+
+/// Progress shows images, and gives away all that is finished before the work is stopped: between parameters, and amid one.
+#[test]
+fn a_search_along_a_parameter_shows_progress_and_can_be_stopped() {
+    let line: Hyperrectangle = Interval::new(-2.0, 2.0).unwrap().try_into().unwrap();
+    let search = AlongSearch { points: 100, ..AlongSearch::new(grid(&line, 100), line) };
+    let wells = |c: f64| array_map(move |[x]: [f64; 1]| Some([x + 0.1 * (c + x - x * x * x)]));
+    let run = |most_images: usize, most_found: usize| {
+        let received = Mutex::new((Vec::new(), 0));
+        let progress = |parameter: f64, done: AlongProgress<'_>| {
+            let mut received = received.lock().unwrap();
+            let goes_on = match done {
+                AlongProgress::Images(images) => {
+                    received.1 = images;
+                    images < most_images
+                }
+                AlongProgress::Found(found) => {
+                    received.0.push((parameter, found.attractors().len()));
+                    received.0.len() < most_found
+                }
+            };
+            if goes_on { Continue(()) } else { Break(()) }
+        };
+        let limits = CurveLimits { first_steps: 4, budget: 50, ..CurveLimits::default() };
+        let range = Interval::new(-0.2, 0.2).unwrap();
+        let found = attractors_along_watched(range, &[], limits, None, &search, wells, progress);
+        let (received, images) = received.into_inner().unwrap();
+        (found.map(|all| all.found.len()), received, images)
+    };
+    let (all, received, images) = run(usize::MAX, usize::MAX);
+    assert_eq!((all, received[0]), (Ok(received.len()), (-0.2, 2)));
+    assert!(images >= 1024, "{images}");
+    let (stopped, received, _) = run(usize::MAX, 3);
+    assert_eq!(stopped, Err(Error::Interrupted { finished: 3, parts: 50 }));
+    assert_eq!(received, [(-0.2, 2), (-0.1, 2), (0.0, 2)]);
+    let (stopped, received, _) = run(1024, 3);
+    assert_eq!((stopped, received.len()), (Err(Error::Interrupted { finished: 0, parts: 50 }), 0));
 }

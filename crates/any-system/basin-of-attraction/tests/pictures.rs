@@ -1,9 +1,11 @@
 //! Pictures and files of results: they show the numbers that they were given.
 
 use basin_of_attraction::{
-    AxisNames, Grid, Interval, Label, LabelImage, PixelShares, ValueImage, share_picture,
+    Attractors, AxisNames, CurveLimits, Error, FractionRange, Fractions, Grid, Hyperrectangle,
+    Interval, Label, LabelImage, PixelShares, RecurrenceLimits, StateGrid, ValueImage, array_map,
+    fractions_along, share_picture,
 };
-use journal_figures::{Svg, render};
+use journal_figures::{DataFile, Svg, render};
 use std::collections::BTreeMap;
 
 const NAMES: AxisNames<'_> = AxisNames { x: "$x$", y: "$y$" };
@@ -47,7 +49,7 @@ fn files_of_numbers_give_them_back() {
     let values = vec![0.1, f64::NAN, -1e-300, f64::INFINITY, 5e8, -0.0];
     let image = ValueImage { grid: grid(3, 2), values: values.clone() };
     let [array, table] = image.files("times", "steps to the attractor").unwrap();
-    assert_eq!((array.name.as_str(), table.name.as_str()), ("times.npy", "times.csv"));
+    assert_eq!((array.name.as_str(), table.name.as_str()), ("times.npy", "times-meaning.csv"));
     let header = array.bytes.len() - 8 * values.len();
     let text = String::from_utf8_lossy(&array.bytes[..header]).into_owned();
     assert!(text.contains("'<f8'") && text.contains("(2, 3)"), "{text}");
@@ -58,6 +60,40 @@ fn files_of_numbers_give_them_back() {
     // The middles of the pixels.
     assert!(table.contains("steps to the attractor") && table.contains("0.5 2.5"), "{table}");
     assert!(table.contains("-0.5 0.5"), "{table}");
+}
+
+/// Tables have a line for each point or parameter, and say what their columns are.
+#[test]
+fn tables_have_their_numbers_and_meaning() {
+    // 0.4 and −0.4 attract, and the orbit of each comes to itself.
+    let map = array_map(|[x]: [f64; 1]| Some([x + 0.5 * x * (0.16 - x * x)]));
+    let region: Hyperrectangle = Interval::new(-1.0, 1.0).unwrap().try_into().unwrap();
+    let grid = StateGrid::uniform(region, 30).unwrap();
+    let starts = [vec![0.5], vec![-0.5]];
+    let found = Attractors::search(&map, grid, &starts, RecurrenceLimits::default()).unwrap();
+    let text = |file: &DataFile| String::from_utf8(file.bytes.clone()).unwrap();
+    let [points, meaning] = found.files("wells").unwrap();
+    assert_eq!((points.name.as_str(), meaning.name.as_str()), ("wells.csv", "wells-meaning.csv"));
+    let x = |k: usize| format!("{:?}", found.attractors()[k].points[0][0]);
+    let lines = format!("label,period,point,x0\nbasin 1,1,0,{}\nbasin 2,1,0,{}\n", x(0), x(1));
+    assert_eq!(text(&points), lines);
+    assert!(text(&meaning).contains("empty if there is no period"));
+    let at = |c: f64| {
+        let range = FractionRange { value: c, lower: 0.5 * c, upper: 1.0 };
+        Ok::<_, Error>(Fractions {
+            found: [(Label::from(3), range)].into(),
+            ..Fractions::default()
+        })
+    };
+    let limits = CurveLimits { first_steps: 2, difference: 1.0, ..CurveLimits::default() };
+    let along = fractions_along(Interval::new(0.0, 1.0).unwrap(), &[], limits, at).unwrap();
+    let [fractions, meaning] = along.files("along", "tilt", "95 % interval").unwrap();
+    let lines = "parameter,label,fraction,lower,upper\n\
+                 0.0,basin 3,0.0,0.0,1.0\n0.5,basin 3,0.5,0.25,1.0\n1.0,basin 3,1.0,0.5,1.0\n";
+    assert_eq!(text(&fractions), lines);
+    assert!(
+        text(&meaning).contains("parameter,tilt") && text(&meaning).contains("lower end: 95 %")
+    );
 }
 
 /// The text of a scale, from labels that readers hear.

@@ -11,8 +11,8 @@ use std::array::from_fn;
 /// part of a formula is then looked up once for all of them.
 pub(crate) const WIDTH: usize = 8;
 
-/// States whose images under a map are computed side by side: looking up a part, and waiting for its operands, then takes a quarter of the
-/// time. A step of a flow has more to do for each part, and its numbers would not stay in the fastest memory.
+/// States whose images under a map are computed side by side: a part is looked up once for all of them, and four operations need not wait for each other. Newton's
+/// method for z³ = 1 takes 0.6 of the time of eight. A step of a flow does more for each part, and gains nothing.
 pub(crate) const MANY: usize = 32;
 
 /// A number for each of some states.
@@ -28,6 +28,7 @@ impl<const N: usize> Elementwise for Lanes<N> {
 
     #[inline(always)]
     fn each(self, f: impl Fn(f64) -> f64) -> Self {
+        // Written with `from_fn`, some settings of the compiler do not inline it: the loop would then have narrow vectors.
         let mut all = self;
         all.0.iter_mut().for_each(|x| *x = f(*x));
         all

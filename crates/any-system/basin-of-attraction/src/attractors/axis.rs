@@ -12,6 +12,7 @@ const TO_WHOLE: f64 = (1u64 << 52) as f64;
 /// A whole number from 0 to 2³².
 #[inline(always)]
 pub(crate) fn whole(number: f64) -> usize {
+    debug_assert!((0.0..4_294_967_296.0).contains(&number));
     (number + TO_WHOLE).to_bits() as u32 as usize
 }
 
@@ -80,6 +81,8 @@ impl Axis {
             let at = (x - left) * self.per_length;
             let near = (at + TO_WHOLE) - TO_WHOLE;
             let own = if near > at { near - 1.0 } else { near };
+            // Cells that are too short for a number per length give NaN at the left end.
+            let own = if own > 0.0 { own } else { 0.0 };
             add(cell, x, if own < count - 1.0 { own } else { count - 1.0 });
         }
     }

@@ -1,6 +1,7 @@
 //! The first steps of many orbits, column by column: most orbits have come to a known attractor by then.
 //!
-//! No branch depends on where an orbit is. The processor does not foresee this, and a wrong guess takes as long as some steps of a simple map.
+//! Where the cells of the attractors have a table and equal lengths, no branch depends on where an orbit is. The processor does not foresee this, and a wrong
+//! guess takes as long as some steps of a simple map.
 
 use crate::attractors::followed_orbit::UNTRACKED;
 use crate::attractors::known_cells::KnownCells;
@@ -18,7 +19,7 @@ pub(crate) struct Unended {
     pub(crate) outside: usize,
 }
 
-/// Orbits that have not ended, by columns.
+/// Orbits that have not ended, by columns: fewer than 2³², for fewer than 2¹⁶ steps.
 struct Followed {
     numbers: Vec<u32>,
     columns: Vec<Vec<f64>>,
@@ -46,17 +47,10 @@ impl Followed {
         }
     }
 
-    /// Looks at all orbits after so many steps, and keeps those that have not ended.
+    /// Looks at all orbits after so many steps, and keeps those that have not ended. The ends of these are provisional.
     fn look(&mut self, known: &KnownCells, escape: f64, steps: usize, ends: &mut [(Label, usize)]) {
         known.labels_of_columns(&self.columns, &mut self.cells, &mut self.labels);
-        self.sizes.clear();
-        self.sizes.resize(self.numbers.len(), 0.0);
-        for column in &self.columns {
-            for (size, x) in self.sizes.iter_mut().zip(column) {
-                // NaN stays.
-                *size = if *size >= x.abs() { *size } else { x.abs() + 0.0 * *size };
-            }
-        }
+        self.measure();
         let mut kept = 0;
         let each = self.numbers.iter().zip(&self.has_image).zip(&self.labels).zip(&self.sizes);
         for (lane, (((&number, &has_image), &label), &size)) in each.enumerate() {
@@ -74,7 +68,18 @@ impl Followed {
         self.keep(kept);
     }
 
-    /// Keeps the first so many of `kept`.
+    /// The largest absolute value of a coordinate of each; NaN or infinite if one is not finite.
+    fn measure(&mut self) {
+        self.sizes.clear();
+        self.sizes.resize(self.numbers.len(), 0.0);
+        for column in &self.columns {
+            for (size, x) in self.sizes.iter_mut().zip(column) {
+                *size = if *size >= x.abs() { *size } else { x.abs() + 0.0 * *size };
+            }
+        }
+    }
+
+    /// Keeps the first so many of `kept`. All of them have an image.
     fn keep(&mut self, count: usize) {
         fn take<T: Copy>(kept: &[u32], all: &mut Vec<T>) {
             for (place, &lane) in kept.iter().enumerate() {

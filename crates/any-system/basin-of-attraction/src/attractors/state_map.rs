@@ -39,8 +39,8 @@ pub trait StateMap: Sync {
         step_by_step(self, states, has_image, steps)
     }
 
-    /// How many orbits are followed together to their ends, by [`images`](Self::images) and [`advance`](Self::advance): as many as take the least time for
-    /// each. Default: one.
+    /// How many orbits are followed together to their ends, by [`images`](Self::images) and [`advance`](Self::advance): the number that takes the least time
+    /// for each orbit. Default: one.
     fn together(&self) -> usize {
         1
     }
@@ -121,7 +121,8 @@ impl<F: Fn([f64; N]) -> Option<[f64; N]> + Sync, const N: usize> StateMap for Ar
         }
     }
 
-    /// A processor computes some images at once, where an orbit alone waits for each of its steps.
+    /// A processor computes some images at once, where an orbit alone waits for each of its steps. With 4 the tests of Hénon's attractor take 0.5 of the
+    /// time; with 32 a little less, but long orbits are then labelled in 1.2 of theirs, as their visited cells fill the fastest memory.
     fn together(&self) -> usize {
         4
     }

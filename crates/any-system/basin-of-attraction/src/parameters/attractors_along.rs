@@ -4,6 +4,7 @@ use crate::attractors::recurrence_limits::RecurrenceLimits;
 use crate::attractors::recurrences::Attractors;
 use crate::attractors::state_grid::StateGrid;
 use crate::attractors::state_map::StateMap;
+use crate::attractors::watched_map::watched_map;
 use crate::error::Error;
 use crate::parameters::fractions_along::{CurveLimits, FractionsAlong, fractions_along_matched};
 use crate::parameters::matching::Matching;
@@ -14,6 +15,7 @@ use crate::space::interval::Interval;
 use crate::space::label::Label;
 use crate::statistics::split_mix::SplitMix64;
 use std::collections::BTreeMap;
+use std::ops::ControlFlow::{self, Continue};
 use std::sync::{Mutex, PoisonError};
 
 /// What is done at each parameter.
@@ -89,14 +91,52 @@ pub fn attractors_along<M: StateMap>(
     search: &AlongSearch,
     map: impl Fn(f64) -> M + Sync,
 ) -> Result<AttractorsAlong, Error> {
+    attractors_along_watched(range, known, limits, matching, search, map, |_, _| Continue(()))
+}
+
+/// What has been done at a parameter.
+#[derive(Debug, Clone, Copy)]
+pub enum AlongProgress<'a> {
+    /// So many images of the map, about every thousand.
+    Images(usize),
+    /// All: its attractors.
+    Found(&'a Attractors),
+}
+
+/// The same with progress, which receives the parameter and what has been done there. If it breaks, the work ends: it has received all that was finished.
+///
+/// # Errors
+/// As [`attractors_along`]; [`Error::Interrupted`] if `progress` breaks.
+pub fn attractors_along_watched<M: StateMap>(
+    range: Interval,
+    known: &[f64],
+    limits: CurveLimits,
+    matching: Option<Matching<'_>>,
+    search: &AlongSearch,
+    map: impl Fn(f64) -> M + Sync,
+    progress: impl Fn(f64, AlongProgress<'_>) -> ControlFlow<()> + Sync,
+) -> Result<AttractorsAlong, Error> {
     check_dimension(search.region.dimension(), search.grid.dimension())?;
     // By the bits of the parameters.
     let found: Mutex<BTreeMap<u64, Attractors>> = Mutex::new(BTreeMap::new());
     let all = || found.lock().unwrap_or_else(PoisonError::into_inner);
     let at = |parameter: f64, before: Option<&(f64, Fractions)>| {
-        let (own, fractions) = at_parameter(&map(parameter), before, search)?;
+        let own = map(parameter);
+        let watched =
+            watched_map(&own, |images| progress(parameter, AlongProgress::Images(images)));
+        let found = at_parameter(&watched, before, search);
+        let finished = all().len();
+        let interrupted = |finished| Error::Interrupted { finished, parts: limits.budget };
+        // Without images what was found is no result.
+        if watched.is_stopped() {
+            return Err(interrupted(finished));
+        }
+        let (own, fractions) = found?;
+        if progress(parameter, AlongProgress::Found(&own)).is_break() {
+            return Err(interrupted(finished + 1));
+        }
         all().insert(parameter.to_bits(), own);
-        Ok::<_, Error>(fractions)
+        Ok(fractions)
     };
     let flow = |parameter: f64, point: &[f64]| {
         let all = all();

@@ -1,4 +1,4 @@
-//! Results as files, with their meaning: arrays for NumPy, tables as CSV.
+//! Results as files, each with a table that says what it means: arrays for NumPy, tables as CSV.
 
 use crate::attractors::recurrences::Attractors;
 use crate::parameters::fractions_along::FractionsAlong;
@@ -41,7 +41,7 @@ impl LabelImage {
         let mut bytes = npy_header(Order::C, Element::U16, self.grid.rows, self.grid.columns);
         bytes.extend(self.labels.iter().flat_map(|label| label.code().to_le_bytes()));
         let codes: Vec<Label> = self.counts().into_iter().map(|(label, _)| label).collect();
-        let table = meaning(&format!("{name}.csv"), self.grid, "codes of labels", &codes)?;
+        let table = meaning(&format!("{name}-meaning.csv"), self.grid, "codes of labels", &codes)?;
         Ok([DataFile { name: format!("{name}.npy"), bytes }, table])
     }
 }
@@ -55,48 +55,66 @@ impl ValueImage<f64> {
     pub fn files(&self, name: &str, of: &str) -> Result<[DataFile; 2], Error> {
         let mut bytes = npy_header(Order::C, Element::F64, self.grid.rows, self.grid.columns);
         bytes.extend(self.values.iter().flat_map(|value| value.to_le_bytes()));
-        let table = meaning(&format!("{name}.csv"), self.grid, of, &[])?;
+        let table = meaning(&format!("{name}-meaning.csv"), self.grid, of, &[])?;
         Ok([DataFile { name: format!("{name}.npy"), bytes }, table])
     }
 }
 
+/// A table, and one that says what its columns are.
+fn table(
+    name: &str,
+    columns: &[(String, &str)],
+    rows: Vec<Vec<String>>,
+) -> Result<[DataFile; 2], Error> {
+    let header: Vec<&str> = columns.iter().map(|(column, _)| column.as_str()).collect();
+    let meaning = columns.iter().map(|(column, of)| vec![column.clone(), (*of).to_owned()]);
+    let meaning: Vec<Vec<String>> = meaning.collect();
+    let about = csv_text(&format!("{name}-meaning.csv"), &["name", "meaning"], meaning)?;
+    Ok([csv_text(&format!("{name}.csv"), &header, rows)?, about])
+}
+
 impl FractionsAlong {
-    /// A line for each parameter and basin: its fraction, with the lower and the upper end of its range.
+    /// A table with a line for each parameter and basin: its fraction, with the lower and the upper end of its range; and a table that says what its columns
+    /// are: `parameter` is the meaning of the parameter, `range` that of the ranges, such as "95 % interval". `name` is that of both files, without an ending.
     ///
     /// # Errors
-    /// That of the table.
-    pub fn csv(&self, name: &str) -> Result<DataFile, Error> {
+    /// That of the tables.
+    pub fn files(&self, name: &str, parameter: &str, range: &str) -> Result<[DataFile; 2], Error> {
         let labels = self.labels();
         let row = |parameter: f64, label: &Label, own: FractionRange| {
-            vec![
-                digits(parameter),
-                label.to_string(),
-                digits(own.value),
-                digits(own.lower),
-                digits(own.upper),
-            ]
+            let numbers = [own.value, own.lower, own.upper].map(digits);
+            [digits(parameter), label.to_string()].into_iter().chain(numbers).collect()
         };
         let rows = self.points().iter().flat_map(|(parameter, fractions)| {
             labels.iter().map(move |label| row(*parameter, label, fractions.of(*label)))
         });
-        csv_text(
-            name,
-            &["parameter", "label", "fraction", "lower", "upper"],
-            rows.collect::<Vec<_>>(),
-        )
+        let (lower, upper) = (format!("lower end: {range}"), format!("upper end: {range}"));
+        let columns = [
+            ("parameter", parameter),
+            ("label", "the basin, with one label at all parameters"),
+            ("fraction", "its fraction of the region"),
+            ("lower", &lower),
+            ("upper", &upper),
+        ];
+        table(name, &columns.map(|(column, of)| (column.to_owned(), of)), rows.collect())
     }
 }
 
 impl Attractors {
-    /// A line for each point of each attractor: its label, its period (empty if there is none), the number of the point, and the coordinates.
+    /// A table with a line for each point of each attractor: its label, its period (empty if there is none), the number of the point, and the coordinates; and a
+    /// table that says so. `name` is that of both files, without an ending.
     ///
     /// # Errors
-    /// That of the table.
-    pub fn csv(&self, name: &str) -> Result<DataFile, Error> {
+    /// That of the tables.
+    pub fn files(&self, name: &str) -> Result<[DataFile; 2], Error> {
         let dimension =
             self.attractors().first().and_then(|own| own.points.first()).map_or(0, Vec::len);
-        let mut header = vec!["label".to_owned(), "period".to_owned(), "point".to_owned()];
-        header.extend((0..dimension).map(|k| format!("x{k}")));
+        let mut columns = vec![
+            ("label".to_owned(), "the attractor"),
+            ("period".to_owned(), "steps until it repeats itself; empty if there is no period"),
+            ("point".to_owned(), "the number of the point: points follow each other under the map"),
+        ];
+        columns.extend((0..dimension).map(|k| (format!("x{k}"), "coordinate of the state")));
         let mut rows = Vec::new();
         for own in self.attractors() {
             let period = own.period.map_or(String::new(), |period| period.to_string());
@@ -106,6 +124,6 @@ impl Attractors {
                 rows.push(row);
             }
         }
-        csv_text(name, &header, rows)
+        table(name, &columns, rows)
     }
 }

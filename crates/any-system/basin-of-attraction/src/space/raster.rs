@@ -212,7 +212,7 @@ pub fn raster_by_strips<E: From<Error> + Send>(
         progress(finished.fetch_add(labels.len(), Ordering::Relaxed) + labels.len())
     };
     let Some(by_strip) = in_parallel(strips, labelled, count)? else {
-        return Err(Error::Interrupted { finished: finished.into_inner(), columns }.into());
+        return Err(Error::Interrupted { finished: finished.into_inner(), parts: columns }.into());
     };
     let by_column: Vec<Vec<Label>> = by_strip.into_iter().flatten().collect();
     let mut labels = vec![Label::OUTSIDE; pixels];
@@ -248,7 +248,8 @@ pub fn columns_in_parallel<T: Send, E: From<Error> + Send>(
     let finished = AtomicUsize::new(0);
     let count = |_: &T| progress(finished.fetch_add(1, Ordering::Relaxed) + 1);
     let found = in_parallel(columns, column, count)?;
-    found.ok_or_else(|| Error::Interrupted { finished: finished.into_inner(), columns }.into())
+    let finished = || finished.load(Ordering::Relaxed);
+    found.ok_or_else(|| Error::Interrupted { finished: finished(), parts: columns }.into())
 }
 
 /// The values of all pieces in order; `None` if `finished` stops the work, which is called once for each piece.
@@ -298,7 +299,7 @@ mod tests {
     fn a_raster_can_be_interrupted() {
         let stop = |done| if done >= 5 { Break(()) } else { Continue(()) };
         let error = raster(grid(), |_| (), |(), _| Label::from(0), stop).unwrap_err();
-        assert!(matches!(error, Error::Interrupted { columns: 64, .. }));
+        assert!(matches!(error, Error::Interrupted { parts: 64, .. }));
     }
 
     #[test]

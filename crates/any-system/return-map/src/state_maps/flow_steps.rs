@@ -79,6 +79,8 @@ impl StateMap for FlowSteps {
             states.iter_mut().zip(ends.values).for_each(|(column, ends)| *column = ends);
         }
     }
+
+    /// Enough for eight lanes while some motions take longer.
     fn together(&self) -> usize {
         32
     }

@@ -5,7 +5,7 @@ use crate::families::check_without_time;
 use basin_of_attraction::{StateMap, step_by_step};
 use equations::Formulas;
 
-/// The map of some formulas, one for each component, at the values of their parameters. States are computed eight at a time.
+/// The map of some formulas, one for each component, at the values of their parameters. Many states are computed 32 at a time.
 ///
 /// ```
 /// use basin_of_attraction::{Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits, StateGrid};
@@ -68,6 +68,7 @@ impl StateMap for FormulaSteps {
         step_by_step(self, states, has_image, steps)
     }
 
+    /// As many as [`Formulas::map_columns`] computes side by side.
     fn together(&self) -> usize {
         32
     }

@@ -3,7 +3,7 @@
 use super::tally::{Promise, Row, Trial, repeat};
 use crate::error::Error;
 use basin_of_attraction::{
-    Branch, Enclosure, EscapeTimes, GapLengths, Interval, Itineraries, KneadingSequence,
+    Bounds, Branch, Enclosure, EscapeTimes, GapLengths, Interval, Itineraries, KneadingSequence,
     PreimageTree, SplitMix64, array_map,
 };
 
@@ -120,11 +120,8 @@ fn lengths(trials: u64) -> Result<Row, Error> {
         let found = GapLengths::new(&gaps, Interval::new(0.0, 1.0)?, 0.0)?;
         let truth = 1.0 - scale * factor / (1.0 - 2.0 * factor);
         let bounds = found.length_of_set(last, 2.0 * factor)?;
-        // The sums of both are rounded.
-        let wider = basin_of_attraction::Bounds {
-            lower: bounds.lower - 1e-13,
-            upper: bounds.upper + 1e-13,
-        };
+        // Bounds are not rounded outwards: they are right to some ulps.
+        let wider = Bounds { lower: bounds.lower - 1e-13, upper: bounds.upper + 1e-13 };
         Ok(Some(Trial::of_bounds(wider, truth)))
     })
 }

@@ -4,8 +4,8 @@ use super::known_sets::{cantor_boxes, cantor_dimension, cube_boxes, tent_label};
 use super::tally::{Promise, Row, Trial, repeat};
 use crate::error::Error;
 use basin_of_attraction::{
-    Hyperrectangle, Interval, Label, SplitMix64, power_law, uncertain_fraction,
-    uncertainty_exponent,
+    Hyperrectangle, Interval, Label, SplitMix64, array_map, box_dimension, power_law,
+    uncertain_fraction, uncertainty_exponent,
 };
 
 /// Replicates of a trial.
@@ -131,6 +131,25 @@ fn from_pairs(trials: u64) -> Result<Vec<Row>, Error> {
     scenes.into_iter().map(row).collect()
 }
 
+/// The attractor of a map that moves x into one half or the other of Cantor's set, by a chaotic coordinate which is too small for the boxes.
+fn of_attractor(trials: u64) -> Result<Row, Error> {
+    const POINTS: usize = 20_000;
+    const SMALL: f64 = 1e-9;
+    let map = array_map(|[x, u]: [f64; 2]| {
+        let own = u / SMALL;
+        let right = if own < 0.5 { 0.0 } else { 2.0 };
+        Some([(x + right) / 3.0, SMALL * 4.0 * own * (1.0 - own)])
+    });
+    let sizes: Vec<f64> = (0..12).map(|k| Range(3e-4, 3.0, 12).scale(k)).collect();
+    let scene = format!("Cantor set, {POINTS} points of an orbit, 12 scales from 3e-4 to 3e-1");
+    repeat("box_dimension", scene, Promise::Probable, trials, |seed| {
+        let start = [0.0, SMALL * SplitMix64::from_seed(seed).uniform(0)];
+        let law = box_dimension(&map, &start, POINTS, &sizes, seed)?;
+        let truth = cantor_dimension((1.0 / 3.0, 1.0 / 3.0));
+        Ok(law.interval.ok().map(|interval| Trial::of(interval, truth)))
+    })
+}
+
 /// All exponents.
 pub(crate) fn measure(trials: u64) -> Result<Vec<Row>, Error> {
     let third = 1.0 / 3.0;
@@ -166,6 +185,7 @@ pub(crate) fn measure(trials: u64) -> Result<Vec<Row>, Error> {
         found.extend(Set { name: &name, exponent, value: &value }.rows(&ranges, trials)?);
     }
     found.extend(from_pairs(trials)?);
+    found.push(of_attractor(trials)?);
     Ok(found)
 }
 

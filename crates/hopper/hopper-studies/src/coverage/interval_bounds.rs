@@ -57,6 +57,19 @@ fn within(scene: &TwoBasins, random: &SplitMix64) -> Measured {
     Ok(found.map(|bounds| (bounds, truth)))
 }
 
+/// The farthest state of basin 0 from the boundary is 0.
+fn largest(scene: &TwoBasins, _: &SplitMix64) -> Measured {
+    let found = scene.basins.distances_to_boundary(ZERO, 1e-9).largest();
+    Ok(found.map(|(_, bounds)| (bounds, scene.boundary)))
+}
+
+/// From basin 0 to basin 1 of another boundary, as a fraction of the window.
+fn tipping_fraction(scene: &TwoBasins, random: &SplitMix64) -> Measured {
+    let after = two_basins(&SplitMix64::from_seed(random.bits(20)), (0.05, 0.95))?;
+    let truth = (scene.boundary - after.boundary).max(0.0);
+    Ok(Some((scene.basins.tipping_to(&after.basins)?.fraction(ZERO, ONE), truth)))
+}
+
 /// From basin 0 to basin 1 of another boundary.
 fn tipping(scene: &TwoBasins, random: &SplitMix64) -> Measured {
     let after = two_basins(&SplitMix64::from_seed(random.bits(20)), (0.05, 0.95))?;
@@ -68,10 +81,12 @@ fn tipping(scene: &TwoBasins, random: &SplitMix64) -> Measured {
 /// All of them.
 pub(crate) fn measure(trials: u64) -> Result<Vec<Row>, Error> {
     type Measure = fn(&TwoBasins, &SplitMix64) -> Measured;
-    let all: [(&str, &str, Measure); 4] = [
+    let all: [(&str, &str, Measure); 6] = [
         ("PixelShares::of", "pixels about the boundary", share),
         ("IntervalBasins::distance_to_boundary", "states of random places", distance),
         ("BoundaryDistances::fraction_within", "shocks of random size", within),
+        ("BoundaryDistances::largest", "the whole basin", largest),
+        ("Tipping::fraction", "to a boundary of random place", tipping_fraction),
         ("Tipping::probability", "to a boundary of random place", tipping),
     ];
     let row = |(name, scene, measure): (&'static str, &str, Measure)| {

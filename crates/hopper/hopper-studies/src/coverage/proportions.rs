@@ -4,7 +4,7 @@ use super::known_sets::cantor_label;
 use super::tally::{Promise, Row, Trial, repeat};
 use crate::error::Error;
 use basin_of_attraction::{
-    Bounds, ConfidenceInterval, Fractions, Grid, Hyperrectangle, Interval, Label, SplitMix64,
+    ConfidenceInterval, Fractions, Grid, Hyperrectangle, Interval, Label, SplitMix64,
     low_discrepancy_fractions, proportion_interval, random_fractions, random_tipping, raster,
     region_fractions, stratified_fractions, stratified_points, uncertain_fraction, uncertain_pairs,
     wilson_interval,
@@ -110,6 +110,19 @@ fn fractions(trials: u64) -> Result<Vec<Row>, Error> {
     Ok(rows)
 }
 
+/// The sum of the first and the last one of three basins of the line.
+fn aggregated(trials: u64) -> Result<Row, Error> {
+    const POINTS: usize = 1000;
+    let line = Hyperrectangle::try_from(Interval::new(-1.0, 1.0)?)?;
+    let scene = format!("two basins of three, N = {POINTS}");
+    repeat("Fractions::aggregated", scene, Promise::Probable, trials, |seed| {
+        let label = |x: &[f64]| Label::from(u8::from(x[0] > -0.6) + u8::from(x[0] > 0.5));
+        let all = Fractions::from_counts(&region_fractions(&line, POINTS, seed, label)?)?;
+        let outer = all.aggregated(|own, _| Label::from(own != ONE)).of(ONE);
+        Ok(Some(Trial::of_range(outer, 0.45)))
+    })
+}
+
 /// Basin fractions and uncertain pairs of regions, tipping, fractions of images, and uncertain starts of the line.
 fn regions(trials: u64) -> Result<Vec<Row>, Error> {
     const POINTS: usize = 1000;
@@ -125,15 +138,6 @@ fn regions(trials: u64) -> Result<Vec<Row>, Error> {
             Trial::of_proportion(found, truth, POINTS).map(Some)
         })?);
     }
-    let scene = format!("two basins of three, N = {POINTS}");
-    rows.push(repeat("Fractions::aggregated", scene, Promise::Probable, trials, |seed| {
-        let label = |x: &[f64]| Label::from(((x[0] > -0.6) as u8) + ((x[0] > 0.5) as u8));
-        let all = region_fractions(&side.try_into()?, POINTS, seed, label)?;
-        let all = Fractions::from_counts(&all)?;
-        let outer = all.aggregated(|own, _| Label::from(own != ONE)).of(ONE);
-        let bounds = Bounds { lower: outer.lower, upper: outer.upper };
-        Ok(Some(Trial::of_bounds(bounds, 0.45)))
-    })?);
     let line = Hyperrectangle::try_from(side)?;
     let right_of = |place: f64| move |x: &[f64]| Label::from(x[0] > place);
     rows.push(repeat(
@@ -204,7 +208,8 @@ fn regions(trials: u64) -> Result<Vec<Row>, Error> {
 
 /// All intervals of proportions.
 pub(crate) fn measure(trials: u64) -> Result<Vec<Row>, Error> {
-    Ok([plain(trials)?, fractions(trials)?, regions(trials)?].concat())
+    let sums = vec![aggregated(trials)?];
+    Ok([plain(trials)?, fractions(trials)?, regions(trials)?, sums].concat())
 }
 
 #[cfg(test)]

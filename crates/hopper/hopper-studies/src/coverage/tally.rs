@@ -1,7 +1,7 @@
 //! How many of many trials contain the truth.
 
 use crate::error::Error;
-use basin_of_attraction::{Bounds, ConfidenceInterval, wilson_interval};
+use basin_of_attraction::{Bounds, ConfidenceInterval, FractionRange, wilson_interval};
 use rayon::prelude::*;
 
 /// One interval for one seed.
@@ -26,6 +26,12 @@ impl Trial {
         let found = (interval.value * points as f64).round() as usize;
         let wilson = Some(wilson_interval(found, points)?.half_width());
         Ok(Trial { wilson, ..Trial::of(interval, truth) })
+    }
+
+    /// A range of a fraction.
+    pub(super) fn of_range(range: FractionRange, truth: f64) -> Trial {
+        let covered = range.lower <= truth && truth <= range.upper;
+        Trial { covered, half_width: range.half_width(), wilson: None }
     }
 
     pub(super) fn of_bounds(bounds: Bounds, truth: f64) -> Trial {
