@@ -1,11 +1,14 @@
 //! Promises that were false once.
 
 use basin_of_attraction::{
-    AlongSearch, Attractors, Branch, CurveLimits, EscapeTimes, Hyperrectangle, Interval,
-    Itineraries, KneadingSequence, Label, Matching, Metric, PreimageTree, RecurrenceLimits, Side,
-    Stability, StateGrid, StateMap, array_map, attractors_along, suggested_radius_by,
+    AlongSearch, Attractors, Branch, CurveLimits, EscapeTimes, FeatureGroups, GapLengths,
+    Hyperrectangle, Interval, Itineraries, KneadingSequence, Label, Matching, Metric, PreimageTree,
+    RecurrenceLimits, Side, SplitMix64, Stability, StateGrid, StateMap, array_map,
+    attractors_along, intermingledness, suggested_radius_by, watched_map,
 };
 use std::f64::consts::TAU;
+use std::ops::ControlFlow::Continue;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn line(left: f64, right: f64) -> Hyperrectangle {
     Interval::new(left, right).unwrap().try_into().unwrap()
@@ -200,4 +203,136 @@ fn spaces_of_many_dimensions_take_seconds() {
     let grid = StateGrid::uniform(region, 4).unwrap();
     let found = Attractors::search(&turn, grid, &[vec![0.4; 8]], limits).unwrap();
     assert!(found.attractors().len() + found.unmatched().len() == 1);
+}
+
+/// An orbit that crosses the cells of an attractor of which one coordinate is hidden has not come to it. Labels are those of the whole grid.
+#[test]
+fn an_orbit_that_crosses_cells_of_a_projection_goes_on() {
+    let step = |x: f64, y: f64| x + 0.5 * x * (1.0 - x * x) / (1.0 + x * x) + y;
+    let map = array_map(move |[x, y]: [f64; 2]| Some([step(x, y), 0.5 * y]));
+    let line = Interval::new(-4.0, 4.0).unwrap().try_into().unwrap();
+    let starts = [vec![0.5, 0.0], vec![-0.5, 0.0]];
+    let limits = RecurrenceLimits::default();
+    let hidden = StateGrid::uniform(line, 201).unwrap().of_coordinates(&[0], 2).unwrap();
+    let whole = Hyperrectangle::new(vec![Interval::new(-4.0, 4.0).unwrap(); 2]).unwrap();
+    let whole = StateGrid::uniform(whole, 201).unwrap();
+    let [hidden, whole] =
+        [hidden, whole].map(|grid| Attractors::search(&map, grid, &starts, limits).unwrap());
+    let random = SplitMix64::from_seed(3);
+    for k in 0..300 {
+        let start = [0, 1].map(|axis| 4.0 * random.uniform(2 * k + axis) - 2.0);
+        assert_eq!(hidden.label(&map, &start), whole.label(&map, &start), "{start:?}");
+    }
+    // From 1 the orbit goes to −1. It is in the cell of 1 at the start, and has not come to it.
+    let (label, steps) = hidden.convergence(&map, &[1.0, -2.0]).unwrap();
+    assert!(label == hidden.label(&map, &[-1.0, 0.0]) && (5..60).contains(&steps), "{steps}");
+}
+
+/// Orbits that swing slowly towards a fixed point have no period; cycles that are approached slowly have theirs.
+#[test]
+fn slow_oscillations_are_no_cycles() {
+    let logistic = |r: f64| array_map(move |[x]: [f64; 1]| Some([r * x * (1.0 - x)]));
+    let period = |map: &dyn StateMap, region: (f64, f64), start: &[f64]| {
+        let side = Interval::new(region.0, region.1).unwrap();
+        let region = Hyperrectangle::new(vec![side; start.len()]).unwrap();
+        let grid = StateGrid::uniform(region, 100).unwrap();
+        let limits = RecurrenceLimits::default();
+        let found = Attractors::search(map, grid, &[start.to_vec()], limits).unwrap();
+        found.attractors().first().and_then(|own| own.period)
+    };
+    for r in [2.999, 2.99995] {
+        assert!(matches!(period(&logistic(r), (0.0, 1.0), &[0.3]), None | Some(1)), "{r}");
+    }
+    for turn in [2.4, TAU / 5.0, 3.0 * TAU / 7.0] {
+        for modulus in [0.999, 0.9999] {
+            let (s, c) = (modulus * f64::sin(turn), modulus * f64::cos(turn));
+            let focus = array_map(move |[x, y]: [f64; 2]| Some([c * x - s * y, s * x + c * y]));
+            let found = period(&focus, (-1.03, 1.0), &[0.5, 0.3]);
+            assert!(matches!(found, None | Some(1)), "{turn} {modulus}: {found:?}");
+        }
+    }
+    for (r, cycle) in [(3.001, 2), (3.2, 2), (3.44, 2), (3.5, 4), (3.55, 8), (3.8319, 3)] {
+        assert_eq!(period(&logistic(r), (0.0, 1.0), &[0.3]), Some(cycle), "{r}");
+    }
+}
+
+/// Attractors without points have times; distances that do not exist, or whose squares overflow, are no NaN.
+#[test]
+fn what_has_no_points_or_no_distance_is_told() {
+    let starts: Vec<Vec<f64>> = (0..100).map(|k| vec![f64::from(k)]).collect();
+    let found: Vec<(Label, usize)> = (0..100u8).map(|k| (Label::from(k % 2), 7)).collect();
+    let none = [(Label::from(1), Vec::new())].into();
+    let all = Stability::new(&none, &starts, &found).unwrap();
+    let own = all.of(Label::from(1)).unwrap();
+    assert_eq!(own.fraction_within(7).unwrap(), own.fraction);
+    assert!(own.fatal.is_none() && own.longest.as_ref().unwrap().steps == 7);
+    assert_eq!(own.mean_time.unwrap().value, 7.0);
+    let same = vec![vec![2.0]; 4];
+    let labels = [0, 0, 1, 1].map(Label::from);
+    let mixed = |points: &[Vec<f64>]| intermingledness(points, &labels, &Metric::euclidean());
+    assert!(mixed(&same).unwrap().values().all(|x| *x == 1.0));
+    assert!(mixed(&[vec![1.0], vec![1.0, 2.0], vec![3.0], vec![4.0]]).is_err());
+    assert!(mixed(&[vec![1.0], vec![f64::NAN], vec![3.0], vec![4.0]]).is_err());
+    for unit in [1e200, 1e-200] {
+        let features = [1.0, 1.1, -1.0, -1.1].map(|x| vec![unit * x]);
+        let groups = FeatureGroups::dense(&features, 0.5 * unit, 2).unwrap();
+        assert_eq!(groups.labels().len(), 2);
+        assert!((groups.separation().unwrap() / unit - 2.0).abs() < 1e-12);
+    }
+    // A distance between some vectors only.
+    let some =
+        Metric::by(
+            |a, b| if a[0] * b[0] < 0.0 { (a[0] - a[0]) / 0.0 } else { (a[0] - b[0]).abs() },
+        );
+    let features = [1.0, 1.1, -1.0, -1.1].map(|x| vec![x]);
+    let groups = FeatureGroups::dense_by(some, &features, 0.5, 2).unwrap();
+    assert_eq!(groups.separation(), None);
+    assert!(groups.silhouettes().values().all(|x| *x == 0.0));
+    let cells = Metric::cells(&[1e-10]).distance(&[1e300], &[2e300]);
+    assert!(cells.is_nan());
+}
+
+/// Joined gaps leave what is between them; where the window leaves out branches to which orbits go nothing is known.
+#[test]
+fn gaps_and_windows_leave_out_nothing() {
+    let interval = |left, right| Interval::new(left, right).unwrap();
+    let gaps = [interval(0.0, 0.4), interval(0.45, 1.0)];
+    let joined = GapLengths::new(&gaps, interval(0.0, 1.0), 0.1).unwrap();
+    assert!((joined.left() - 0.05).abs() < 1e-15 && joined.lengths().len() == 1);
+    let tent = |x: f64| Some(if x < 0.5 { 3.0 * x } else { 3.0 * (1.0 - x) });
+    let branches = [
+        Branch { domain: interval(0.0, 0.5), at_left: 0.0, at_right: 1.5 },
+        Branch { domain: interval(0.5, 1.0), at_left: 1.5, at_right: 0.0 },
+    ];
+    for (left, right) in [(0.6, 0.7), (0.0, 0.4)] {
+        let above = interval(1.0 + 1e-12, 1.5);
+        let window = interval(left, right);
+        let tree = PreimageTree::grow_from_known(&tent, &branches, above, window, 8).unwrap();
+        assert_eq!(tree.itineraries(&tent, &branches, 8), Itineraries::Undecided);
+    }
+}
+
+/// Many steps at once are counted as they are made.
+#[test]
+fn progress_comes_about_every_thousand_images() {
+    let henon = array_map(|[x, y]: [f64; 2]| Some([1.0 - 1.4 * x * x + y, 0.3 * x]));
+    let (largest, last) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let watched = watched_map(&henon, |images| {
+        let gap = images.abs_diff(last.swap(images, Ordering::Relaxed));
+        largest.fetch_max(gap, Ordering::Relaxed);
+        Continue(())
+    });
+    let mut states = vec![vec![0.1; 4], vec![0.1; 4]];
+    assert_eq!(watched.advance(&mut states, &mut [false; 4], 100_000), 100_000);
+    assert_eq!(last.load(Ordering::Relaxed), 399_360);
+    assert_eq!(largest.load(Ordering::Relaxed), 1024);
+    // Without an image only the steps count that were made.
+    let escapes = array_map(|[x]: [f64; 1]| (x < 5.0).then_some([x + 1.0]));
+    let counted = AtomicUsize::new(0);
+    let watched = watched_map(&escapes, |images| {
+        counted.store(images, Ordering::Relaxed);
+        Continue(())
+    });
+    assert_eq!(watched.advance(&mut [vec![0.0]], &mut [false], 20_000), 6);
+    assert_eq!(counted.load(Ordering::Relaxed), 0);
 }

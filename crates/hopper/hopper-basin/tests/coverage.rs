@@ -42,13 +42,14 @@ fn check_samples(m: f64, window: Interval, pixels: usize, samples: usize, column
                 ends += 1;
             }
             if let Some((_, known)) = own.peek().filter(|(part, _)| part.contains(speed))
-                && label.is_basin()
+                && label.is_decided()
             {
                 assert_eq!(*known, label, "M = {m}, α = {speed}");
             }
         }
         let slack = (2 * ends + 2) as f64 / samples as f64;
-        let mut all: Vec<Label> = labels.iter().copied().filter(|label| label.is_basin()).collect();
+        let mut all: Vec<Label> =
+            labels.iter().copied().filter(|label| label.is_decided()).collect();
         let undecided = labels.len() - all.len();
         all.sort_unstable();
         all.dedup();

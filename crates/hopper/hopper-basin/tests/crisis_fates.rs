@@ -32,7 +32,7 @@ fn no_fate_at_a_touch_is_wrong() {
                 below += usize::from(offset < 0.0);
                 let stays = HopperFate::label_of_fixed_point(n);
                 for label in [label, fates.fate(speed).unwrap().label()] {
-                    decided += usize::from(label.is_basin());
+                    decided += usize::from(label.is_decided());
                     let m = fates.map().mass_ratio();
                     let right = label.is_undecided() || (label == stays) == (offset > 0.0);
                     assert!(right, "{n} {m:?} {speed:?} {label} {offset:e}");

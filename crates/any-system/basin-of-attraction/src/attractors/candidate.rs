@@ -219,14 +219,42 @@ impl Candidate<'_> {
 
 /// The period of successive points, if the last ones repeat themselves.
 fn period(grid: &StateGrid, points: &[&[f64]]) -> Option<usize> {
-    let closed = |a: &[f64], b: &[f64]| {
-        (0..).zip(a.iter().zip(b)).all(|(k, (a, b))| grid.apart(k, *a, *b) <= CLOSED)
-    };
     let repeats = |period: &usize| {
         (0..*period).all(|k| {
             let last = points.len() - 1 - k;
-            closed(points[last], points[last - period])
+            apart(grid, points[last], points[last - period]) <= CLOSED
         })
     };
-    (1..=points.len() / 2).find(repeats)
+    let period = (1..=points.len() / 2).find(repeats)?;
+    (period == 1 || is_cycle(grid, points, period)).then_some(period)
+}
+
+/// The largest distance of a coordinate.
+fn apart(grid: &StateGrid, a: &[f64], b: &[f64]) -> f64 {
+    (0..).zip(a.iter().zip(b)).map(|(k, (a, b))| grid.apart(k, *a, *b)).fold(0.0, f64::max)
+}
+
+/// Whether points that repeat themselves are those of a cycle, and not of a slow oscillation about a point that is still far.
+///
+/// From turn to turn the points move by d, and d shrinks by a factor q: they still go the way d·q/(1 − q). They are a cycle if that is short beside the
+/// distances of the others from one of them. Movements without a direction are noise of the map, and go no way.
+fn is_cycle(grid: &StateGrid, points: &[&[f64]], period: usize) -> bool {
+    /// The way that is still to go, as a part of the smallest distance. In an oscillation it is a half or more.
+    const SHORT: f64 = 0.1;
+    let begin = points.len() % period;
+    let turns = points.len() / period - 1;
+    let at = |turn: usize, k: usize| points[begin + turn * period + k];
+    let moved = |turn: usize, other: usize| {
+        let all = (0..period).map(|k| apart(grid, at(turn, k), at(other, k)));
+        all.fold(0.0, f64::max)
+    };
+    let from_first = (1..period).map(|k| apart(grid, at(turns, 0), at(turns, k)));
+    let smallest = from_first.fold(f64::INFINITY, f64::min);
+    let (first, last) = (moved(0, 1), moved(turns - 1, turns));
+    let way_so_far = moved(0, turns);
+    let q = pxfm::f_pow(last / first, 1.0 / (turns - 1).max(1) as f64);
+    if turns > 2 && q < 1.0 && way_so_far >= 0.5 * turns as f64 * last {
+        return last * q / (1.0 - q) < SHORT * smallest;
+    }
+    last.max(way_so_far) < SHORT * smallest
 }

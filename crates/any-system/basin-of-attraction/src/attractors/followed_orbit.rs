@@ -46,6 +46,8 @@ struct Track {
     visited: CellSet,
     /// Consecutive steps to visited cells.
     recurrences: usize,
+    /// Where coordinates are hidden, the attractor in whose cells it is, and since which step.
+    stay: Option<(usize, usize)>,
     repeats: Repeats,
     confirmation: Option<Confirmation>,
 }
@@ -102,6 +104,7 @@ impl Orbit {
             self.track.cut = None;
             self.go_on();
         }
+        self.track.stay = None;
         (self.steps, self.outside, self.is_stopped) = (0, 0, false);
     }
 
@@ -130,8 +133,9 @@ impl Orbit {
         &mut self.point
     }
 
+    /// The steps so far; until it came to an attractor, if it is at one.
     pub(crate) fn steps(&self) -> usize {
-        self.steps
+        self.track.stay.map_or(self.steps, |(_, since)| since)
     }
 
     /// Follows the orbit from where it is.
@@ -183,6 +187,12 @@ impl Orbit {
     ) -> Option<End> {
         if self.track.confirmation.as_ref().is_some_and(Confirmation::is_complete) {
             let confirmation = self.track.confirmation.take()?;
+            // A cycle that repeats itself to the last bit is confirmed before an orbit has stayed for long.
+            if let Some((own, since)) = self.track.stay
+                && self.steps - since >= confirmation.length
+            {
+                return Some(End::Known(own));
+            }
             let verdict = confirmation.verdict(&mut self.track.cut);
             if verdict.is_some() {
                 return verdict;
@@ -229,6 +239,15 @@ impl Orbit {
         self.steps.max(limits.locate).max(1)
     }
 
+    /// Whether it has been in the cells of an attractor for long enough, where coordinates are hidden.
+    fn stays(&mut self, place: Place, limits: &RecurrenceLimits) -> bool {
+        let before = self.track.stay.take();
+        let Place::Owned(own) = place else { return false };
+        let since = before.filter(|(other, _)| *other == own).map_or(self.steps, |stay| stay.1);
+        self.track.stay = Some((own, since));
+        self.steps - since >= limits.recurrences.max(1)
+    }
+
     #[inline]
     fn look(&mut self, known: &KnownCells, limits: &RecurrenceLimits, place: Place) -> Look {
         let at = &self.point.at;
@@ -240,9 +259,11 @@ impl Orbit {
         if !is_certain && limits.escape.is_some_and(beyond) {
             return Look::End(End::Escaped);
         }
+        let stays = !known.has_hidden() || self.stays(place, limits);
+        let at = &self.point.at;
         match place {
-            Place::Owned(own) => Look::End(End::Known(own)),
-            Place::Inside => {
+            Place::Owned(own) if stays => Look::End(End::Known(own)),
+            Place::Owned(_) | Place::Inside => {
                 self.outside = 0;
                 Look::Inside
             }

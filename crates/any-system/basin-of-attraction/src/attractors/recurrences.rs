@@ -26,7 +26,8 @@ pub struct Attractor {
     /// point of each other cell.
     pub points: Vec<Vec<f64>>,
     /// The smallest number of steps after which it comes back to each of its points, to 10⁻⁹ of the sides of the region, and of its size in a
-    /// coordinate without cells: 1 for a fixed point. `None` if there is none up to half of the steps that the limits locate.
+    /// coordinate without cells: 1 for a fixed point. `None` if there is none up to half of the steps that the limits locate, and for a swing towards
+    /// a point that is still far.
     pub period: Option<usize>,
     /// How many of the starts came to it.
     pub starts: usize,

@@ -88,7 +88,10 @@ impl StateGrid {
     }
 
     /// The same cells of some coordinates of states with `dimension` coordinates: axis k has coordinate `coordinates[k]`. The others do not
-    /// tell attractors apart: two that agree in all of these are one.
+    /// tell attractors apart: two are one if the cells of one of them are among those of the other.
+    ///
+    /// An orbit crosses cells of an attractor to which it does not come, as the others are not seen. So it has come to an attractor only if it stays in the
+    /// cells for [`RecurrenceLimits::recurrences`](crate::RecurrenceLimits::recurrences) steps. Its time is the step at which the stay begins.
     ///
     /// To project by a function, follow states that have its values as further coordinates.
     ///
@@ -165,6 +168,11 @@ impl StateGrid {
         let ends = self.axes.iter().flat_map(|axis| [axis.side.left, axis.side.right]);
         let largest = ends.fold(0.0, |largest: f64, end| largest.max(end.abs()));
         if self.axes.len() == self.dimension { largest } else { f64::INFINITY }
+    }
+
+    /// Whether a coordinate of the states has no cells.
+    pub(crate) fn has_hidden(&self) -> bool {
+        self.axes.len() < self.dimension
     }
 
     pub(crate) fn is_periodic(&self) -> bool {

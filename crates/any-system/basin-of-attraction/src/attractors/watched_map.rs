@@ -74,11 +74,21 @@ impl<P: Fn(usize) -> ControlFlow<()> + Sync> StateMap for WatchedMap<'_, P> {
     }
 
     fn advance(&self, states: &mut [Vec<f64>], has_image: &mut [bool], steps: usize) -> usize {
-        if self.count(has_image.len().saturating_mul(steps)) {
-            return self.map.advance(states, has_image, steps);
+        let most = (BETWEEN / has_image.len().max(1)).max(1);
+        let mut made = 0;
+        while made < steps {
+            if self.is_stopped() {
+                has_image.fill(false);
+                return made + 1;
+            }
+            let some = self.map.advance(states, has_image, most.min(steps - made));
+            made += some;
+            self.count(has_image.len() * some);
+            if has_image.contains(&false) {
+                break;
+            }
         }
-        has_image.fill(false);
-        steps.min(1)
+        made
     }
 
     fn together(&self) -> usize {

@@ -29,8 +29,20 @@ impl BoundaryBracket {
     }
 }
 
+/// The Euclidean distance.
 pub(crate) fn distance(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+    let differences = || one.iter().zip(other).map(|(a, b)| a - b);
+    let square: f64 = differences().map(|x| x * x).sum();
+    if square.is_normal() {
+        return square.sqrt();
+    }
+    // The squares are too large or too small, or all are 0, or one is NaN.
+    let largest =
+        differences().fold(0.0f64, |most, x| if most >= x.abs() { most } else { x.abs() });
+    if largest == 0.0 || !largest.is_finite() {
+        return largest;
+    }
+    largest * differences().map(|x| (x / largest) * (x / largest)).sum::<f64>().sqrt()
 }
 
 fn middle(one: &[f64], other: &[f64]) -> Vec<f64> {
@@ -76,7 +88,7 @@ pub fn boundary_between(
         return Err(Error::BadSearch { name: "a precision", value: precision, remedy: "" });
     }
     let labels = (label(first), label(second));
-    if !labels.0.is_basin() || !labels.1.is_basin() || labels.0 == labels.1 {
+    if !labels.0.is_decided() || !labels.1.is_decided() || labels.0 == labels.1 {
         return Err(Error::NotTwoBasins { first: labels.0, second: labels.1 });
     }
     let mut found = BoundaryBracket {
@@ -91,7 +103,7 @@ pub fn boundary_between(
             break;
         }
         let own = label(&at);
-        if !own.is_basin() {
+        if !own.is_decided() {
             found.undecided = Some((at, own));
             break;
         }

@@ -197,7 +197,7 @@ impl LabelImage {
                 for &label in &self.labels[from..from + wide] {
                     undecided += usize::from(label.is_undecided());
                     outside += usize::from(label.is_outside());
-                    if label.is_basin() {
+                    if label.is_decided() {
                         *basins.entry(label).or_insert(0.0) += 1.0;
                     }
                 }

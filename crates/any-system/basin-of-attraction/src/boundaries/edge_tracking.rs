@@ -121,11 +121,11 @@ pub fn track_edge(
         };
         bracket = match boundary_between(&pair.0, &pair.1, limits.bisect, &label) {
             Ok(bracket) => bracket,
-            Err(Error::NotTwoBasins { first, second }) if first == second && first.is_basin() => {
+            Err(Error::NotTwoBasins { first, second }) if first == second && first.is_decided() => {
                 break EdgeEnd::SameLabel(first);
             }
             Err(Error::NotTwoBasins { first, second }) => {
-                let states = if first.is_basin() { (pair.1, second) } else { (pair.0, first) };
+                let states = if first.is_decided() { (pair.1, second) } else { (pair.0, first) };
                 bracket.undecided = Some(states);
                 continue;
             }

@@ -151,7 +151,7 @@ pub fn minimal_fatal_shock_watched(
     check_count(directions.saturating_mul(along))?;
     check_count(search.changes.saturating_mul(search.improved.clamp(1, directions)))?;
     let own = label(state);
-    if !own.is_basin() {
+    if !own.is_decided() {
         return Err(Error::NoBasin { label: own });
     }
     let probe = Probe { state, label: &label, own, precision };
@@ -235,7 +235,7 @@ impl<L: Fn(&[f64]) -> Label> Probe<'_, L> {
     }
 
     fn is_fatal(&self, label: Label) -> bool {
-        label.is_basin() && label != self.own
+        label.is_decided() && label != self.own
     }
 
     /// The first fatal shock along a ray, and the number of undecided states on it.

@@ -57,7 +57,7 @@ pub fn region_boxes(
             let found = label(&part.random_point(&random, (number * points + k) as u64));
             undecided |= found.is_undecided();
             inside |= !found.is_outside();
-            if found.is_basin() {
+            if found.is_decided() {
                 *basins.entry(found).or_insert(0.0) += 1.0;
             }
         }

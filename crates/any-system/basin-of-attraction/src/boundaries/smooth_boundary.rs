@@ -155,7 +155,7 @@ fn entropy_of_ball(
         let mut at = random_direction(&directions, number, dimension);
         at.iter_mut().zip(middle).for_each(|(x, middle)| *x = middle + distance * *x);
         let label = label(&at);
-        if !label.is_basin() {
+        if !label.is_decided() {
             return None;
         }
         *counts.entry(label).or_insert(0) += 1;

@@ -43,7 +43,7 @@ pub fn uncertain_fraction(
         if here.is_outside() || beside.iter().any(|label| label.is_outside()) {
             return [0, 0, 0];
         }
-        let known = |label: &Label| here.is_basin() && label.is_basin();
+        let known = |label: &Label| here.is_decided() && label.is_decided();
         if beside.iter().any(|label| known(label) && *label != here) {
             [1, 1, 0]
         } else {

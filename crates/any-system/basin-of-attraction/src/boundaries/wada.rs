@@ -60,7 +60,7 @@ impl LabelImage {
         };
         let (inside, undecided) = (sum(|label| !label.is_outside()), sum(Label::is_undecided));
         let labels: Vec<Label> =
-            counts.iter().map(|(label, _)| *label).filter(|label| label.is_basin()).collect();
+            counts.iter().map(|(label, _)| *label).filter(|label| label.is_decided()).collect();
         if labels.len() < 3 {
             return Err(Error::TooFewLabels { labels: labels.len() });
         }
@@ -111,7 +111,7 @@ impl LabelImage {
     /// one has the label, and both belong to basins.
     fn boundary_of(&self, label: Label) -> Vec<bool> {
         let inside = |at: usize| self.labels[at] == label;
-        let basin = |at: usize| self.labels[at].is_basin();
+        let basin = |at: usize| self.labels[at].is_decided();
         let differ = |at: usize, next: usize| basin(next) && inside(next) != inside(at);
         let borders = |at: usize| basin(at) && self.neighbours(at).any(|next| differ(at, next));
         (0..self.labels.len()).map(borders).collect()
@@ -192,11 +192,11 @@ impl IntervalBasins {
     pub fn wada(&self, distance: f64) -> Result<LineWadaTest, Error> {
         check_perturbation(distance)?;
         let labels: Vec<Label> =
-            self.labels().into_iter().filter(|label| label.is_basin()).collect();
+            self.labels().into_iter().filter(|label| label.is_decided()).collect();
         if labels.len() < 3 {
             return Err(Error::TooFewLabels { labels: labels.len() });
         }
-        let decided = || self.intervals().iter().filter(|part| part.label.is_basin());
+        let decided = || self.intervals().iter().filter(|part| part.label.is_decided());
         let between = |(one, next): (&LabelledInterval, &LabelledInterval)| {
             let (before, after) = (one.interval.right, next.interval.left);
             let seen = one.label != next.label && after - before <= distance;

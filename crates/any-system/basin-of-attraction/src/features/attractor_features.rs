@@ -212,11 +212,12 @@ impl FeatureAttractors {
         let match_one = |(start, orbit): (&Vec<f64>, &Option<Beginning>)| {
             let Some(orbit) = orbit else { return Err(UnmatchedReason::Stopped) };
             let label = found.common(&orbit.features);
-            if label.is_basin() {
+            if label.is_decided() {
                 return Ok(label);
             }
             found.follow(map, feature, start).map_err(|reason| {
-                let refused = orbit.features.last().is_some_and(|own| before.label(own).is_basin());
+                let refused =
+                    orbit.features.last().is_some_and(|own| before.label(own).is_decided());
                 match reason {
                     UnmatchedReason::NoGroup if refused => UnmatchedReason::NoTrap,
                     reason => reason,
@@ -306,12 +307,12 @@ impl FeatureAttractors {
             let label = self.groups.label(&feature(&points));
             same = if label == last { same + 1 } else { 1 };
             last = label;
-            if same >= limits.agree && label.is_basin() {
+            if same >= limits.agree && label.is_decided() {
                 return Ok(label);
             }
         }
         // The last stretches are of no group, or of different ones.
-        let changes = last.is_basin() && same < limits.agree;
+        let changes = last.is_decided() && same < limits.agree;
         Err(if changes { UnmatchedReason::Budget } else { UnmatchedReason::NoGroup })
     }
 

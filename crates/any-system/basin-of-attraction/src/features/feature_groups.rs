@@ -224,14 +224,15 @@ impl FeatureGroups {
     pub fn separation(&self) -> Option<f64> {
         let from = |(k, (label, vector)): (usize, &(Label, Vec<f64>))| {
             let others = self.vectors[k..].iter().filter(|other| other.0 != *label);
-            others.map(|(_, other)| self.metric.distance(vector, other)).min_by(f64::total_cmp)
+            let distances = others.map(|(_, other)| self.metric.distance(vector, other));
+            distances.filter(|distance| !distance.is_nan()).min_by(f64::total_cmp)
         };
         self.vectors.iter().enumerate().filter_map(from).min_by(f64::total_cmp)
     }
 
     /// For each group the mean silhouette of its vectors: (b − a)/max(a, b), where a is the mean distance from the others of the group, and b the
     /// smallest mean distance from those of another group (P. J. Rousseeuw, J. Comput. Appl. Math. 20, 53, 1987). Near 1 the groups are apart, near 0
-    /// they meet. A group of one vector has 0; without a second group there is none.
+    /// they meet. A group of one vector has 0; without a second group there is none. Pairs without a distance do not count.
     pub fn silhouettes(&self) -> BTreeMap<Label, f64> {
         let mut groups: BTreeMap<Label, Vec<&[f64]>> = BTreeMap::new();
         for (label, vector) in &self.vectors {
@@ -240,17 +241,22 @@ impl FeatureGroups {
         if groups.len() < 2 {
             return BTreeMap::new();
         }
-        let sum = |from: &[f64], of: &[&[f64]]| {
-            of.iter().map(|other| self.metric.distance(from, other)).sum::<f64>()
+        // Without some of the distances, which are 0.
+        let mean = |from: &[f64], of: &[&[f64]], without: usize| {
+            let all = of.iter().map(|other| self.metric.distance(from, other));
+            let all: Vec<f64> = all.filter(|distance| !distance.is_nan()).collect();
+            let count = all.len().saturating_sub(without);
+            (count > 0).then(|| all.iter().sum::<f64>() / count as f64)
         };
         let own = |(label, vector): &(Label, Vec<f64>)| {
-            let same = &groups[label];
             let others = groups.iter().filter(|(other, _)| *other != label);
-            let between = others.map(|(_, of)| sum(vector, of) / of.len() as f64);
-            let between = between.fold(f64::INFINITY, f64::min);
-            let inside = sum(vector, same) / (same.len() as f64 - 1.0);
-            let larger = inside.max(between);
-            if same.len() > 1 && larger > 0.0 { (between - inside) / larger } else { 0.0 }
+            let between = others.filter_map(|(_, of)| mean(vector, of, 0)).min_by(f64::total_cmp);
+            match (mean(vector, &groups[label], 1), between) {
+                (Some(inside), Some(between)) if inside.max(between) > 0.0 => {
+                    (between - inside) / inside.max(between)
+                }
+                _ => 0.0,
+            }
         };
         let all: Vec<(Label, f64)> =
             self.vectors.par_iter().map(|vector| (vector.0, own(vector))).collect();

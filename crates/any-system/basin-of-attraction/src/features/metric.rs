@@ -53,7 +53,7 @@ impl Metric {
     }
 
     /// Cells of these widths, one for each coordinate, counted from 0: the largest difference of the numbers of two cells, 0 in the same one. With a
-    /// radius below 1 the groups are the cells of a histogram.
+    /// radius below 1 the groups are the cells of a histogram. Numbers of cells beyond the largest `f64` have no distance.
     pub fn cells(widths: &[f64]) -> Metric {
         Metric(Kind::Cells(widths.to_vec()))
     }
@@ -74,7 +74,8 @@ impl Metric {
             Kind::Cells(widths) if widths.len() != a.len() => f64::NAN,
             Kind::Cells(widths) => {
                 let cell = |x: f64, width: &f64| (x / width).floor();
-                let apart = |(a, b): (f64, f64)| if a == b { 0.0 } else { (a - b).abs() };
+                // NaN for infinite numbers.
+                let apart = |(a, b): (f64, f64)| (a - b).abs();
                 let all = a.iter().zip(b).zip(widths);
                 let cells = all.map(|((a, b), width)| (cell(*a, width), cell(*b, width)));
                 cells.map(apart).fold(0.0, larger)

@@ -30,8 +30,8 @@ const LONE: f64 = 0.5;
 ///
 /// As the radius grows, groups join at the lengths of a shortest tree of mutual reachability: the distance of two vectors, or that at which one
 /// of them is not dense yet, if it is larger (R. J. G. B. Campello, D. Moulavi, J. Sander, 2013). Between two neighbouring lengths nothing
-/// changes. The widest gap, as a ratio, before two groups join is suggested; without one of a factor of two there is one group, and the widest
-/// gap leaves out the lone vectors.
+/// changes, until a vector becomes dense by itself. The widest gap, as a ratio, before two groups join is suggested; without one of a factor of two there
+/// is one group, and the widest gap leaves out the lone vectors.
 ///
 /// ```
 /// use basin_of_attraction::{FeatureGroups, suggested_radius};
@@ -69,9 +69,13 @@ pub fn suggested_radius_by(
     }
     let largest = vectors.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
     let floor = (ROUNDING * largest).max(f64::MIN_POSITIVE);
-    let joins = joins(metric, vectors, fewest);
+    let (joins, dense_from) = joins(metric, vectors, fewest);
     let lengths: Vec<f64> = joins.iter().map(|join| join.length.max(floor)).collect();
-    let gap = |k: usize| [lengths[k - 1], lengths[k]];
+    // To the next join, or to a vector that becomes a group of its own.
+    let gap = |k: usize| {
+        let later = dense_from.iter().copied().filter(|from| *from > lengths[k - 1]);
+        [lengths[k - 1], later.fold(lengths[k], f64::min)]
+    };
     let widest = |places: &mut dyn Iterator<Item = usize>| {
         let gaps = places
             .filter(|k| *k > 0)
@@ -128,8 +132,9 @@ fn joined_groups(joins: &[Join], count: usize, fewest: usize) -> Vec<usize> {
     found
 }
 
-/// The edges of a shortest tree of mutual reachability, from the shortest to the longest one (R. C. Prim's algorithm).
-fn joins(metric: &Metric, vectors: &[Vec<f64>], fewest: usize) -> Vec<Join> {
+/// The edges of a shortest tree of mutual reachability, from the shortest to the longest one (R. C. Prim's algorithm), and the radii at which vectors become
+/// dense.
+fn joins(metric: &Metric, vectors: &[Vec<f64>], fewest: usize) -> (Vec<Join>, Vec<f64>) {
     // What has no distance is infinitely far.
     let distance = |a: &[f64], b: &[f64]| {
         let distance = metric.distance(a, b);
@@ -165,7 +170,7 @@ fn joins(metric: &Metric, vectors: &[Vec<f64>], fewest: usize) -> Vec<Join> {
         (is_in[next], last) = (true, next);
     }
     joins.sort_by(|a, b| a.length.total_cmp(&b.length));
-    joins
+    (joins, dense_from)
 }
 
 #[cfg(test)]
@@ -211,6 +216,21 @@ mod tests {
                 prop_assert_eq!(just.labels().len(), count);
             }
         }
+    }
+
+    /// −1 is dense from 1 on, without a dense neighbour: the gap ends there.
+    #[test]
+    fn a_vector_that_becomes_dense_alone_ends_the_gap() {
+        let features = [-1.0, -10.25, 0.0, -7.0, -1.93, -10.28, -9.83, -11.0].map(|x| vec![x]);
+        let found = suggested_radius(&features, 3).unwrap();
+        let groups = |radius| {
+            let all = FeatureGroups::dense(&features, radius, 3).unwrap();
+            let vectors = |label| all.vectors(label).map(<[f64]>::to_vec).collect::<Vec<_>>();
+            all.labels().into_iter().map(vectors).collect::<Vec<_>>()
+        };
+        let end = found.below.unwrap_or(2.0 * found.radius) * (1.0 - 1e-9);
+        assert_eq!(groups(found.from), groups(found.radius), "{found:?}");
+        assert_eq!(groups(found.from), groups(end), "{found:?}");
     }
 
     #[test]

@@ -17,6 +17,8 @@ use crate::statistics::bounds::Bounds;
 pub struct GapLengths {
     window: Interval,
     lengths: Vec<f64>,
+    /// The lengths between gaps that are joined: what lies there may belong to the set.
+    between: f64,
 }
 
 impl GapLengths {
@@ -47,13 +49,14 @@ impl GapLengths {
             own.extend(Interval::new(gap.left, gap.right)?.intersection(&window));
         }
         own.sort_by(|a, b| a.left.total_cmp(&b.left));
-        let mut joined: Vec<Interval> = Vec::new();
+        let (mut joined, mut between) = (Vec::<Interval>::new(), 0.0);
         for gap in own {
             match joined.last_mut() {
                 Some(last) if gap.left < last.right - resolution => {
                     return Err(overlap(*last, gap));
                 }
                 Some(last) if gap.left <= last.right + resolution => {
+                    between += (gap.left - last.right).max(0.0);
                     last.right = last.right.max(gap.right);
                 }
                 _ => joined.push(gap),
@@ -62,7 +65,7 @@ impl GapLengths {
         let lengths = joined.iter().map(Interval::length).filter(|x| *x > 0.0);
         let mut lengths: Vec<f64> = lengths.collect();
         lengths.sort_by(|a, b| b.total_cmp(a));
-        Ok(GapLengths { window, lengths })
+        Ok(GapLengths { window, lengths, between })
     }
 
     /// The lengths, from the longest to the shortest.
@@ -75,10 +78,11 @@ impl GapLengths {
         self.lengths.partition_point(|own| *own > length)
     }
 
-    /// What the gaps leave of the window: an upper bound on the length of the set, to the rounding of the sum.
+    /// What the gaps leave of the window: an upper bound on the length of the set, to the rounding of the sum. What lies between joined gaps counts.
     pub fn left(&self) -> f64 {
         // The shortest first: the rounding of the sum is that of the longest alone.
-        (self.window.length() - self.lengths.iter().rev().sum::<f64>()).max(0.0)
+        let sum = self.lengths.iter().rev().sum::<f64>();
+        (self.window.length() - sum + self.between).max(0.0)
     }
 
     /// Bounds on the length of the set if each length of the levels that follow is at most `factor` times that of the level before, and `last` is that of

@@ -155,7 +155,7 @@ impl IntervalBasins {
     /// Makes gaps of the intervals whose label is no basin. With such intervals a search is not resolved.
     pub(crate) fn without_undecided(mut self) -> IntervalBasins {
         let all = self.parts.len();
-        self.parts.retain(|part| part.label.is_basin());
+        self.parts.retain(|part| part.label.is_decided());
         if self.parts.len() < all && self.stop_reason == StopReason::Resolved {
             self.stop_reason = StopReason::AllFollowed;
         }

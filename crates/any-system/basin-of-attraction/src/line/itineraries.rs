@@ -39,7 +39,8 @@ type Ways = Vec<Vec<usize>>;
 impl PreimageTree {
     /// How many itineraries the points have that no level up to this one contains, by the pieces that these levels leave on the branches.
     ///
-    /// `map` and `branches` are those of the tree. A piece leads to each piece that its image meets, and covers those that its image contains.
+    /// `map` and `branches` are those of the tree. A piece leads to each piece that its image meets, and covers those that its image contains. Where an image
+    /// reaches a part of a branch outside the tree's window, nothing is known, and the answer is undecided.
     ///
     /// ```
     /// use basin_of_attraction::{Branch, Interval, Itineraries, PreimageTree};
@@ -60,6 +61,15 @@ impl PreimageTree {
         level: usize,
     ) -> Itineraries {
         let gaps = self.gaps(level);
+        // The parts of the branches that the window leaves out.
+        let window = self.window;
+        let left_out = |branch: &Branch| {
+            let Interval { left, right } = branch.domain;
+            let below = Interval { left, right: right.min(window.left) };
+            let above = Interval { left: left.max(window.right), right };
+            [below, above].into_iter().filter(|part| part.left < part.right)
+        };
+        let unknown: Vec<Interval> = branches.iter().flat_map(left_out).collect();
         let (mut pieces, mut images) = (Vec::new(), Vec::new());
         for branch in branches {
             for piece in gaps.intervals().iter().filter_map(|gap| gap.intersection(&branch.domain))
@@ -67,6 +77,9 @@ impl PreimageTree {
                 let Some(image) = image_of(map, branch, piece) else {
                     return Itineraries::Undecided;
                 };
+                if unknown.iter().any(|part| meets(&image, part)) {
+                    return Itineraries::Undecided;
+                }
                 pieces.push(piece);
                 images.push(image);
             }

@@ -59,7 +59,7 @@ impl PixelShares {
         }
         let edges = Self::edges(window, pixels)?;
         let mut labels: Vec<Label> =
-            parts.iter().map(|&(_, label)| label).filter(|label| label.is_basin()).collect();
+            parts.iter().map(|&(_, label)| label).filter(|label| label.is_decided()).collect();
         labels.sort_unstable();
         labels.dedup();
         let mut certain = vec![0.0; pixels * labels.len()];

@@ -23,7 +23,7 @@ pub struct TreeNode {
 /// A trap, its preimages, the preimages of these, and so on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreimageTree {
-    window: Interval,
+    pub(super) window: Interval,
     nodes: Vec<TreeNode>,
     /// Level k has the nodes from starts[k] to starts[k + 1], without the last one.
     starts: Vec<usize>,

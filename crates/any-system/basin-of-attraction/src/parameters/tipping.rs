@@ -192,7 +192,7 @@ fn relabelled<T: Copy + Default + std::ops::AddAssign>(
     amounts: &Amounts<T>,
     label: impl Fn(Label) -> Label,
 ) -> Amounts<T> {
-    let renamed = |own: Option<Label>| own.map(&label).filter(|label| label.is_basin());
+    let renamed = |own: Option<Label>| own.map(&label).filter(|label| label.is_decided());
     let mut all: Amounts<T> = BTreeMap::new();
     for (&(before, after), &amount) in amounts {
         *all.entry((renamed(before), renamed(after))).or_default() += amount;
@@ -220,7 +220,7 @@ impl TippingCounts {
     /// [`Error::NothingInside`] if no point is counted.
     pub fn new(pairs: impl IntoIterator<Item = (Label, Label)>) -> Result<Self, Error> {
         let (mut counts, mut points): (Amounts<usize>, usize) = (BTreeMap::new(), 0);
-        let decided = |label: Label| label.is_basin().then_some(label);
+        let decided = |label: Label| label.is_decided().then_some(label);
         for (before, after) in pairs {
             points += 1;
             if !before.is_outside() && !after.is_outside() {

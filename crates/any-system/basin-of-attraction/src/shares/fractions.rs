@@ -131,7 +131,7 @@ impl Fractions {
             sums.attractors.entry(new(own)).or_default().extend_from_slice(points);
         }
         sums.labels =
-            self.labels.iter().map(|&own| if own.is_basin() { new(own) } else { own }).collect();
+            self.labels.iter().map(|&own| if own.is_decided() { new(own) } else { own }).collect();
         sums
     }
 }

@@ -59,7 +59,7 @@ impl LabelImage {
                 let at = row * columns + column;
                 let label = self.labels[at];
                 let others = [at + right, at + up * columns, at + right + up * columns];
-                if label.is_basin() && others.into_iter().all(|at| self.labels[at] == label) {
+                if label.is_decided() && others.into_iter().all(|at| self.labels[at] == label) {
                     *certain.entry(label).or_insert(0) += 1;
                 }
             }
@@ -90,7 +90,7 @@ impl LabelImage {
             return Err(Error::NothingInside { points: self.labels.len() });
         }
         let undecided = sum(Label::is_undecided);
-        Ok((counts.into_iter().filter(|(label, _)| label.is_basin()).collect(), all, undecided))
+        Ok((counts.into_iter().filter(|(label, _)| label.is_decided()).collect(), all, undecided))
     }
 }
 

@@ -119,7 +119,7 @@ pub fn stratified_fractions(
     let fraction = |(&label, &found): (&Label, &usize)| {
         let variance = variances.get(&label).copied().unwrap_or(0.0);
         let own = interval(found, count, variance)?;
-        if undecided == 0 || !label.is_basin() {
+        if undecided == 0 || !label.is_decided() {
             return Ok((label, own));
         }
         // A sum of n squared differences of sums of m numbers is at most m times the sum of their squares: here two

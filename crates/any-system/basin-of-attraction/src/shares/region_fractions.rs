@@ -42,7 +42,7 @@ impl LabelCounts {
 
     /// The basins that were seen.
     pub fn basins(&self) -> impl Iterator<Item = Label> + '_ {
-        self.counts.keys().copied().filter(|label| label.is_basin())
+        self.counts.keys().copied().filter(|label| label.is_decided())
     }
 
     /// The number of points with a label.
@@ -70,7 +70,7 @@ impl LabelCounts {
     /// None for points inside the region of interest, of which [`new`](Self::new) demands one.
     pub fn fraction(&self, label: Label) -> Result<ConfidenceInterval, Error> {
         let found = self.count(label);
-        let open = if label.is_basin() { self.undecided } else { 0 };
+        let open = if label.is_decided() { self.undecided } else { 0 };
         open_proportion(found, open, self.inside)
     }
 }

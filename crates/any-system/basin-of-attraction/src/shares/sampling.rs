@@ -99,7 +99,7 @@ pub fn equally_spaced_fractions(
     let counts = tally(&labels);
     let fraction = |(&label, _): (&Label, &usize)| {
         let own = |other: Label| other == label;
-        let possible = |other: Label| own(other) || label.is_basin() && other.is_undecided();
+        let possible = |other: Label| own(other) || label.is_decided() && other.is_undecided();
         let value = points(&own, &counts);
         // Each end of a run is known to half a spacing on either side.
         let bounds = Bounds {
@@ -138,7 +138,7 @@ pub fn random_fractions(
     let undecided: usize =
         counts.iter().filter(|(label, _)| label.is_undecided()).map(|(_, points)| points).sum();
     let fraction = |(&label, &found): (&Label, &usize)| {
-        let open = if label.is_basin() { undecided } else { 0 };
+        let open = if label.is_decided() { undecided } else { 0 };
         Ok((label, open_proportion(found, open, count)?))
     };
     counts.iter().map(fraction).collect()

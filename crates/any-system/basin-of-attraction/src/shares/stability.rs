@@ -79,7 +79,8 @@ impl Stability {
     /// The stability of attractors with these points. `starts` are independent random points of the region of shocks, and `found` has their labels and
     /// times, as [`Attractors::convergences`](crate::Attractors::convergences) gives them.
     ///
-    /// Distances are Euclidean; [`with_distance`](Self::with_distance) takes any.
+    /// Distances are Euclidean; [`with_distance`](Self::with_distance) takes any. An attractor without points, or without one that has a distance from a
+    /// start, has times, and no shocks.
     ///
     /// ```
     /// use basin_of_attraction::{Attractors, Interval, Label, RecurrenceLimits, SplitMix64, Stability, StateGrid, array_map};
@@ -127,17 +128,18 @@ impl Stability {
         all().try_for_each(|point| check_dimension(point.len(), dimension))?;
         all().try_for_each(|point| check_point(point))?;
         let counts = LabelCounts::new(found.iter().map(|(label, _)| *label))?;
+        let inside = || starts.iter().zip(found).filter(|(_, (label, _))| !label.is_outside());
         let own = |(&label, points): (&Label, &Vec<Vec<f64>>)| {
             let nearest = |start: &[f64]| {
                 let all = points.iter().map(|point| (metric.distance(point, start), point));
-                all.min_by(|a, b| a.0.total_cmp(&b.0))
+                all.filter(|(size, _)| !size.is_nan()).min_by(|a, b| a.0.total_cmp(&b.0))
             };
-            let inside = starts.iter().zip(found).filter(|(_, (label, _))| !label.is_outside());
-            let samples = inside.filter_map(|(state, &(label, steps))| {
+            let shocks = inside().filter_map(|(state, &(label, _))| {
                 let (size, from) = nearest(state)?;
-                Some((Shock { size, from: from.clone(), state: state.clone(), label }, steps))
+                Some(Shock { size, from: from.clone(), state: state.clone(), label })
             });
-            Ok((label, AttractorStability::of(label, &counts, samples.collect())?))
+            let times: Vec<_> = inside().map(|(state, time)| (state.as_slice(), *time)).collect();
+            Ok((label, AttractorStability::of(label, &counts, &times, shocks.collect())?))
         };
         let attractors = attractors.iter().map(own).collect::<Result<_, Error>>()?;
         Ok(Stability { counts, attractors, metric })
@@ -189,38 +191,38 @@ impl Stability {
 }
 
 impl AttractorStability {
-    /// From all shocks, with the times of their starts.
+    /// From the labels and times of all starts, and from all shocks: there are fewer of these if the attractor has no points, or none with a distance.
     fn of(
         label: Label,
         counts: &LabelCounts,
-        samples: Vec<(Shock, usize)>,
+        starts: &[(&[f64], (Label, usize))],
+        shocks: Vec<Shock>,
     ) -> Result<AttractorStability, Error> {
-        let own: Vec<&(Shock, usize)> =
-            samples.iter().filter(|(shock, _)| shock.label == label).collect();
-        let mut times: Vec<usize> = own.iter().map(|(_, steps)| *steps).collect();
+        let own = || starts.iter().filter(|(_, (own, _))| *own == label);
+        let mut times: Vec<usize> = own().map(|(_, (_, steps))| *steps).collect();
         times.sort_unstable();
         // Student's interval exists from two on.
         let mean = |of: Vec<f64>| (of.len() > 1).then(|| student_interval(&of)).transpose();
         let mean_time = mean(times.iter().map(|steps| *steps as f64).collect())?;
-        let mean_harmless = mean(own.iter().map(|(shock, _)| shock.size).collect())?;
-        let open = samples.iter().filter(|(shock, _)| shock.label.is_undecided());
-        let undecided = open.map(|(_, steps)| *steps).collect();
-        let longest = own.iter().max_by_key(|(_, steps)| *steps).map(|(shock, steps)| {
-            let longer = 1.0 - pxfm::f_pow(UNSEEN, 1.0 / own.len() as f64);
-            LongestTime { steps: *steps, start: shock.state.clone(), longer }
+        let is_harmless = |shock: &&Shock| shock.label == label;
+        let mean_harmless = mean(shocks.iter().filter(is_harmless).map(|own| own.size).collect())?;
+        let open = starts.iter().filter(|(_, (own, _))| own.is_undecided());
+        let undecided = open.map(|(_, (_, steps))| *steps).collect();
+        let longest = own().max_by_key(|(_, (_, steps))| *steps).map(|(start, (_, steps))| {
+            let longer = 1.0 - pxfm::f_pow(UNSEEN, 1.0 / times.len() as f64);
+            LongestTime { steps: *steps, start: start.to_vec(), longer }
         });
-        let is_fatal = |shock: &&Shock| shock.label.is_basin() && shock.label != label;
-        let all = || samples.iter().map(|(shock, _)| shock);
+        let is_fatal = |shock: &&Shock| shock.label.is_decided() && shock.label != label;
         let by_size = |a: &&Shock, b: &&Shock| a.size.total_cmp(&b.size);
-        let fatal = all().filter(is_fatal).min_by(by_size).cloned();
-        let harmless = all().filter(|shock| shock.label == label).max_by(by_size).cloned();
-        let mut sorted: Vec<&Shock> = all().collect();
+        let fatal = shocks.iter().filter(is_fatal).min_by(by_size).cloned();
+        let harmless = shocks.iter().filter(is_harmless).max_by(by_size).cloned();
+        let mut sorted: Vec<&Shock> = shocks.iter().collect();
         sorted.sort_by(by_size);
         let mut counts_so_far = [0; 2];
         let up_to = |shock: &Shock| {
             let [fatal, open] = &mut counts_so_far;
             *fatal += usize::from(is_fatal(&shock));
-            *open += usize::from(!shock.label.is_basin());
+            *open += usize::from(!shock.label.is_decided());
             (shock.size, counts_so_far)
         };
         let shocks = sorted.into_iter().map(up_to).collect();

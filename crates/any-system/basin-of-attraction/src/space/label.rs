@@ -92,13 +92,13 @@ impl Label {
     }
 
     /// Whether the fate is known: a basin, or an escape.
-    pub const fn is_basin(self) -> bool {
+    pub const fn is_decided(self) -> bool {
         !self.is_undecided() && !self.is_outside()
     }
 
     /// The number of the basin; `None` if the point is undecided, escaped or outside.
     pub const fn basin_number(self) -> Option<u16> {
-        if self.is_basin() && !self.is_escaped() { Some(self.0) } else { None }
+        if self.is_decided() && !self.is_escaped() { Some(self.0) } else { None }
     }
 
     /// The number that stands for this label in files.

@@ -140,7 +140,7 @@ fn by_points(
     let undecided = labels.iter().filter(|label| label.is_undecided()).count();
     let found: BTreeMap<Label, FractionRange> = found
         .into_iter()
-        .filter(|(label, _)| label.is_basin())
+        .filter(|(label, _)| label.is_decided())
         .map(|(label, fraction)| (label, fraction.into()))
         .collect();
     let unseen = proportion_interval(undecided, limits.points)?.upper;

@@ -95,7 +95,7 @@ impl HopperBasins {
         let mut probes = Probes { compared: 0, wrong: 0, first_wrong: None };
         for (&speed, (fate, _)) in speeds.iter().zip(fates.fates_within(&speeds, HOP_BUDGET)?) {
             let fate = fate.label();
-            let Some(found) = self.basins.label(speed).filter(|_| fate.is_basin()) else {
+            let Some(found) = self.basins.label(speed).filter(|_| fate.is_decided()) else {
                 continue;
             };
             probes.compared += 1;

@@ -169,7 +169,7 @@ pub(crate) fn by_fates(
 /// Puts a gap to the closed ones if both ends have one fate, else to the open ones.
 fn sort_in(gap: Gap, closed: &mut Vec<(Interval, Label)>, open: Option<&mut Vec<Gap>>) {
     let Gap { left, right } = gap;
-    if left.1 == right.1 && left.1.is_basin() {
+    if left.1 == right.1 && left.1.is_decided() {
         closed.push((Interval { left: left.0, right: right.0 }, left.1));
     } else if let Some(open) = open {
         open.push(gap);

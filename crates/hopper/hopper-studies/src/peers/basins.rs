@@ -141,7 +141,7 @@ pub(crate) fn basins_markdown(times: &[BasinTime]) -> String {
 /// The share of labels that are undecided, or whose start ends elsewhere than most starts with this label.
 fn wrong(labels: &[Label], ends: &[u8]) -> f64 {
     let mut counts: BTreeMap<Label, BTreeMap<u8, usize>> = BTreeMap::new();
-    for (label, end) in labels.iter().zip(ends).filter(|(label, _)| label.is_basin()) {
+    for (label, end) in labels.iter().zip(ends).filter(|(label, _)| label.is_decided()) {
         *counts.entry(*label).or_default().entry(*end).or_default() += 1;
     }
     let right: usize = counts.values().filter_map(|own| own.values().max()).sum();
