@@ -90,10 +90,10 @@ mod tests {
     fn all_files_are_made() {
         let files = pictures().unwrap();
         let size = |name: &str| files.iter().find(|file| file.name == name).unwrap().bytes.len();
-        assert_eq!(files.len(), 12);
+        assert_eq!(files.len(), 14);
         assert!(size("newton.png") > 10_000 && size("henon.png") > 10_000);
         assert_eq!(size("henon_basins.npy"), 128 + 2 * 400 * 400);
-        let table = files.iter().find(|file| file.name == "henon_basins.csv").unwrap();
+        let table = files.iter().find(|file| file.name == "henon_basins-meaning.csv").unwrap();
         let table = String::from_utf8(table.bytes.clone()).unwrap();
         assert!(table.contains("65529,escaped") && table.contains("1,basin 1"), "{table}");
     }

@@ -3,7 +3,7 @@
 use crate::algebra::Arithmetic;
 use crate::elementwise::Elementwise;
 use crate::error::Error;
-use crate::evaluate::{Evaluator, compute};
+use crate::evaluate::compute;
 use crate::formulas::{Formulas, length};
 use crate::lanes::{Lanes, WIDTH};
 use crate::simd;
@@ -80,22 +80,33 @@ impl Formulas {
     /// [`Error::Length`] for another number of columns, and for columns or times of different lengths.
     pub fn columns(&self, times: &[f64], states: &[&[f64]]) -> Result<Columns, Error> {
         let table = Table::new(self.names().states.len(), states, [times])?;
+        Ok(match table.count {
+            0..=WIDTH => self.columns_of(&table, simd::values_of_lanes),
+            _ => self.columns_of(&table, simd::values_of_many_lanes),
+        })
+    }
+
+    /// The same, N states at a time.
+    fn columns_of<const N: usize>(
+        &self,
+        table: &Table<'_, 1>,
+        values_of: ValuesOfLanes<N>,
+    ) -> Columns {
         let count = table.count;
         let Columns { mut values, mut failed } = Columns::of(self.count(), count);
-        let mut evaluator = Evaluator::new(self);
-        let mut state = vec![Lanes::zero(); states.len()];
-        for first in (0..count).step_by(WIDTH) {
-            let width = WIDTH.min(count - first);
-            // The last block is filled with its last state.
-            let lanes = |column: &[f64]| Lanes(from_fn(|lane| column[first + lane.min(width - 1)]));
+        let mut parts: Vec<Lanes<N>> = self.numbers();
+        let mut state = vec![Lanes::zero(); table.columns.len()];
+        for first in (0..count).step_by(N) {
+            let width = N.min(count - first);
             let time = Lanes(from_fn(|lane| table.time(0, first + lane.min(width - 1))));
-            state.iter_mut().zip(states).for_each(|(state, column)| *state = lanes(column));
-            let is_valid = simd::values_of_lanes(self, &time, &state, &mut evaluator.parts);
-            let found = || self.outputs.iter().map(|&at| evaluator.parts[at]);
-            for (column, found) in values.iter_mut().zip(found()) {
-                column[first..first + width].copy_from_slice(&found.0[..width]);
+            for (state, column) in state.iter_mut().zip(table.columns) {
+                *state = block(&column[first..first + width]);
             }
-            if is_valid.0 == [0.0; WIDTH] {
+            let is_valid = values_of(self, &time, &state, &mut parts);
+            for (column, &at) in values.iter_mut().zip(&self.outputs) {
+                column[first..first + width].copy_from_slice(&parts[at].0[..width]);
+            }
+            if is_valid.0 == [0.0; N] {
                 continue;
             }
             for lane in 0..width {
@@ -107,7 +118,7 @@ impl Formulas {
                 }
             }
         }
-        Ok(Columns { values, failed })
+        Columns { values, failed }
     }
 
     /// Replaces many states by the values there, so many times: their images under a map with one formula for each component, with the bits of
@@ -160,10 +171,7 @@ impl Formulas {
         for first in (0..has_value.len()).step_by(N) {
             let width = N.min(has_value.len() - first);
             for (state, column) in state.iter_mut().zip(states.iter()) {
-                // The last block is filled with its last state.
-                let block = &column[first..first + width];
-                let filled = |_| from_fn(|lane| block[lane.min(width - 1)]);
-                *state = Lanes(block.try_into().unwrap_or_else(filled));
+                *state = block(&column[first..first + width]);
             }
             let is_valid = images(self, &time, &mut state, &mut parts, steps);
             for (column, state) in states.iter_mut().zip(&state) {
@@ -174,6 +182,16 @@ impl Formulas {
         }
     }
 }
+
+/// Up to N states; of fewer ones the last one fills the rest.
+fn block<const N: usize>(column: &[f64]) -> Lanes<N> {
+    let filled = |_| from_fn(|lane| column[lane.min(column.len() - 1)]);
+    Lanes(column.try_into().unwrap_or_else(filled))
+}
+
+/// See [`values_of_lanes`].
+type ValuesOfLanes<const N: usize> =
+    fn(&Formulas, &Lanes<N>, &[Lanes<N>], &mut [Lanes<N>]) -> Lanes<N>;
 
 /// See [`images_of_lanes`].
 type ImagesOfLanes<const N: usize> =

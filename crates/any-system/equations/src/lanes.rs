@@ -11,8 +11,8 @@ use std::array::from_fn;
 /// part of a formula is then looked up once for all of them.
 pub(crate) const WIDTH: usize = 8;
 
-/// States whose images under a map are computed side by side: a part is looked up once for all of them, and four operations need not wait for each other. Newton's
-/// method for z³ = 1 takes 0.6 of the time of eight. A step of a flow does more for each part, and gains nothing.
+/// States at which values of formulas are computed side by side, without a series: a part is looked up once for all of them, and four operations need not
+/// wait for each other. Newton's method for z³ = 1 takes 0.6 of the time of eight. A step of a flow does more for each part, and gains nothing.
 pub(crate) const MANY: usize = 32;
 
 /// A number for each of some states.

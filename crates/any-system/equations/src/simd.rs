@@ -69,6 +69,18 @@ compiled_for_vectors!(
 );
 
 compiled_for_vectors!(
+    /// See [`columns::values_of_lanes`].
+    values_of_many_lanes = columns::values_of_lanes,
+    (
+        formulas: &Formulas,
+        time: &Lanes<MANY>,
+        state: &[Lanes<MANY>],
+        parts: &mut [Lanes<MANY>]
+    ) -> Lanes<MANY>,
+    wide_values_of_many
+);
+
+compiled_for_vectors!(
     /// See [`columns::images_of_lanes`].
     images_of_lanes = columns::images_of_lanes,
     (formulas: &Formulas, time: &Lanes, state: &mut [Lanes], parts: &mut [Lanes], steps: usize) -> Lanes,

@@ -36,15 +36,24 @@ fn values_and_motions_have_the_committed_bits() {
     assert_eq!(digest, DIGEST, "{digest:#x}");
 }
 
-/// Some, many, and a part of many at the end; where a state has no value; several steps at once.
+/// Some, many, and a part of many at the end; where a state has no value; values, and several steps of a map at once.
 #[test]
-fn images_of_any_number_of_states_have_the_bits_of_one() {
+fn values_at_any_number_of_states_have_the_bits_of_one() {
     let names = Names::new(&["x", "y"], &[("a", "0.9")]).unwrap();
     let map = Formulas::from_text(names, &["sqrt(x) - a*y^2", "x/(y - 0.25) + sin(x)"]).unwrap();
     for count in [1, 7, 8, 9, 31, 32, 33, 100] {
         let at = |k: usize, by: f64| ((k + 1) as f64 * by).fract() - 0.1;
         let starts: Vec<[f64; 2]> =
             (0..count).map(|k| [at(k, 0.618_033_988_75), at(k, 0.754_877_666_25)]).collect();
+        let columns = [0, 1].map(|axis| starts.iter().map(|at| at[axis]).collect::<Vec<f64>>());
+        let found = map.columns(&[0.0], &[&columns[0], &columns[1]]).unwrap();
+        for (k, start) in starts.iter().enumerate() {
+            let own = found.values.iter().map(|column| column[k].to_bits());
+            match map.values(0.0, start) {
+                Ok(alone) => assert!(own.eq(alone.iter().map(|x| x.to_bits())), "{start:?}"),
+                Err(error) => assert!(found.failed.contains(&(k, error)), "{start:?}"),
+            }
+        }
         for steps in [1, 3] {
             let mut columns = [0, 1].map(|axis| starts.iter().map(|at| at[axis]).collect());
             let mut has_value = vec![false; count];

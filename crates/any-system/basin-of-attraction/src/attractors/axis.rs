@@ -12,7 +12,6 @@ const TO_WHOLE: f64 = (1u64 << 52) as f64;
 /// A whole number from 0 to 2³².
 #[inline(always)]
 pub(crate) fn whole(number: f64) -> usize {
-    debug_assert!((0.0..4_294_967_296.0).contains(&number));
     (number + TO_WHOLE).to_bits() as u32 as usize
 }
 

@@ -43,8 +43,12 @@ pub(crate) struct Located {
     pub(crate) period: Option<usize>,
 }
 
-/// The number of a grid, the grid, and its cells that the candidate visits, each with a point.
-type Cells<'a> = (usize, &'a StateGrid, BTreeMap<u64, &'a [f64]>);
+/// The cells of a grid that the candidate visits, each with a point.
+struct Visited<'a> {
+    number: usize,
+    grid: &'a StateGrid,
+    cells: BTreeMap<u64, &'a [f64]>,
+}
 
 /// Successive points of the candidate, as many coordinates each as a state has.
 struct Points {
@@ -84,7 +88,8 @@ impl Points {
     }
 
     /// Where they are on a grid. `most` is the largest number of successive points that are kept.
-    fn located(&self, (number, grid, cells): Cells<'_>, most: usize) -> Located {
+    fn located(&self, visited: Visited<'_>, most: usize) -> Located {
+        let Visited { number, grid, cells } = visited;
         let own: BTreeSet<u64> = cells.keys().copied().collect();
         let last: Vec<&[f64]> = self.all().skip(self.all().len().saturating_sub(most)).collect();
         let period = period(grid, &last);
@@ -124,11 +129,13 @@ impl Candidate<'_> {
             };
             match test {
                 Test::Leaves => together = None,
-                Test::Stays => return Some(points.located((number, grid, cells), most)),
-                Test::Apart => together = together.or(Some((number, grid, cells))),
+                Test::Stays => {
+                    return Some(points.located(Visited { number, grid, cells }, most));
+                }
+                Test::Apart => together = together.or(Some(Visited { number, grid, cells })),
             }
         }
-        together.map(|cells| points.located(cells, most))
+        together.map(|visited| points.located(visited, most))
     }
 
     /// Whether a point of another attractor lies in the cells.

@@ -3,10 +3,10 @@
 use crate::attractors::many_orbits::{FollowedOrbit, follow_some, in_parts};
 use crate::attractors::recurrence_limits::MOST_TESTS;
 use crate::attractors::state_map::{Moving, StateMap, check_map};
-use crate::boundaries::boundary_between::distance;
 use crate::error::Error;
-use crate::space::hyperrectangle::check_dimension;
 use crate::space::label::Label;
+use crate::space::vectors::check_dimension;
+use crate::space::vectors::distance;
 use crate::statistics::split_mix::SplitMix64;
 use rayon::prelude::*;
 use std::collections::BTreeMap;

@@ -7,10 +7,10 @@ use crate::attractors::recurrences::Attractors;
 use crate::attractors::state_map::{Moving, StateMap, check_map};
 use crate::attractors::unmatched::UnmatchedReason;
 use crate::error::Error;
-use crate::space::hyperrectangle::check_dimension;
 use crate::space::label::Label;
 use crate::space::raster::{Grid, LabelImage};
 use crate::space::value_image::ValueImage;
+use crate::space::vectors::check_dimension;
 
 impl Attractors {
     /// The label of the attractor to which the orbit of a point comes; undecided if it comes to none of them.

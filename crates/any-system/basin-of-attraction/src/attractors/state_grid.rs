@@ -3,8 +3,9 @@
 use crate::attractors::axis::Axis;
 use crate::attractors::unmatched::Border;
 use crate::error::Error;
-use crate::space::hyperrectangle::{Hyperrectangle, check_dimension};
+use crate::space::hyperrectangle::Hyperrectangle;
 use crate::space::interval::Interval;
+use crate::space::vectors::check_dimension;
 
 /// Cells of a region: along each axis as many as are asked for, of equal or of given lengths.
 ///

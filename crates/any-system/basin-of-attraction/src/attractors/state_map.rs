@@ -3,7 +3,7 @@
 //! Maps are called through a pointer: a search is compiled once, not for each map.
 
 use crate::error::Error;
-use crate::space::hyperrectangle::check_dimension;
+use crate::space::vectors::check_dimension;
 
 /// A map of states: a map, a return map, or a flow over some time. It is called from several threads.
 ///

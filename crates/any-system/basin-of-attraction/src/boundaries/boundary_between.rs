@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::space::label::Label;
+use crate::space::vectors::{check_point, distance};
 
 /// Two close states of different basins, with the boundary between them.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,30 +30,8 @@ impl BoundaryBracket {
     }
 }
 
-/// The Euclidean distance.
-pub(crate) fn distance(one: &[f64], other: &[f64]) -> f64 {
-    let differences = || one.iter().zip(other).map(|(a, b)| a - b);
-    let square: f64 = differences().map(|x| x * x).sum();
-    if square.is_normal() {
-        return square.sqrt();
-    }
-    // The squares are too large or too small, or all are 0, or one is NaN.
-    let largest =
-        differences().fold(0.0f64, |most, x| if most >= x.abs() { most } else { x.abs() });
-    if largest == 0.0 || !largest.is_finite() {
-        return largest;
-    }
-    largest * differences().map(|x| (x / largest) * (x / largest)).sum::<f64>().sqrt()
-}
-
 fn middle(one: &[f64], other: &[f64]) -> Vec<f64> {
     one.iter().zip(other).map(|(a, b)| 0.5 * a + 0.5 * b).collect()
-}
-
-/// Checks that all coordinates are finite.
-pub(crate) fn check_point(point: &[f64]) -> Result<(), Error> {
-    let bad = point.iter().enumerate().find(|(_, x)| !x.is_finite());
-    bad.map_or(Ok(()), |(coordinate, &value)| Err(Error::BadPoint { coordinate, value }))
 }
 
 /// Two states of different basins, at most `precision` apart, on the line between two given states.

@@ -6,9 +6,10 @@
 //! Rev. Lett. 96, 174101, 2006; `edgetracking` of Attractors.jl).
 
 use crate::attractors::state_map::{Moving, StateMap};
-use crate::boundaries::boundary_between::{BoundaryBracket, boundary_between, distance};
+use crate::boundaries::boundary_between::{BoundaryBracket, boundary_between};
 use crate::error::Error;
 use crate::space::label::Label;
+use crate::space::vectors::distance;
 
 /// When a pair of states is bisected again, and when the tracking ends.
 #[derive(Debug, Clone, Copy, PartialEq)]

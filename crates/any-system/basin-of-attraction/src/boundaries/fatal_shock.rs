@@ -13,10 +13,10 @@
 //! bound: between the rays, and in basins thinner than the spacing, a smaller one may be missed. On the line
 //! [`IntervalBasins::distance_to_boundary`](crate::IntervalBasins::distance_to_boundary) has both bounds.
 
-use crate::boundaries::boundary_between::check_point;
 use crate::error::Error;
 use crate::shares::sampling::check_count;
 use crate::space::label::Label;
+use crate::space::vectors::check_point;
 use crate::statistics::split_mix::SplitMix64;
 use rayon::prelude::*;
 use std::ops::ControlFlow;

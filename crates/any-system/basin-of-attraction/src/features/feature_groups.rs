@@ -2,8 +2,8 @@
 
 use crate::error::Error;
 use crate::features::metric::Metric;
-use crate::space::hyperrectangle::check_dimension;
 use crate::space::label::{Label, label_of_attractor};
+use crate::space::vectors::check_dimension;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 

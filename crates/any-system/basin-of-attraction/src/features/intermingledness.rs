@@ -3,8 +3,8 @@
 use crate::error::Error;
 use crate::features::feature_groups::{check, check_feature_count};
 use crate::features::metric::Metric;
-use crate::space::hyperrectangle::check_dimension;
 use crate::space::label::Label;
+use crate::space::vectors::check_dimension;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 

@@ -1,6 +1,6 @@
 //! Distances of feature vectors.
 
-use crate::boundaries::boundary_between::distance;
+use crate::space::vectors::distance;
 use std::fmt;
 use std::sync::Arc;
 

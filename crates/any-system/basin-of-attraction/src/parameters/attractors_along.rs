@@ -10,9 +10,10 @@ use crate::parameters::fractions_along::{CurveLimits, FractionsAlong, fractions_
 use crate::parameters::matching::Matching;
 use crate::shares::fractions::Fractions;
 use crate::shares::region_fractions::LabelCounts;
-use crate::space::hyperrectangle::{Hyperrectangle, check_dimension};
+use crate::space::hyperrectangle::Hyperrectangle;
 use crate::space::interval::Interval;
 use crate::space::label::Label;
+use crate::space::vectors::check_dimension;
 use crate::statistics::split_mix::SplitMix64;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow::{self, Continue};

@@ -1,11 +1,12 @@
 //! How stable attractors are against random shocks: fractions, times and distances, in one pass.
 
-use crate::boundaries::boundary_between::{boundary_between, check_point};
+use crate::boundaries::boundary_between::boundary_between;
 use crate::error::Error;
 use crate::features::metric::Metric;
 use crate::shares::region_fractions::LabelCounts;
-use crate::space::hyperrectangle::check_dimension;
 use crate::space::label::Label;
+use crate::space::vectors::check_dimension;
+use crate::space::vectors::check_point;
 use crate::statistics::confidence_interval::{
     ConfidenceInterval, open_proportion, student_interval,
 };

@@ -4,14 +4,6 @@ use crate::error::Error;
 use crate::space::interval::Interval;
 use crate::statistics::split_mix::SplitMix64;
 
-/// An error unless the number of coordinates, or of things given for them, is that expected.
-pub(crate) fn check_dimension(dimension: usize, expected: usize) -> Result<(), Error> {
-    if dimension == expected {
-        return Ok(());
-    }
-    Err(Error::WrongDimension { dimension, expected })
-}
-
 /// A region of the line, the plane, or a space of any dimension: one interval for each coordinate.
 ///
 /// ```

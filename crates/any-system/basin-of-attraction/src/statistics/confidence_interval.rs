@@ -1,7 +1,7 @@
 //! Estimates with 95 % confidence intervals.
 
-use crate::boundaries::boundary_between::check_point;
 use crate::error::Error;
+use crate::space::vectors::check_point;
 
 /// An estimate from a random sample, with an interval that is meant to contain the true number in 95 of 100 samples.
 ///
