@@ -17,6 +17,7 @@
 //! | [`check_trap`], [`TrapGround`], [`check_branches`] | tests of what a caller gives; `interval_basins` makes them |
 //! | [`Refinement`], [`StopReason`] | when that search stops, and why it stopped |
 //! | [`repeller`](fn@repeller), [`Repeller`] | dimension and escape rate of the Cantor set that full branches leave, to rounding (Bowen's equation) |
+//! | [`repeller_bounds`](fn@repeller_bounds), [`RepellerBounds`] | proved bounds on both, from bounds on the slopes |
 //! | [`PreimageTree::itineraries`], [`Itineraries`] | whether finitely, countably many or a Cantor set of points never enter a trap, with bounds on the entropy |
 //! | [`GapLengths`] | the gaps of a set: their number at each scale, their exponent, the length that they leave |
 //! | [`KneadingSequence`] | the kneading sequence of a unimodal map, and its topological entropy with proved bounds |
@@ -155,6 +156,7 @@ pub use line::preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_lim
 pub use line::probes::{TrapGround, check_branches, check_trap};
 pub use line::refinement::{Refinement, StopReason};
 pub use line::repeller::{Repeller, repeller};
+pub use line::repeller_bounds::{RepellerBounds, repeller_bounds};
 pub use line::scalar_map::{Image, ScalarMap};
 pub use parameters::attractor_match::{AttractorMatch, match_attractors, match_by};
 pub use parameters::attractors_along::{

@@ -2,7 +2,7 @@
 //!
 //! `fate` follows one orbit of a `scalar_map` to a trap. On `branches` there are preimages (`preimage`, `preimage_tree`), and all basins (`basin_search`,
 //! `interval_basins`), until a limit of `refinement`; `probes` test what a caller gives. Then `pixel_shares`, distances (`boundary_distance`), and what
-//! never enters a trap: `itineraries`, `gap_lengths`, `repeller`, `kneading`.
+//! never enters a trap: `itineraries`, `gap_lengths`, `repeller` with proved `repeller_bounds`, `kneading`.
 
 pub(crate) mod basin_search;
 pub(crate) mod boundary_distance;
@@ -18,4 +18,5 @@ pub(crate) mod preimage_tree;
 pub(crate) mod probes;
 pub(crate) mod refinement;
 pub(crate) mod repeller;
+pub(crate) mod repeller_bounds;
 pub(crate) mod scalar_map;

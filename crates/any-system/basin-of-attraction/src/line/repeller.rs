@@ -78,12 +78,12 @@ pub fn repeller(
     Ok(Repeller { dimension, escape_rate, error: error + 8.0 * f64::EPSILON })
 }
 
-fn refused(name: &'static str, value: f64, remedy: &'static str) -> Error {
+pub(crate) fn refused(name: &'static str, value: f64, remedy: &'static str) -> Error {
     Error::BadSearch { name, value, remedy }
 }
 
 /// Tests the ends of the images, in any order of the branches.
-fn check(
+pub(crate) fn check(
     branches: usize,
     interval: Interval,
     inverse: &impl Fn(usize, f64) -> (f64, f64),

@@ -4,13 +4,14 @@ use super::tally::{Promise, Row, Trial, repeat};
 use crate::error::Error;
 use basin_of_attraction::{
     Bounds, Branch, Enclosure, EscapeTimes, GapLengths, Interval, Itineraries, KneadingSequence,
-    PreimageTree, SplitMix64, array_map,
+    PreimageTree, Repeller, RepellerBounds, SplitMix64, array_map, repeller, repeller_bounds,
 };
 
 /// All of them.
 pub(crate) fn measure(trials: u64) -> Result<Vec<Row>, Error> {
     let mut rows = escapes(trials)?;
     rows.extend([kneading(trials)?, full_branches(trials)?, golden(trials)?, lengths(trials)?]);
+    rows.extend(repellers(trials)?);
     Ok(rows)
 }
 
@@ -92,6 +93,35 @@ fn trial(branches: &[Branch], top: f64, entropy: f64) -> Result<Option<Trial>, E
         Itineraries::Cantor { entropy: found } => Some(Trial::of_bounds(found, entropy)),
         _ => None,
     })
+}
+
+/// The points that never leave [0, 1] under logistic maps of random r, against the operator at Chebyshev nodes, which is right to 10⁻¹¹.
+fn repellers(trials: u64) -> Result<Vec<Row>, Error> {
+    const LETTERS: usize = 8;
+    type Of = fn(&RepellerBounds, &Repeller) -> (Bounds, f64);
+    let row = |name, of: Of| {
+        let scene = format!("logistic maps that leave, {LETTERS} letters");
+        repeat(name, scene, Promise::Certain, trials, |seed| {
+            let r = 4.5 + 4.0 * SplitMix64::from_seed(seed).uniform(0);
+            let inverse = |k: usize, y: Enclosure| {
+                let root = (Enclosure::ONE - y * 4.0 / Enclosure::from(r)).sqrt()?;
+                let x = if k == 0 { Enclosure::ONE - root } else { Enclosure::ONE + root };
+                Some((x * 0.5, Enclosure::ONE / (root * r)))
+            };
+            let unit = Interval::new(0.0, 1.0)?;
+            let exact = repeller(2, unit, |k, y| {
+                let none = (f64::NAN, f64::NAN);
+                let found = inverse(k, Enclosure::from(y));
+                found.map_or(none, |(x, slope)| (x.middle(), slope.middle()))
+            })?;
+            let (bounds, truth) = of(&repeller_bounds(2, unit, LETTERS, inverse)?, &exact);
+            Ok(Some(Trial::of_bounds(bounds, truth)))
+        })
+    };
+    Ok(vec![
+        row("repeller_bounds, dimension", |bounds, exact| (bounds.dimension, exact.dimension))?,
+        row("repeller_bounds, rate", |bounds, exact| (bounds.escape_rate, exact.escape_rate))?,
+    ])
 }
 
 /// Sets that are left where step n takes a gap of length a·bⁿ from the middle of each part, with 2b < 1. They have the length 1 − ab/(1 − 2b).
