@@ -189,7 +189,7 @@ pub enum Error {
         mode: String,
     },
     /// A vector of another dimension than the state.
-    #[error("{what} has {found} components, and the state has {expected}")]
+    #[error("{what} has {found} components, and the state of the model has {expected}")]
     Dimension {
         /// The vector.
         what: &'static str,

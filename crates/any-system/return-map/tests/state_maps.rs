@@ -3,12 +3,13 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use basin_of_attraction::{
-    Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits, SplitMix64, StateGrid, StateMap,
+    Attractors, FeatureAttractors, FeatureLimits, Hyperrectangle, Interval, KnownAttractors,
+    KnownLimits, Label, RecurrenceLimits, SplitMix64, StateGrid, StateMap,
 };
 use equations::{Formulas, Names};
 use hybrid_system::{Equations, State};
 use return_map::{
-    EquationReturns, ExecutionSteps, FamilySteps, FlowSteps, FormulaMap, FormulaSteps,
+    EquationReturns, ExecutionSteps, FamilySteps, FlowSteps, FormulaMap, FormulaSteps, OrbitEnd,
     lyapunov_exponents,
 };
 
@@ -167,4 +168,61 @@ fn the_mode_of_a_state_is_its_last_coordinate() {
     }
     // There is no third mode.
     assert_eq!(found.label(&steps, &[0.0, 0.0, 2.0]), Label::UNDECIDED_MAP);
+}
+
+/// A particle that is pushed away from 0 on both sides, with a surface that ends the run on each, beside a well: each surface has its label, in all
+/// ways to ask.
+#[test]
+fn each_surface_that_ends_a_run_has_its_label() {
+    let wells = Equations::new(&["x", "v"], &[])
+        .mode_text("moves", &["v", "-x + x^3 - v"])
+        .rising_text("right", "x - 2")
+        .stops()
+        .falling_text("left", "x + 2")
+        .stops()
+        .model::<State<2>>()
+        .unwrap();
+    let modes = [hybrid_system::Label::new("moves").unwrap()];
+    let (left, right) = (Label::numbered::<65_001>(), Label::numbered::<65_002>());
+    let steps = ExecutionSteps::new(2, &modes, |_, x| wells.start("moves", [x[0], x[1]], 0.5))
+        .label_ends(|end| match end {
+            OrbitEnd::Terminal(surface) if surface == "left" => Label::numbered::<65_001>(),
+            OrbitEnd::Terminal(_) => Label::numbered::<65_002>(),
+            _ => Label::UNDECIDED_MAP,
+        });
+    let square = Hyperrectangle::new(vec![Interval::new(-2.0, 2.0).unwrap(); 2]).unwrap();
+    let grid = StateGrid::uniform(square, 20).unwrap();
+    let limits = RecurrenceLimits { locate: 20, tests: 20, ..RecurrenceLimits::default() };
+    let found = Attractors::search(&steps, grid, &[vec![0.5, 0.0]], limits).unwrap();
+    let start = |k: usize| [0.2 * (k % 20) as f64 - 1.9, 0.2 * (k / 20) as f64 - 1.9];
+    let write = |k: usize, at: &mut [f64]| at.copy_from_slice(&start(k));
+    let all = found.convergences(&steps, 400, write).unwrap();
+    let limits = KnownLimits { stretch: 20, tests: 20, ..KnownLimits::default() };
+    let points = [(Label::from(7), vec![vec![0.0, 0.0]])].into();
+    let known = KnownAttractors::new(&steps, &points, 0.1, limits).unwrap();
+    let others = known.convergences(&steps, 400, write).unwrap();
+    for k in 0..400 {
+        // By symmetry.
+        let mirrored = match all[399 - k].0 {
+            own if own == left => right,
+            own if own == right => left,
+            own => own,
+        };
+        assert_eq!((all[k].0, all[k]), (mirrored, found.convergence(&steps, &start(k)).unwrap()));
+        let own = if all[k].0 == Label::from(1) { Label::from(7) } else { all[k].0 };
+        assert_eq!(others[k].0, own);
+    }
+    let count = |label| all.iter().filter(|own| own.0 == label).count();
+    assert_eq!(count(left), count(right));
+    assert_eq!(count(left) + count(right) + count(Label::from(1)), 400);
+    assert!(count(left) > 20 && count(Label::from(1)) > 80);
+    // Unless the caller says otherwise, they have escaped.
+    let steps = ExecutionSteps::new(2, &modes, |_, x| wells.start("moves", [x[0], x[1]], 0.5));
+    assert_eq!(found.label(&steps, &start(399)), Label::ESCAPED);
+    let feature = |points: &[Vec<f64>]| vec![points[0][0]];
+    let features =
+        FeatureLimits { transient: 50, stretch: 5, tests: 20, ..FeatureLimits::new(0.2, 0.1) };
+    let starts = [vec![0.5, 0.0], vec![0.0, 0.0], vec![-0.1, 0.1]];
+    let grouped = FeatureAttractors::search(&steps, &feature, &starts, features).unwrap();
+    assert_eq!(grouped.label(&steps, &feature, &start(399)), Label::ESCAPED);
 }

@@ -48,7 +48,13 @@ impl Followed {
     }
 
     /// Looks at all orbits after so many steps, and keeps those that have not ended. The ends of these are provisional.
-    fn look(&mut self, known: &KnownCells, escape: f64, steps: usize, ends: &mut [(Label, usize)]) {
+    fn look(
+        &mut self,
+        (map, known): (&dyn StateMap, &KnownCells),
+        escape: f64,
+        steps: usize,
+        ends: &mut [(Label, usize)],
+    ) {
         known.labels_of_columns(&self.columns, &mut self.cells, &mut self.labels);
         self.measure();
         let mut kept = 0;
@@ -62,10 +68,27 @@ impl Followed {
             self.kept[kept] = lane as u32;
             kept += usize::from((end == Label::UNDECIDED) | (end == Label::OUTSIDE));
         }
+        self.label_ends(map, ends);
         for (outside, label) in self.outside.iter_mut().zip(&self.labels) {
             *outside = if *label == Label::OUTSIDE { *outside + 1 } else { 0 };
         }
         self.keep(kept);
+    }
+
+    /// The labels of those that have no image.
+    fn label_ends(&self, map: &dyn StateMap, ends: &mut [(Label, usize)]) {
+        if !self.has_image.contains(&false) {
+            return;
+        }
+        let stopped = (0..self.numbers.len()).filter(|&lane| !self.has_image[lane]);
+        stopped.for_each(|lane| {
+            ends[self.numbers[lane] as usize].0 = map.label_of_end(&self.at(lane))
+        });
+    }
+
+    /// Where an orbit is.
+    fn at(&self, lane: usize) -> Vec<f64> {
+        self.columns.iter().map(|column| column[lane]).collect()
     }
 
     /// The largest absolute value of a coordinate of each; NaN or infinite if one is not finite.
@@ -122,7 +145,7 @@ pub(crate) fn first_steps(
     };
     let mut followed = Followed::new(columns, ends.len());
     for step in 0..steps {
-        followed.look(known, limits.escape.unwrap_or(f64::INFINITY), step, ends);
+        followed.look((map, known), limits.escape.unwrap_or(f64::INFINITY), step, ends);
         if followed.numbers.is_empty() {
             break;
         }
@@ -131,12 +154,11 @@ pub(crate) fn first_steps(
     }
     let mut others = Vec::new();
     for (lane, &number) in followed.numbers.iter().enumerate() {
-        let number = number as usize;
+        let (number, at) = (number as usize, followed.at(lane));
         if !followed.has_image[lane] {
-            ends[number] = (Label::UNDECIDED_MAP, steps - 1);
+            ends[number] = (map.label_of_end(&at), steps - 1);
             continue;
         }
-        let at = followed.columns.iter().map(|column| column[lane]).collect();
         others.push(Unended { number, at, steps, outside: followed.outside[lane].into() });
     }
     others

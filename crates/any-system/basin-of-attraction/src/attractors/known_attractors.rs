@@ -194,7 +194,7 @@ impl KnownAttractors {
         let dimension = self.points[0].0.len();
         check_dimension(start.len(), dimension)?;
         check_map(map, dimension)?;
-        let mut orbit = Approach::new(self);
+        let mut orbit = Approach::new(self, map);
         orbit.restart(|at| at.copy_from_slice(start));
         Ok(orbit.follow(map))
     }
@@ -216,7 +216,7 @@ impl KnownAttractors {
         in_parts(&mut all, |first, ends| {
             let begin =
                 |k: usize, orbit: &mut Approach<'_>| orbit.restart(|at| start(first + k, at));
-            follow_some(map, dimension, || Approach::new(self), begin, ends);
+            follow_some(map, dimension, || Approach::new(self, map), begin, ends);
         });
         Ok(all)
     }
@@ -298,14 +298,16 @@ impl KnownAttractors {
 /// An orbit on its way to one of the attractors.
 struct Approach<'a> {
     known: &'a KnownAttractors,
+    map: &'a dyn StateMap,
     point: Moving,
     steps: usize,
     is_stopped: bool,
 }
 
 impl<'a> Approach<'a> {
-    fn new(known: &'a KnownAttractors) -> Self {
-        Approach { known, point: Moving::from(&known.points[0].0), steps: 0, is_stopped: false }
+    fn new(known: &'a KnownAttractors, map: &'a dyn StateMap) -> Self {
+        let point = Moving::from(&known.points[0].0);
+        Approach { known, map, point, steps: 0, is_stopped: false }
     }
 
     fn restart(&mut self, start: impl Fn(&mut [f64])) {
@@ -319,7 +321,7 @@ impl FollowedOrbit for Approach<'_> {
 
     fn see(&mut self) -> Option<(Label, usize)> {
         let label = if self.is_stopped || self.point.at.iter().any(|x| !x.is_finite()) {
-            Label::UNDECIDED_MAP
+            self.map.label_of_end(&self.point.at)
         } else if self.steps >= self.known.limits.budget {
             Label::UNDECIDED
         } else {

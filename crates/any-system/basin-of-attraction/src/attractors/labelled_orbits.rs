@@ -31,7 +31,7 @@ impl Attractors {
         check_dimension(start.len(), dimension)?;
         check_map(map, dimension)?;
         let orbit = Orbit::new(&self.known, &self.limits, start);
-        Ok(Labelled { attractors: self, orbit }.follow(map))
+        Ok(Labelled { attractors: self, map, orbit }.follow(map))
     }
 
     /// The labels and times of many starts, as [`convergence`](Self::convergence) gives them: in parallel, and some orbits at a time where
@@ -60,6 +60,7 @@ impl Attractors {
         let Attractors { known, limits, .. } = self;
         let orbit = || Labelled {
             attractors: self,
+            map,
             orbit: Orbit::new(known, limits, &vec![0.0; dimension]),
         };
         let mut all = vec![(Label::UNDECIDED, 0); count];
@@ -109,12 +110,12 @@ impl Attractors {
         Ok((LabelImage { grid, labels }, ValueImage { grid, values }))
     }
 
-    /// The label at the end of an orbit; `None` if it moves on, and may come to an attractor.
-    fn label_at(&self, end: &End) -> Option<Label> {
+    /// The label at the end of an orbit at this state; `None` if it moves on, and may come to an attractor.
+    fn label_at(&self, map: &dyn StateMap, end: &End, at: &[f64]) -> Option<Label> {
         match end {
             End::Known(own) => Some(self.attractors()[*own].label),
             End::Escaped => Some(Label::ESCAPED),
-            End::Unmatched(UnmatchedReason::Stopped) => Some(Label::UNDECIDED_MAP),
+            End::Unmatched(UnmatchedReason::Stopped) => Some(map.label_of_end(at)),
             End::Settled(Settled { drifts: true, .. }) => None,
             End::Unmatched(_) | End::Budget | End::Settled(_) => Some(Label::UNDECIDED),
         }
@@ -124,6 +125,7 @@ impl Attractors {
 /// An orbit that comes to an attractor, or to none.
 struct Labelled<'a> {
     attractors: &'a Attractors,
+    map: &'a dyn StateMap,
     orbit: Orbit,
 }
 
@@ -133,7 +135,7 @@ impl FollowedOrbit for Labelled<'_> {
     fn see(&mut self) -> Option<(Label, usize)> {
         let Attractors { known, limits, .. } = self.attractors;
         while let Some(end) = self.orbit.see(known, limits) {
-            if let Some(label) = self.attractors.label_at(&end) {
+            if let Some(label) = self.attractors.label_at(self.map, &end, self.orbit.at()) {
                 return Some((label, self.orbit.steps()));
             }
             self.orbit.go_on();

@@ -168,7 +168,7 @@ impl StateGrid {
     pub(crate) fn largest(&self) -> f64 {
         let ends = self.axes.iter().flat_map(|axis| [axis.side.left, axis.side.right]);
         let largest = ends.fold(0.0, |largest: f64, end| largest.max(end.abs()));
-        if self.axes.len() == self.dimension { largest } else { f64::INFINITY }
+        if self.has_hidden() { f64::INFINITY } else { largest }
     }
 
     /// Whether a coordinate of the states has no cells.

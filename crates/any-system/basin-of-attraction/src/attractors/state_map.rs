@@ -3,6 +3,7 @@
 //! Maps are called through a pointer: a search is compiled once, not for each map.
 
 use crate::error::Error;
+use crate::space::label::Label;
 use crate::space::vectors::check_dimension;
 
 /// A map of states: a map, a return map, or a flow over some time. It is called from several threads.
@@ -18,8 +19,37 @@ pub trait StateMap: Sync {
     /// Writes the image of a state; `false` where the map has no value. `image` has as many coordinates as `state`.
     fn image(&self, state: &[f64], image: &mut [f64]) -> bool;
 
+    /// The label of an orbit that ends at this state, which has no image. Default: [`Label::UNDECIDED_MAP`], as nothing is known.
+    ///
+    /// A map that knows more says it here: a runner that has fallen has a fate of its own. Attractors have the numbers from 1 on, so that
+    /// numbers from 65 001 on are free.
+    ///
+    /// ```
+    /// use basin_of_attraction::{Attractors, Interval, Label, RecurrenceLimits, StateGrid, StateMap};
+    /// struct Half;
+    /// impl StateMap for Half {
+    ///     fn image(&self, x: &[f64], image: &mut [f64]) -> bool {
+    ///         image[0] = x[0] / 2.0;
+    ///         x[0] < 1.0
+    ///     }
+    ///     fn label_of_end(&self, _: &[f64]) -> Label {
+    ///         Label::numbered::<65_001>()
+    ///     }
+    /// }
+    /// let grid = StateGrid::uniform(Interval::new(-2.0, 2.0)?.try_into()?, 100)?;
+    /// let found = Attractors::search(&Half, grid, &[vec![0.5]], RecurrenceLimits::default())?;
+    /// assert_eq!(found.label(&Half, &[-0.7]), Label::from(1));
+    /// assert_eq!(found.label(&Half, &[1.5]), Label::numbered::<65_001>());
+    /// # Ok::<(), basin_of_attraction::Error>(())
+    /// ```
+    fn label_of_end(&self, state: &[f64]) -> Label {
+        let _ = state;
+        Label::UNDECIDED_MAP
+    }
+
     /// Moves many states to their images. `states` has a column for each coordinate, and `has_image` says which of them have one. The images
-    /// must have the bits of [`image`](Self::image): so a map that computes several at once is free to do so.
+    /// must have the bits of [`image`](Self::image): so a map that computes several at once is free to do so. A map with a
+    /// [`label_of_end`](Self::label_of_end) leaves a state without an image where it is.
     ///
     /// Default: one after the other.
     fn images(&self, states: &mut [Vec<f64>], has_image: &mut [bool]) {
@@ -27,7 +57,9 @@ pub trait StateMap: Sync {
         for (k, has_image) in has_image.iter_mut().enumerate() {
             point.at.iter_mut().zip(states.iter()).for_each(|(x, column)| *x = column[k]);
             *has_image = self.image(&point.at, &mut point.next);
-            states.iter_mut().zip(&point.next).for_each(|(column, x)| column[k] = *x);
+            if *has_image {
+                states.iter_mut().zip(&point.next).for_each(|(column, x)| column[k] = *x);
+            }
         }
     }
 
@@ -158,10 +190,12 @@ impl Moving {
         Moving { at: start.to_vec(), next: vec![0.0; start.len()] }
     }
 
-    /// To the image; `false` if there is none.
+    /// To the image; `false` if there is none, and the state stays.
     pub(crate) fn step(&mut self, map: &dyn StateMap) -> bool {
         let found = map.image(&self.at, &mut self.next);
-        std::mem::swap(&mut self.at, &mut self.next);
+        if found {
+            std::mem::swap(&mut self.at, &mut self.next);
+        }
         found
     }
 

@@ -1,6 +1,7 @@
 //! A map that counts its images and can be stopped.
 
 use crate::attractors::state_map::StateMap;
+use crate::space::label::Label;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -64,6 +65,10 @@ impl<P: Fn(usize) -> ControlFlow<()> + Sync> StateMap for WatchedMap<'_, P> {
 
     fn image(&self, state: &[f64], image: &mut [f64]) -> bool {
         self.count(1) && self.map.image(state, image)
+    }
+
+    fn label_of_end(&self, state: &[f64]) -> Label {
+        self.map.label_of_end(state)
     }
 
     fn images(&self, states: &mut [Vec<f64>], has_image: &mut [bool]) {

@@ -215,7 +215,7 @@ impl FeatureAttractors {
             if label.is_decided() {
                 return Ok(label);
             }
-            found.follow(map, feature, start).map_err(|reason| {
+            found.follow(map, feature, &mut Moving::from(start)).map_err(|reason| {
                 let refused =
                     orbit.features.last().is_some_and(|own| before.label(own).is_decided());
                 match reason {
@@ -277,8 +277,9 @@ impl FeatureAttractors {
     ///
     /// No attractor is added, so that points can be labelled in parallel.
     pub fn label(&self, map: &dyn StateMap, feature: &OrbitFeature<'_>, start: &[f64]) -> Label {
-        self.follow(map, feature, start).unwrap_or_else(|reason| match reason {
-            UnmatchedReason::Stopped => Label::UNDECIDED_MAP,
+        let mut at = Moving::from(start);
+        self.follow(map, feature, &mut at).unwrap_or_else(|reason| match reason {
+            UnmatchedReason::Stopped => map.label_of_end(&at.at),
             _ => Label::UNDECIDED,
         })
     }
@@ -297,13 +298,13 @@ impl FeatureAttractors {
         &self,
         map: &dyn StateMap,
         feature: &OrbitFeature<'_>,
-        start: &[f64],
+        at: &mut Moving,
     ) -> Result<Label, UnmatchedReason> {
         let limits = &self.limits;
-        let mut at = after(map, start, limits.transient).ok_or(UnmatchedReason::Stopped)?;
+        after(map, at, limits.transient).ok_or(UnmatchedReason::Stopped)?;
         let (mut last, mut same) = (Label::UNDECIDED, 0);
         for _ in 0..limits.budget {
-            let points = stretch(map, &mut at, limits.stretch).ok_or(UnmatchedReason::Stopped)?;
+            let points = stretch(map, at, limits.stretch).ok_or(UnmatchedReason::Stopped)?;
             let label = self.groups.label(&feature(&points));
             same = if label == last { same + 1 } else { 1 };
             last = label;
@@ -336,7 +337,7 @@ impl FeatureAttractors {
             let aside =
                 |(k, x): (u64, &f64)| x + self.limits.beside * (2.0 * random.uniform(k) - 1.0);
             let start: Vec<f64> = (2..).zip(state).map(aside).collect();
-            self.follow(map, feature, &start) == Ok(label)
+            self.follow(map, feature, &mut Moving::from(&start)) == Ok(label)
         };
         (0..self.limits.tests.max(1)).into_par_iter().all(comes)
     }
@@ -349,7 +350,8 @@ fn beginning(
     start: &[f64],
     limits: FeatureLimits,
 ) -> Option<Beginning> {
-    let mut at = after(map, start, limits.transient)?;
+    let mut at = Moving::from(start);
+    after(map, &mut at, limits.transient)?;
     let (mut features, mut points) = (Vec::new(), Vec::new());
     for _ in 0..limits.agree {
         points = stretch(map, &mut at, limits.stretch)?;
@@ -362,16 +364,15 @@ fn beginning(
     Some(Beginning { features, points })
 }
 
-/// The state after some steps; `None` if the orbit stops or is not finite.
-fn after(map: &dyn StateMap, start: &[f64], steps: usize) -> Option<Moving> {
-    let mut point = Moving::from(start);
+/// Moves by some steps; `None` if the orbit stops or is not finite.
+fn after(map: &dyn StateMap, point: &mut Moving, steps: usize) -> Option<()> {
     let is_finite = |at: &[f64]| at.iter().all(|x| x.is_finite());
     for _ in 0..steps {
         if !is_finite(&point.at) || !point.step(map) {
             return None;
         }
     }
-    is_finite(&point.at).then_some(point)
+    is_finite(&point.at).then_some(())
 }
 
 /// The next states of an orbit, which moves to the last of them.

@@ -40,8 +40,8 @@ impl TaylorMotion {
     fn other_dimension(&self, found: usize) -> Error {
         let expected = self.programs.dimension;
         let what = match self.is_timed() {
-            true => "the state of the model, with the time as its last component,",
-            false => "the state of the model",
+            true => "the state, or its type, with the time as the last component,",
+            false => "the state, or its type,",
         };
         Error::Dimension { what, expected, found }
     }

@@ -7,7 +7,7 @@ use nalgebra::DVector;
 /// a `DVector`. It has the components with names. If the formulas use the time, the state of the model has it behind them; the
 /// start may leave it out.
 pub trait Start<X> {
-    /// The state of a model of this dimension, with the time as its last component if it is left out and the model has a `time`; the number of components if it does not fit.
+    /// The state of a model of this dimension, with the time as its last component if it is left out and the model has a `time`; the number of components, or that of the type, if it does not fit.
     #[doc(hidden)]
     fn state(self, dimension: usize, time: Option<f64>) -> Result<X, usize>;
 }
@@ -17,7 +17,7 @@ impl<const M: usize, const N: usize> Start<State<N>> for [f64; M] {
         let whole = self.into_iter().chain(time.filter(|_| M + 1 == dimension));
         match whole.clone().count() == dimension && dimension == N {
             true => Ok(State::from_iterator(whole)),
-            false => Err(M),
+            false => Err(if whole.count() == dimension { N } else { M }),
         }
     }
 }

@@ -1,13 +1,17 @@
 //! The executions of a hybrid system over some time as a map of states.
 
-use basin_of_attraction::StateMap;
-use hybrid_system::{End, Error, Execution, HybridSystem, StateVector, Stop};
+use super::label_of_end;
+use crate::events::plain;
+use crate::orbits::{OrbitEnd, end_of};
+use basin_of_attraction::{Label, StateMap};
+use hybrid_system::{End, Error, Execution, FateOf, HybridSystem, StateVector, Stop};
 
 /// The executions of a hybrid system over some time, events included: a flow, or a stroboscopic map.
 ///
 /// With several modes the number of the mode is the last coordinate: 0 for the first one, and so on, to the nearest integer. The
 /// cells of a grid need not have it ([`StateGrid::of_coordinates`](basin_of_attraction::StateGrid::of_coordinates)). A state whose execution
-/// ends before the time, at a surface or by an error, or is in none of the modes then, has no image.
+/// ends before the time, at a surface or by an error, or is in none of the modes then, has no image. The label of an orbit that ends at a
+/// surface is [`Label::ESCAPED`], or what [`label_ends`](Self::label_ends) says; other ends are [`Label::UNDECIDED_MAP`].
 ///
 /// ```
 /// use basin_of_attraction::{Attractors, Hyperrectangle, Interval, RecurrenceLimits, StateGrid};
@@ -33,6 +37,7 @@ pub struct ExecutionSteps<M, R> {
     dimension: usize,
     modes: Vec<M>,
     run: R,
+    label_of_end: fn(&OrbitEnd) -> Label,
 }
 
 impl<M, R> ExecutionSteps<M, R> {
@@ -44,7 +49,24 @@ impl<M, R> ExecutionSteps<M, R> {
         M: Copy,
         R: Fn(M, &[f64]) -> Result<Execution<'a, T>, Error> + Sync,
     {
-        ExecutionSteps { dimension, modes: modes.to_vec(), run }
+        ExecutionSteps { dimension, modes: modes.to_vec(), run, label_of_end }
+    }
+
+    /// The same with other labels of the ends of orbits, as in [`FamilySteps::label_ends`](crate::FamilySteps::label_ends).
+    pub fn label_ends(self, label: fn(&OrbitEnd) -> Label) -> Self {
+        ExecutionSteps { label_of_end: label, ..self }
+    }
+
+    /// The fate of the execution from a state; `None` if the state is in none of the modes.
+    fn fate<'a, T>(&self, state: &[f64]) -> Option<Result<FateOf<T>, Error>>
+    where
+        T: HybridSystem<Mode = M> + 'a,
+        M: Copy,
+        R: Fn(M, &[f64]) -> Result<Execution<'a, T>, Error> + Sync,
+    {
+        let number = if self.modes.len() > 1 { state[self.dimension].round() } else { 0.0 };
+        let mode = self.modes.get(number as usize).filter(|_| number >= 0.0)?;
+        Some((self.run)(*mode, &state[..self.dimension]).map(Execution::fate))
     }
 }
 
@@ -59,12 +81,7 @@ where
     }
 
     fn image(&self, state: &[f64], image: &mut [f64]) -> bool {
-        let number = if self.modes.len() > 1 { state[self.dimension].round() } else { 0.0 };
-        let place = self.modes.get(number as usize).filter(|_| number >= 0.0);
-        let Some(run) = place.map(|mode| (self.run)(*mode, &state[..self.dimension])) else {
-            return false;
-        };
-        let Ok(fate) = run.map(Execution::fate) else { return false };
+        let Some(Ok(fate)) = self.fate(state) else { return false };
         let end = fate.state.components().get(..self.dimension);
         let number = self.modes.iter().position(|mode| *mode == fate.mode);
         let (End::Stopped(Stop::TimeLimit), Some(end), Some(number)) = (fate.end, end, number)
@@ -74,5 +91,20 @@ where
         image[..self.dimension].copy_from_slice(end);
         image[self.dimension..].fill(number as f64);
         true
+    }
+
+    fn label_of_end(&self, state: &[f64]) -> Label {
+        let end = match self.fate(state) {
+            Some(Ok(fate)) => match fate.end {
+                End::Terminal(surface) => OrbitEnd::Terminal(plain(&surface)),
+                End::Stopped(Stop::Zeno) => OrbitEnd::Zeno,
+                End::Stopped(Stop::NoFurtherEvent) => OrbitEnd::NoFurtherEvent,
+                End::Stopped(_) => return Label::UNDECIDED_MAP,
+                End::Failed(error) => end_of(error.into()),
+            },
+            Some(Err(error)) => end_of(error.into()),
+            None => return Label::UNDECIDED_MAP,
+        };
+        (self.label_of_end)(&end)
     }
 }

@@ -1,13 +1,15 @@
 //! A family of maps at a parameter as a map of states.
 
+use super::label_of_end;
 use crate::families::MapFamily;
-use basin_of_attraction::StateMap;
+use crate::orbits::{OrbitEnd, end_of};
+use basin_of_attraction::{Label, StateMap};
 
 /// A family of maps at one value of its parameter: a section of a model ([`EquationReturns`](crate::EquationReturns), [`returns`](crate::returns)),
 /// formulas, closures.
 ///
-/// A point without an image, such as one whose execution ends at a surface or does not return, has none here either.
-/// [`orbit_fate`](crate::orbit_fate) tells these ends apart.
+/// An orbit that ends at a surface which ends the run has a fate that is known: [`Label::ESCAPED`], or what [`label_ends`](Self::label_ends) says.
+/// Other points without an image are [`Label::UNDECIDED_MAP`].
 ///
 /// ```
 /// use basin_of_attraction::{Attractors, Hyperrectangle, Interval, RecurrenceLimits, StateGrid};
@@ -23,12 +25,44 @@ use basin_of_attraction::StateMap;
 pub struct FamilySteps<'a, M: ?Sized> {
     family: &'a M,
     parameter: f64,
+    label_of_end: fn(&OrbitEnd) -> Label,
 }
 
 impl<'a, M: MapFamily + ?Sized> FamilySteps<'a, M> {
     /// The map of this family at a value of its parameter.
     pub fn new(family: &'a M, parameter: f64) -> Self {
-        FamilySteps { family, parameter }
+        FamilySteps { family, parameter, label_of_end }
+    }
+
+    /// The same with other labels of the ends of orbits. `label` gets [`OrbitEnd::Terminal`] with the name of the surface, [`OrbitEnd::Zeno`],
+    /// [`OrbitEnd::NoFurtherEvent`] or [`OrbitEnd::Failed`]. Numbers from 65 001 on are those of no attractor.
+    ///
+    /// ```
+    /// use basin_of_attraction::{Attractors, Interval, Label, RecurrenceLimits, StateGrid};
+    /// use hybrid_system::Equations;
+    /// use return_map::{EquationReturns, FamilySteps, OrbitEnd};
+    /// // A ball that is kept bouncing, by its speed at the floor: one that flies too high is lost.
+    /// let ball = Equations::new(&["height", "speed"], &[("r", "0.8")])
+    ///     .mode_text("flight", &["speed", "-1"])
+    ///     .falling_text("floor", "height")
+    ///     .resets_text(&["0", "-r*speed + 1/(1 + speed^2)"])
+    ///     .rising_text("ceiling", "height - 8")
+    ///     .stops();
+    /// let returns = EquationReturns::new(&ball, "r", ("flight", "floor"), &["v"])?
+    ///     .starting_text(&["0", "v"])?
+    ///     .coordinates_text(&["speed"])?;
+    /// let bounces = FamilySteps::new(&returns, 0.8).label_ends(|end| match end {
+    ///     OrbitEnd::Terminal(surface) if surface == "ceiling" => Label::numbered::<65_001>(),
+    ///     _ => Label::UNDECIDED_MAP,
+    /// });
+    /// let grid = StateGrid::uniform(Interval::new(0.0, 5.0)?.try_into()?, 100)?;
+    /// let found = Attractors::search(&bounces, grid, &[vec![1.0]], RecurrenceLimits::default())?;
+    /// assert_eq!(found.label(&bounces, &[3.9]), Label::from(1));
+    /// assert_eq!(found.label(&bounces, &[4.1]), Label::numbered::<65_001>());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn label_ends(self, label: fn(&OrbitEnd) -> Label) -> Self {
+        FamilySteps { label_of_end: label, ..self }
     }
 }
 
@@ -43,5 +77,12 @@ impl<M: MapFamily + ?Sized> StateMap for FamilySteps<'_, M> {
             image.copy_from_slice(&found.point);
             true
         })
+    }
+
+    fn label_of_end(&self, state: &[f64]) -> Label {
+        match self.family.image(state, self.parameter) {
+            Ok(_) => Label::UNDECIDED_MAP,
+            Err(error) => (self.label_of_end)(&end_of(error)),
+        }
     }
 }
