@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::expression::{Expression, Parameters, States, Term};
 use crate::graph::Graph;
 use crate::names::{NO_VALUE, Names};
-use crate::node::{Node, uses};
+use crate::node::{Binary, Node, uses};
 use interval_arithmetic::Enclosure;
 use std::cell::RefCell;
 
@@ -74,6 +74,58 @@ impl Formulas {
             outputs.into_iter().map(|output| Term::Symbol(output).place(&graph)).collect();
         let mut graph = graph.take();
         graph.check()?;
+        Formulas::of_parts(names, graph.into_nodes(), outputs)
+    }
+
+    /// The formulas with these places in a list of parts, in which each part stands behind those of which it is a function: for programs
+    /// that make formulas of other things. Equal parts become one, and powers with integers products.
+    ///
+    /// ```
+    /// use equations::{Binary, Formulas, Names, Node};
+    /// let names = Names::new(&["x"], &[])?;
+    /// let parts = [Node::State(0), Node::Constant(2.0.into()), Node::Binary(Binary::Power, 0, 1)];
+    /// let square = Formulas::of_nodes(names, &parts, &[2])?;
+    /// assert_eq!(square.values(0.0, &[-3.0])?, [9.0]);
+    /// # Ok::<(), equations::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Length`] for a place of no part before, of no component and of no parameter; [`Error::Number`]; [`Error::Name`];
+    /// [`Error::TooLarge`].
+    pub fn of_nodes(names: Names, nodes: &[Node], outputs: &[usize]) -> Result<Formulas, Error> {
+        names.check()?;
+        if nodes.len() > MOST_PARTS {
+            return Err(Error::TooLarge { limit: MOST_PARTS });
+        }
+        let within = |what, place: usize, given: usize| match place < given {
+            true => Ok(()),
+            false => Err(Error::Length { what, needed: place.saturating_add(1), given }),
+        };
+        let mut graph = Graph::default();
+        let mut places = Vec::with_capacity(nodes.len());
+        for node in nodes {
+            let mut operands = node.operands();
+            operands.try_for_each(|place| within("parts before a part", place, places.len()))?;
+            match node {
+                Node::State(place) => within("components", *place, names.states.len())?,
+                Node::Parameter(place) => within("parameters", *place, names.parameters.len())?,
+                Node::Constant(Constant::Double(bits)) if !f64::from_bits(*bits).is_finite() => {
+                    return Err(Error::Number { value: f64::from_bits(*bits) });
+                }
+                _ => {}
+            }
+            places.push(match node {
+                Node::Binary(Binary::Power, a, b) => graph.power(places[*a], places[*b]),
+                node => graph.place(node.moved(&places)),
+            });
+            // A power with a large integer has many parts.
+            if graph.nodes().len() > MOST_PARTS {
+                return Err(Error::TooLarge { limit: MOST_PARTS });
+            }
+        }
+        outputs.iter().try_for_each(|output| within("parts", *output, places.len()))?;
+        graph.check()?;
+        let outputs = outputs.iter().map(|output| places[*output]).collect();
         Formulas::of_parts(names, graph.into_nodes(), outputs)
     }
 

@@ -1,6 +1,6 @@
 //! What has no value says which part of the formula, and where.
 
-use equations::{Error, Formulas, Names, Series};
+use equations::{Binary, Constant, Error, Formulas, Names, Node, Series, Unary};
 use interval_arithmetic::Enclosure;
 
 fn formulas(texts: &[&str]) -> Formulas {
@@ -191,4 +191,45 @@ fn components_beyond_the_state_are_refused() {
         refused(Formulas::new(names(), |_, x, p| [p.sum(x[3..].iter().copied())])).contains('4')
     );
     assert!(Formulas::new(names(), |_, x, p| [p.sum(x[..=1].iter().copied()) + x[1]]).is_ok());
+}
+
+/// A list of parts gives the formulas of the same text; one that refers to what is not there is refused.
+#[test]
+fn a_list_of_parts_is_checked() {
+    let names = || Names::new(&["x", "v"], &[("a", "0.5")]).unwrap();
+    let number = |value: f64| Node::Constant(value.into());
+    let parts = [
+        Node::State(0),
+        number(-2.0),
+        Node::Binary(Binary::Power, 0, 1),
+        Node::State(0),
+        Node::Parameter(0),
+        Node::Binary(Binary::Product, 4, 3),
+        Node::Unary(Unary::Sine, 5),
+        Node::Time,
+        Node::Binary(Binary::Sum, 6, 7),
+    ];
+    let made = Formulas::of_nodes(names(), &parts, &[2, 8]).unwrap();
+    let written = Formulas::from_text(names(), &["x^(-2)", "sin(a*x) + t"]).unwrap();
+    assert_eq!(made.values(0.25, &[-3.0, 1.0]), written.values(0.25, &[-3.0, 1.0]));
+    assert_eq!(made.values(0.0, &[-3.0, 1.0]).unwrap()[0], 1.0 / 9.0);
+    // Equal parts are one.
+    assert_eq!(made.nodes().0.iter().filter(|node| **node == Node::State(0)).count(), 1);
+    let refused = |parts: &[Node], outputs: &[usize]| {
+        Formulas::of_nodes(names(), parts, outputs).unwrap_err()
+    };
+    for (parts, needed, given) in [
+        (vec![Node::Unary(Unary::Sine, 0)], 1, 0),
+        (vec![Node::Time, Node::Binary(Binary::Sum, 0, usize::MAX)], usize::MAX, 1),
+        (vec![Node::State(2)], 3, 2),
+        (vec![Node::Parameter(1)], 2, 1),
+        (vec![], 1, 0),
+    ] {
+        match refused(&parts, &[0]) {
+            Error::Length { needed: n, given: g, .. } => assert_eq!((n, g), (needed, given)),
+            other => panic!("{other}"),
+        }
+    }
+    let bad = Constant::Double(f64::INFINITY.to_bits());
+    assert!(matches!(refused(&[Node::Constant(bad)], &[0]), Error::Number { .. }));
 }
