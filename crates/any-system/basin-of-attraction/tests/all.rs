@@ -4,6 +4,7 @@
 #![allow(missing_docs, clippy::disallowed_methods, clippy::panic, clippy::unwrap_used)]
 
 mod attacked;
+mod attacked_again;
 mod attractor_features;
 mod attractors;
 mod attractors_known;

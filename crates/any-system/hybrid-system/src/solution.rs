@@ -3,8 +3,9 @@
 use crate::arc::{Arc, ArcEnd, Event};
 use crate::error::Error;
 use crate::execution::{AnArc, Execution};
+use crate::state::StateVector;
 use crate::system::HybridSystem;
-use crate::trajectory::{check_grid, end_of};
+use crate::trajectory::{Trajectory, check_grid, end_of, trajectory};
 
 /// Mode and state of a system.
 pub type Place<T> = (<T as HybridSystem>::Mode, <T as HybridSystem>::State);
@@ -88,6 +89,16 @@ impl<'a, T: HybridSystem> Solution<'a, T> {
             }
         }
         counts
+    }
+
+    /// The run as arrays, as [`Execution::trajectory`] gives them.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn trajectory(&self, grid: &[f64]) -> Result<Trajectory<T::Mode, T::Surface>, Error> {
+        let (start, first) = (self.times().0, self.arcs.first());
+        let dimension = first.map_or(0, |arc| arc.start.dimension());
+        trajectory(self.system, (start, dimension), self.arcs.iter().cloned().map(Ok), grid)
     }
 
     /// The time at which it starts, and that at which it ends, which may be infinite.

@@ -3,7 +3,7 @@
 use crate::arc::{Arc, ArcEnd};
 use crate::crossing::{Certainty, EventKind};
 use crate::error::Error;
-use crate::execution::Execution;
+use crate::execution::{AnArc, Execution};
 use crate::state::StateVector;
 use crate::system::HybridSystem;
 use nalgebra::DMatrix;
@@ -79,30 +79,40 @@ impl<T: HybridSystem> Execution<'_, T> {
     /// the number of components, for which a [`Solution`](crate::Solution) has no such limit; the errors of the execution, and
     /// those of [`Arc::states`].
     pub fn trajectory(&mut self, grid: &[f64]) -> Result<Trajectory<T::Mode, T::Surface>, Error> {
-        check_grid(grid)?;
-        let system = self.system;
-        let mut rows = Rows::new(self.at.state.dimension());
-        // Times before the start have no row.
-        let mut next = grid.partition_point(|&time| time < self.at.time.value());
-        let mut last_end = None;
-        for arc in self.by_ref() {
-            let arc = arc?;
-            let (expected, found) = (rows.dimension, arc.start.dimension());
-            if expected != found {
-                return Err(Error::Dimension { what: "a state of the run", expected, found });
-            }
-            let end = end_of(&arc);
-            rows.arc(system, &arc, end, &grid[next..])?;
-            // Grid times at the end belong to the next arc, if there is one.
-            next += grid[next..].partition_point(|&time| time < end);
-            last_end = Some(end);
-        }
-        // Grid times at the end of the last arc.
-        if let (Some(last), Some(end)) = (rows.on_grid.last_mut(), last_end) {
-            *last |= grid.get(next) == Some(&end);
-        }
-        Ok(rows.trajectory())
+        let from = (self.at.time.value(), self.at.state.dimension());
+        trajectory(self.system, from, self.by_ref(), grid)
     }
+}
+
+/// The rows of arcs that begin at a time, with states of a dimension.
+pub(crate) fn trajectory<T: HybridSystem>(
+    system: &T,
+    (start, dimension): (f64, usize),
+    arcs: impl Iterator<Item = Result<AnArc<T>, Error>>,
+    grid: &[f64],
+) -> Result<Trajectory<T::Mode, T::Surface>, Error> {
+    check_grid(grid)?;
+    let mut rows = Rows::new(dimension);
+    // Times before the start have no row.
+    let mut next = grid.partition_point(|&time| time < start);
+    let mut last_end = None;
+    for arc in arcs {
+        let arc = arc?;
+        let (expected, found) = (rows.dimension, arc.start.dimension());
+        if expected != found {
+            return Err(Error::Dimension { what: "a state of the run", expected, found });
+        }
+        let end = end_of(&arc);
+        rows.arc(system, &arc, end, &grid[next..])?;
+        // Grid times at the end belong to the next arc, if there is one.
+        next += grid[next..].partition_point(|&time| time < end);
+        last_end = Some(end);
+    }
+    // Grid times at the end of the last arc.
+    if let (Some(last), Some(end)) = (rows.on_grid.last_mut(), last_end) {
+        *last |= grid.get(next) == Some(&end);
+    }
+    Ok(rows.trajectory())
 }
 
 pub(crate) fn check_grid(grid: &[f64]) -> Result<(), Error> {

@@ -88,11 +88,11 @@ impl Points {
     }
 
     /// Where they are on a grid. `most` is the largest number of successive points that are kept.
-    fn located(&self, visited: Visited<'_>, most: usize) -> Located {
+    fn located(&self, visited: Visited<'_>, most: usize, drifts: bool) -> Located {
         let Visited { number, grid, cells } = visited;
         let own: BTreeSet<u64> = cells.keys().copied().collect();
         let last: Vec<&[f64]> = self.all().skip(self.all().len().saturating_sub(most)).collect();
-        let period = period(grid, &last);
+        let period = period(grid, &last, drifts);
         let points = match period {
             Some(period) => last[last.len() - period..].to_vec(),
             None => {
@@ -130,12 +130,13 @@ impl Candidate<'_> {
             match test {
                 Test::Leaves => together = None,
                 Test::Stays => {
-                    return Some(points.located(Visited { number, grid, cells }, most));
+                    let visited = Visited { number, grid, cells };
+                    return Some(points.located(visited, most, self.settled.drifts));
                 }
                 Test::Apart => together = together.or(Some(Visited { number, grid, cells })),
             }
         }
-        together.map(|visited| points.located(visited, most))
+        together.map(|visited| points.located(visited, most, self.settled.drifts))
     }
 
     /// Whether a point of another attractor lies in the cells.
@@ -224,8 +225,8 @@ impl Candidate<'_> {
     }
 }
 
-/// The period of successive points, if the last ones repeat themselves.
-fn period(grid: &StateGrid, points: &[&[f64]]) -> Option<usize> {
+/// The period of successive points, if the last ones repeat themselves. `drifts` as [`Settled::drifts`].
+fn period(grid: &StateGrid, points: &[&[f64]], drifts: bool) -> Option<usize> {
     let repeats = |period: &usize| {
         (0..*period).all(|k| {
             let last = points.len() - 1 - k;
@@ -233,7 +234,7 @@ fn period(grid: &StateGrid, points: &[&[f64]]) -> Option<usize> {
         })
     };
     let period = (1..=points.len() / 2).find(repeats)?;
-    (period == 1 || is_cycle(grid, points, period)).then_some(period)
+    (period == 1 || is_cycle(grid, points, period, drifts)).then_some(period)
 }
 
 /// The largest distance of a coordinate.
@@ -244,10 +245,13 @@ fn apart(grid: &StateGrid, a: &[f64], b: &[f64]) -> f64 {
 /// Whether points that repeat themselves are those of a cycle, and not of a slow oscillation about a point that is still far.
 ///
 /// From turn to turn the points move by d, and d shrinks by a factor q: they still go the way d·q/(1 − q). They are a cycle if that is short beside the
-/// distances of the others from one of them. Movements without a direction are noise of the map, and go no way.
-fn is_cycle(grid: &StateGrid, points: &[&[f64]], period: usize) -> bool {
+/// distances of the others from one of them. Movements without a direction are noise of the map, and go no way. One turn or two do not show q: then nothing may
+/// drift, and the movement must be far shorter.
+fn is_cycle(grid: &StateGrid, points: &[&[f64]], period: usize, drifts: bool) -> bool {
     /// The way that is still to go, as a part of the smallest distance. In an oscillation it is a half or more.
     const SHORT: f64 = 0.1;
+    /// The same of a movement whose way is not known.
+    const FAR_SHORTER: f64 = 1e-3;
     let begin = points.len() % period;
     let turns = points.len() / period - 1;
     let at = |turn: usize, k: usize| points[begin + turn * period + k];
@@ -263,5 +267,10 @@ fn is_cycle(grid: &StateGrid, points: &[&[f64]], period: usize) -> bool {
     if turns > 2 && q < 1.0 && way_so_far >= 0.5 * turns as f64 * last {
         return last * q / (1.0 - q) < SHORT * smallest;
     }
-    last.max(way_so_far) < SHORT * smallest
+    let short = match turns {
+        ..=2 if drifts && way_so_far > 0.0 => return false,
+        ..=2 => FAR_SHORTER,
+        _ => SHORT,
+    };
+    last.max(way_so_far) < short * smallest
 }

@@ -239,13 +239,26 @@ impl Orbit {
         self.steps.max(limits.locate).max(1)
     }
 
-    /// Whether it has been in the cells of an attractor for long enough, where coordinates are hidden.
-    fn stays(&mut self, place: Place, limits: &RecurrenceLimits) -> bool {
-        let before = self.track.stay.take();
-        let Place::Owned(own) = place else { return false };
-        let since = before.filter(|(other, _)| *other == own).map_or(self.steps, |stay| stay.1);
+    /// The attractor in whose cells it is; where coordinates are hidden, if it has been there for long enough. Cells of others on its way do not count.
+    fn arrived(
+        &mut self,
+        known: &KnownCells,
+        limits: &RecurrenceLimits,
+        place: Place,
+    ) -> Option<usize> {
+        let first = match place {
+            Place::Owned(first) => Some(first),
+            _ => None,
+        };
+        if !known.has_hidden() {
+            return first;
+        }
+        let (before, first) = (self.track.stay.take(), first?);
+        let at = &self.point.at;
+        let goes_on = before.filter(|(own, _)| known.is_in_cells_of(*own, at));
+        let (own, since) = goes_on.unwrap_or((first, self.steps));
         self.track.stay = Some((own, since));
-        self.steps - since >= limits.recurrences.max(1)
+        (self.steps - since >= limits.recurrences.max(1)).then_some(own)
     }
 
     #[inline]
@@ -259,10 +272,11 @@ impl Orbit {
         if !is_certain && limits.escape.is_some_and(beyond) {
             return Look::End(End::Escaped);
         }
-        let stays = !known.has_hidden() || self.stays(place, limits);
+        if let Some(own) = self.arrived(known, limits, place) {
+            return Look::End(End::Known(own));
+        }
         let at = &self.point.at;
         match place {
-            Place::Owned(own) if stays => Look::End(End::Known(own)),
             Place::Owned(_) | Place::Inside => {
                 self.outside = 0;
                 Look::Inside

@@ -248,12 +248,22 @@ impl KnownCells {
         escape.map_or(largest.is_finite(), |escape| largest <= escape)
     }
 
-    /// The attractor, other than this one, in one of whose cells a point lies: cells of two grids may overlap.
-    pub(crate) fn other_owner(&self, point: &[f64], own: usize) -> Option<usize> {
+    /// The attractors in one of whose cells a point lies: cells of two grids may overlap.
+    fn owners_at(&self, point: &[f64]) -> impl Iterator<Item = usize> {
         let owner = |number: &usize| {
             attractor_of_label(self.owners[*number].of_cell(self.grids[*number].cell(point)?))
         };
-        self.owned.iter().filter_map(owner).find(|other| *other != own)
+        self.owned.iter().filter_map(owner)
+    }
+
+    /// One of them other than this one.
+    pub(crate) fn other_owner(&self, point: &[f64], own: usize) -> Option<usize> {
+        self.owners_at(point).find(|other| *other != own)
+    }
+
+    /// Whether a point lies in one of the cells of an attractor.
+    pub(crate) fn is_in_cells_of(&self, own: usize, point: &[f64]) -> bool {
+        self.owners_at(point).any(|owner| owner == own)
     }
 
     /// The cells of one grid belong to an attractor.

@@ -237,12 +237,17 @@ impl Attractors {
         self.known.renumber(&labels);
     }
 
-    /// The attractor that the orbit of another one enters within the budget.
+    /// The attractor that the orbit of another one enters within the budget. Where coordinates are hidden, an orbit that only crosses cells of another one has
+    /// not entered it.
     fn entered(&self, map: &dyn StateMap, own: usize, end: &[f64]) -> Option<usize> {
         let (mut point, mut repeats) = (Moving::from(end), Repeats::default());
+        let needed = if self.known.has_hidden() { self.limits.recurrences.max(1) } else { 1 };
+        let mut stay = (None, 0);
         for _ in 0..self.limits.budget {
-            if let Some(other) = self.known.other_owner(&point.at, own) {
-                return Some(other);
+            let other = self.known.other_owner(&point.at, own);
+            stay = (other, if other == stay.0 { stay.1 + 1 } else { 1 });
+            if other.is_some() && stay.1 >= needed {
+                return other;
             }
             // An orbit that repeats itself to the last bit enters nothing more.
             if repeats.see(&point.at).is_some() || !self.known.step(map, &mut point) {

@@ -252,9 +252,9 @@ impl FeatureGroups {
             let others = groups.iter().filter(|(other, _)| *other != label);
             let between = others.filter_map(|(_, of)| mean(vector, of, 0)).min_by(f64::total_cmp);
             match (mean(vector, &groups[label], 1), between) {
-                (Some(inside), Some(between)) if inside.max(between) > 0.0 => {
-                    (between - inside) / inside.max(between)
-                }
+                // Both may be too large for a number: then neither is the larger one.
+                (Some(inside), Some(between)) if inside < between => 1.0 - inside / between,
+                (Some(inside), Some(between)) if between < inside => between / inside - 1.0,
                 _ => 0.0,
             }
         };

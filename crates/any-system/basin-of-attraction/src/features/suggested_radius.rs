@@ -12,7 +12,7 @@ pub struct SuggestedRadius {
     pub radius: f64,
     /// From this radius on the groups are the same.
     pub from: f64,
-    /// Below this radius they are; `None` if all vectors are one group from there on.
+    /// Below this radius they are; `None` if they stay the same at every larger one: one group, of all vectors that have a distance from it.
     pub below: Option<f64>,
 }
 
@@ -93,12 +93,15 @@ pub fn suggested_radius_by(
     let found = widest(&mut groups.into_iter()).or_else(|| widest(&mut (last..lengths.len())));
     Ok(match found {
         Some([from, below]) => {
-            let radius = from * (below / from).sqrt();
+            // No product or quotient of both: one may be 10³⁰⁸ and the other 10⁻³⁰⁸.
+            let radius = from.sqrt() * below.sqrt();
             SuggestedRadius { radius, from, below: Some(below) }
         }
         None => {
-            let from = lengths.iter().copied().filter(|x| x.is_finite()).fold(floor, f64::max);
-            SuggestedRadius { radius: WIDE * from, from, below: None }
+            // Vectors that are infinitely far from all dense ones may become dense by themselves.
+            let all = lengths.iter().chain(&dense_from).copied();
+            let from = all.filter(|x| x.is_finite()).fold(floor, f64::max);
+            SuggestedRadius { radius: (WIDE * from).min(f64::MAX), from, below: None }
         }
     })
 }

@@ -15,9 +15,10 @@ use crate::statistics::bounds::Bounds;
 /// A fat Cantor set has length, its dimension is 1, and the exponent of its gaps says how fast they shrink.)
 #[derive(Debug, Clone, PartialEq)]
 pub struct GapLengths {
-    window: Interval,
     lengths: Vec<f64>,
-    /// The lengths between gaps that are joined: what lies there may belong to the set.
+    /// What no gap contains.
+    left: f64,
+    /// The part of it between gaps that are joined: what lies there may belong to the set, or not.
     between: f64,
 }
 
@@ -65,7 +66,13 @@ impl GapLengths {
         let lengths = joined.iter().map(Interval::length).filter(|x| *x > 0.0);
         let mut lengths: Vec<f64> = lengths.collect();
         lengths.sort_by(|a, b| b.total_cmp(a));
-        Ok(GapLengths { window, lengths, between })
+        let ends = joined.iter().map(|gap| gap.left).chain([window.right]);
+        let begins = [window.left].into_iter().chain(joined.iter().map(|gap| gap.right));
+        let mut parts: Vec<f64> = begins.zip(ends).map(|(from, to)| to - from).collect();
+        // The shortest first: the rounding of the sum is that of the longest alone.
+        parts.sort_by(f64::total_cmp);
+        let left = parts.iter().sum::<f64>() + between;
+        Ok(GapLengths { lengths, left, between })
     }
 
     /// The lengths, from the longest to the shortest.
@@ -80,13 +87,11 @@ impl GapLengths {
 
     /// What the gaps leave of the window: an upper bound on the length of the set, to the rounding of the sum. What lies between joined gaps counts.
     pub fn left(&self) -> f64 {
-        // The shortest first: the rounding of the sum is that of the longest alone.
-        let sum = self.lengths.iter().rev().sum::<f64>();
-        (self.window.length() - sum + self.between).max(0.0)
+        self.left
     }
 
     /// Bounds on the length of the set if each length of the levels that follow is at most `factor` times that of the level before, and `last` is that of
-    /// the last level: what follows has at most last · factor/(1 − factor).
+    /// the last level: what follows has at most last · factor/(1 − factor). What lies between joined gaps may belong to the set, or not.
     ///
     /// # Errors
     /// [`Error::BadSearch`] unless 0 ≤ `factor` < 1 and `last` is not negative.
@@ -96,8 +101,9 @@ impl GapLengths {
                 ("a factor from level to level", ", below 1, and a length that is not negative");
             return Err(Error::BadSearch { name, value: factor, remedy });
         }
-        let upper = self.left();
-        Ok(Bounds { lower: (upper - last * factor / (1.0 - factor)).max(0.0), upper })
+        let certain = self.left - self.between;
+        let lower = (certain - last * factor / (1.0 - factor)).max(0.0);
+        Ok(Bounds { lower, upper: self.left })
     }
 
     /// The exponent of the numbers of gaps between two lengths: ln(N(short)/N(long))/ln(long/short). Shorter gaps than `short` may be missing from the

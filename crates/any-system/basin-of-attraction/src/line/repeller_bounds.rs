@@ -1,7 +1,7 @@
 //! Proved bounds on the dimension and the escape rate of the Cantor set that full branches leave.
 
 use crate::error::Error;
-use crate::line::repeller::{check, refused};
+use crate::line::full_branches::{check, refused};
 use crate::space::interval::Interval;
 use crate::statistics::bounds::Bounds;
 use interval_arithmetic::{Enclosure, bracketed_root};
@@ -15,15 +15,16 @@ pub struct RepellerBounds {
     pub escape_rate: Bounds,
 }
 
-/// Words of more letters take minutes.
-const MOST_WORDS: usize = 1 << 18;
+/// The most slopes, one for each word and branch: more take minutes.
+const MOST_SLOPES: usize = 1 << 19;
 
 /// Steps of the power method. The bounds hold after each of them; a contraction of a half a step ends in rounding after 52.
 const STEPS: usize = 60;
 
 /// Bounds on the dimension and the escape rate of the set of points that never leave some branches, each onto an interval. `inverse` gives for a branch, by its
 /// number, and an enclosure of points of the interval enclosures of the preimages on this branch and of the sizes of the slopes there, those of
-/// the inverse branch; `None` if it cannot. The caller knows that the branches are monotone: all else is proved.
+/// the inverse branch; `None` if it cannot. The caller knows that the branches are monotone, and that the images of two that touch to rounding, within 10⁻¹² of the shorter one, do not overlap: all else is
+/// proved.
 ///
 /// The set is covered by the images of the interval under all words of so many `letters`, each a branch. On each of them the slopes have bounds, and so has the
 /// operator (Lₛφ)(x) = Σ |gₖ′(x)|ˢ φ(gₖ(x)) on functions that are constant there: if least ≤ (Lₛφ)/φ ≤ most for a positive φ, its largest eigenvalue is between these
@@ -44,27 +45,32 @@ const STEPS: usize = 60;
 ///
 /// # Errors
 /// [`Error::BadSearch`] for no branch or letter, for preimages outside of the interval, for branches that overlap, and for slopes that are not positive, or
-/// unbounded; [`Error::TooManySamples`] for more than 262 144 words.
+/// unbounded; [`Error::TooManySamples`] for more than 524 288 slopes, one for each word and branch.
 pub fn repeller_bounds(
     branches: usize,
     interval: Interval,
     letters: usize,
     inverse: impl Fn(usize, Enclosure) -> Option<(Enclosure, Enclosure)>,
 ) -> Result<RepellerBounds, Error> {
-    let middles = |k: usize, y: f64| match inverse(k, Enclosure::from(y)) {
-        Some((preimage, slope)) => (preimage.middle(), slope.middle()),
-        None => (f64::NAN, f64::NAN),
-    };
-    check(branches, interval, &middles)?;
     if letters == 0 {
         return Err(refused("a number of letters", 0.0, ""));
     }
-    let words = u32::try_from(letters).ok().and_then(|letters| branches.checked_pow(letters));
-    if words.is_none_or(|words| words > MOST_WORDS) {
-        let samples = words.unwrap_or(usize::MAX);
-        let remedy = "give fewer letters";
-        return Err(Error::TooManySamples { samples, most: MOST_WORDS, remedy });
+    let longer = u32::try_from(letters).ok().and_then(|letters| letters.checked_add(1));
+    let slopes = longer.and_then(|letters| branches.checked_pow(letters));
+    let slopes = slopes.unwrap_or(usize::MAX).max(letters);
+    if slopes > MOST_SLOPES {
+        let remedy = "give fewer letters: there is one for each word and branch";
+        return Err(Error::TooManySamples { samples: slopes, most: MOST_SLOPES, remedy });
     }
+    // The outer ends of enclosures: what they do not show to be apart may overlap.
+    let image = |k: usize| {
+        let ends = [interval.left, interval.right].map(|y| Some(inverse(k, Enclosure::from(y))?.0));
+        match ends {
+            [Some(a), Some(b)] => [a.low.min(b.low), a.high.max(b.high)],
+            _ => [f64::NAN; 2],
+        }
+    };
+    check(branches, interval, &image)?;
     let operator = Operator::new(branches, interval, letters, &inverse)?;
     let at_one = operator.bounds(1.0);
     let logarithm =
@@ -181,8 +187,9 @@ impl Operator {
         let mut above = steps().map(|step| place + step).take_while(|s| *s < 1.0);
         let lower = below.find(|s| self.bounds(*s).lower >= 1.0).unwrap_or(0.0);
         let upper = above.find(|s| self.bounds(*s).upper <= 1.0).unwrap_or(1.0);
-        // One branch has one point.
-        Bounds { lower, upper: if self.branches == 1 { 0.0 } else { upper } }
+        // One branch that contracts has one point.
+        let contracts = self.slopes.iter().all(|slope| slope.high < 1.0);
+        Bounds { lower, upper: if self.branches == 1 && contracts { 0.0 } else { upper } }
     }
 }
 
@@ -265,5 +272,25 @@ mod tests {
         let many = repeller_bounds(2, unit(), 40, half);
         assert!(matches!(many, Err(Error::TooManySamples { .. })), "{many:?}");
         assert!(repeller_bounds(2, unit(), usize::MAX, half).is_err());
+        for (branches, letters) in [(1 << 18, 1), (512, 2), (64, 3), (1, 4_000_000_000)] {
+            let many = repeller_bounds(branches, unit(), letters, half);
+            assert!(matches!(many, Err(Error::TooManySamples { .. })), "{branches} {many:?}");
+        }
+        // Branches that are one, or outside, also if they are short; what enclosures do not tell apart; a width that overflows.
+        let (thin, number) = (|y: Enclosure, by: f64| y * by, |x: f64| Enclosure::from(x));
+        assert!(bad(repeller_bounds(2, unit(), 4, |_, y| Some((thin(y, 1e-13), number(1e-13))))));
+        assert!(bad(repeller_bounds(2, unit(), 4, |k, y| Some(match k {
+            0 => (thin(y, 0.3), number(0.3)),
+            _ => (thin(y, 4e-13) + number(1.0 + 5e-13), number(4e-13)),
+        }))));
+        assert!(bad(repeller_bounds(2, unit(), 4, |k, y| {
+            let from = if k == 0 { Enclosure::ZERO } else { Enclosure::new(0.0, 0.9) };
+            Some((thin(y, 1e-3) + from, number(1e-3)))
+        })));
+        let huge = Interval::new(-1e308, 1e308).unwrap();
+        assert!(bad(repeller_bounds(3, huge, 4, |_, y| Some((y * 0.25, number(0.25))))));
+        // A branch that does not contract keeps all.
+        let all = repeller_bounds(1, unit(), 4, |_, y| Some((y, Enclosure::ONE))).unwrap();
+        assert_eq!((all.dimension.lower, all.dimension.upper), (0.0, 1.0));
     }
 }

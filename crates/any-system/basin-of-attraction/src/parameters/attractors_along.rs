@@ -17,6 +17,7 @@ use crate::space::vectors::check_dimension;
 use crate::statistics::split_mix::SplitMix64;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow::{self, Continue};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// What is done at each parameter.
@@ -98,7 +99,7 @@ pub fn attractors_along<M: StateMap>(
 /// What has been done at a parameter.
 #[derive(Debug, Clone, Copy)]
 pub enum AlongProgress<'a> {
-    /// So many images of the map, about every thousand.
+    /// So many images of the map in one of its tasks, about every thousand: the search, or at last the matching with the parameter before.
     Images(usize),
     /// All: its attractors.
     Found(&'a Attractors),
@@ -139,13 +140,26 @@ pub fn attractors_along_watched<M: StateMap>(
         all().insert(parameter.to_bits(), own);
         Ok(fractions)
     };
+    let is_stopped = AtomicBool::new(false);
     let flow = |parameter: f64, point: &[f64]| {
         let all = all();
         let known = all.get(&parameter.to_bits());
-        known.map_or(Label::UNDECIDED, |known| known.label(&map(parameter), point))
+        let Some(known) = known.filter(|_| !is_stopped.load(Ordering::Relaxed)) else {
+            return Label::UNDECIDED;
+        };
+        let own = map(parameter);
+        let watched =
+            watched_map(&own, |images| progress(parameter, AlongProgress::Images(images)));
+        let label = known.label(&watched, point);
+        is_stopped.fetch_or(watched.is_stopped(), Ordering::Relaxed);
+        label
     };
     let matching = matching.unwrap_or(Matching::Flow(&flow));
     let fractions = fractions_along_matched(range, known, limits, matching, at)?;
+    if is_stopped.into_inner() {
+        let finished = all().len();
+        return Err(Error::Interrupted { finished, parts: finished });
+    }
     let mut all = std::mem::take(&mut *all());
     let parameters = fractions.points().iter().map(|(parameter, _)| *parameter);
     let found = parameters.filter_map(|p| Some((p, all.remove(&p.to_bits())?))).collect();

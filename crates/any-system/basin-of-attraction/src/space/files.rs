@@ -32,12 +32,23 @@ fn meaning(name: &str, grid: Grid, of: &str, codes: &[Label]) -> Result<DataFile
     csv_text(name, &["name", "meaning"], rows)
 }
 
+/// An error unless there are as many values as the grid has pixels, and at least one.
+fn check_count(name: &str, grid: Grid, count: usize) -> Result<(), Error> {
+    let Grid { columns, rows, .. } = grid;
+    if count > 0 && columns.checked_mul(rows) == Some(count) {
+        return Ok(());
+    }
+    let reason = format!("it has {count} values for {columns} columns and {rows} rows");
+    Err(Error::Render { what: name.to_owned(), reason })
+}
+
 impl LabelImage {
     /// The labels as an array for NumPy, and a table that says what its axes and numbers are. `name` is that of both files, without an ending.
     ///
     /// # Errors
-    /// That of the table.
+    /// [`Error::Render`] for another number of labels than pixels; that of the table.
     pub fn files(&self, name: &str) -> Result<[DataFile; 2], Error> {
+        check_count(name, self.grid, self.labels.len())?;
         let mut bytes = npy_header(Order::C, Element::U16, self.grid.rows, self.grid.columns);
         bytes.extend(self.labels.iter().flat_map(|label| label.code().to_le_bytes()));
         let codes: Vec<Label> = self.counts().into_iter().map(|(label, _)| label).collect();
@@ -51,8 +62,9 @@ impl ValueImage<f64> {
     /// without an ending.
     ///
     /// # Errors
-    /// That of the table.
+    /// [`Error::Render`] for another number of values than pixels; that of the table.
     pub fn files(&self, name: &str, of: &str) -> Result<[DataFile; 2], Error> {
+        check_count(name, self.grid, self.values.len())?;
         let mut bytes = npy_header(Order::C, Element::F64, self.grid.rows, self.grid.columns);
         bytes.extend(self.values.iter().flat_map(|value| value.to_le_bytes()));
         let table = meaning(&format!("{name}-meaning.csv"), self.grid, of, &[])?;
