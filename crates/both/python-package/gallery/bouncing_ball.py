@@ -2,7 +2,7 @@
 
 import matplotlib.pyplot as plt
 import numpy as np
-from passive_hopper.hybrid import Guard, HybridSystem, QuasiPolynomial
+from nonsmooth.hybrid import Guard, HybridSystem, QuasiPolynomial
 
 restitution = 0.8
 floor = Guard(

@@ -2,7 +2,7 @@
 
 import matplotlib.pyplot as plt
 import numpy as np
-from passive_hopper.labelling import UNDECIDED, basins_of, label_image
+from nonsmooth.labelling import UNDECIDED, basins_of, label_image
 
 roots = np.exp(2j * np.pi * np.arange(3) / 3)
 

@@ -2,7 +2,7 @@
 
 import matplotlib.pyplot as plt
 import numpy as np
-from passive_hopper.hybrid import Guard, HybridSystem
+from nonsmooth.hybrid import Guard, HybridSystem
 
 room = HybridSystem(
     field=lambda heater, x: [30 - x[0]] if heater == "on" else [10 - x[0]],

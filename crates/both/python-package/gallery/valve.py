@@ -2,7 +2,7 @@
 
 import matplotlib.pyplot as plt
 import numpy as np
-from passive_hopper.hybrid import Guard, HybridSystem
+from nonsmooth.hybrid import Guard, HybridSystem
 
 damping, load, filling, restitution, flow_rate = 1.25, 10, 20, 0.8, 0.3
 

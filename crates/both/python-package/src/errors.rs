@@ -1,15 +1,52 @@
 //! Errors of the libraries as Python's exceptions.
 
-use pyo3::exceptions::{PyArithmeticError, PyRuntimeError, PyStopIteration, PyValueError};
+use hybrid_system::Error as HybridError;
+use pyo3::exceptions::{
+    PyArithmeticError, PyRuntimeError, PyStopIteration, PyTypeError, PyValueError,
+};
 use pyo3::{PyErr, Python, create_exception};
 
 create_exception!(
-    passive_hopper,
+    nonsmooth,
     UndecidedError,
     PyArithmeticError,
     "What happens cannot be decided: a hop with 1024 bits (sudden or not, on which branch, or grounded or not), or an \
      event of a hybrid system that rounding hides."
 );
+
+create_exception!(
+    nonsmooth,
+    TracingError,
+    PyTypeError,
+    "A function has no formulas: it asks for the value of a symbol, or calls what formulas do not have."
+);
+
+/// The exception of an error of a hybrid system: UndecidedError where rounding hides what happens, ArithmeticError where a
+/// computation cannot go on, ValueError for wrong input.
+pub(crate) fn of_hybrid(error: &HybridError) -> PyErr {
+    of_hybrid_with(error, error.to_string())
+}
+
+/// The same with another text.
+pub(crate) fn of_hybrid_with(error: &HybridError, text: String) -> PyErr {
+    match error {
+        HybridError::Grazing { .. }
+        | HybridError::UndecidedStart { .. }
+        | HybridError::UndecidedSign { .. } => UndecidedError::new_err(text),
+        HybridError::StateNotFinite { .. }
+        | HybridError::FieldNotFinite { .. }
+        | HybridError::NotFinite { .. }
+        | HybridError::Integration { .. }
+        | HybridError::Root { .. }
+        | HybridError::TimelessChain { .. }
+        | HybridError::SlidingNotUnique { .. }
+        | HybridError::Formula(equations::Error::NoValue { .. }) => {
+            PyArithmeticError::new_err(text)
+        }
+        HybridError::Formula(equations::Error::Kink { .. }) => TracingError::new_err(text),
+        _ => PyValueError::new_err(text),
+    }
+}
 
 /// A ValueError with the message of a library's error, which has the numbers in it.
 pub(crate) fn value_error(error: impl std::fmt::Display) -> PyErr {

@@ -56,8 +56,24 @@ pub(crate) fn progress_function<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Option<Bound<'py, PyAny>>> {
     let Some(progress) = progress else { return Ok(None) };
-    let own = py.import("passive_hopper._progress")?.call_method1("function_of", (progress,))?;
+    let own = py.import("nonsmooth._progress")?.call_method1("function_of", (progress,))?;
     Ok((!own.is_none()).then_some(own))
+}
+
+/// Work on so many threads; on all of them, unless the caller asks for a number.
+///
+/// # Errors
+/// That of the system if the threads cannot be had.
+pub(crate) fn with_threads<T: Send>(
+    threads: Option<usize>,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, rayon::ThreadPoolBuildError> {
+    match threads {
+        None => Ok(work()),
+        Some(threads) => {
+            Ok(ThreadPoolBuilder::new().num_threads(threads.max(1)).build()?.install(work))
+        }
+    }
 }
 
 /// What a computation in the background and its caller tell each other.

@@ -1,4 +1,4 @@
-//! The native part of the Python package `passive_hopper`. It converts arguments and results, and computes nothing
+//! The native part of the Python packages `nonsmooth` and `passive_hopper`. It converts arguments and results, and computes nothing
 //! itself.
 
 mod arrays;
@@ -6,6 +6,7 @@ mod basins;
 mod errors;
 mod fates;
 mod fixed_points;
+mod formulas;
 mod hop;
 mod hybrid;
 mod interruptible;
@@ -19,7 +20,7 @@ mod whole;
 
 use pyo3::prelude::*;
 
-/// The native part of `passive_hopper`.
+/// The native part of `nonsmooth` and `passive_hopper`.
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     // Loaded here, where a failure or Ctrl-C is an exception. The numpy crate would load it in the first call that
@@ -27,6 +28,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.py().import("numpy")?;
     drop(numpy::PyArray1::<f64>::from_slice(module.py(), &[]));
     module.add("UndecidedError", module.py().get_type::<errors::UndecidedError>())?;
+    module.add("TracingError", module.py().get_type::<errors::TracingError>())?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(interruptible::after_fork, module)?)?;
     module.add_function(wrap_pyfunction!(restored::_restored, module)?)?;
@@ -46,6 +48,16 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(labelling::label_codes, module)?)?;
     module.add_function(wrap_pyfunction!(labelling::region_fractions, module)?)?;
     module.add_function(wrap_pyfunction!(labelling::uncertainty_exponent, module)?)?;
+    module.add_class::<formulas::Symbol>()?;
+    module.add_class::<formulas::Trace>()?;
+    module.add_class::<formulas::Formulas>()?;
+    module.add_class::<formulas::Equations>()?;
+    module.add_class::<formulas::Solution>()?;
+    module.add_class::<formulas::Fates>()?;
+    module.add_class::<formulas::ReturnMap>()?;
+    module.add_class::<formulas::Steps>()?;
+    module.add_function(wrap_pyfunction!(formulas::_equations, module)?)?;
+    module.add_function(wrap_pyfunction!(formulas::_solution, module)?)?;
     module.add_class::<hybrid::HybridSystem>()?;
     module.add_class::<hybrid::Guard>()?;
     module.add_class::<hybrid::Clock>()?;
@@ -56,6 +68,8 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<hybrid::Sliding>()?;
     module.add_class::<hybrid::SlidingMode>()?;
     module.add_class::<hybrid::QuasiPolynomial>()?;
+    module.add_function(wrap_pyfunction!(hybrid::arc_states, module)?)?;
+    module.add_function(wrap_pyfunction!(hybrid::arc_trajectory, module)?)?;
     module.add_function(wrap_pyfunction!(hybrid::sensitivity, module)?)?;
     module.add_function(wrap_pyfunction!(hybrid::event_sensitivity, module)?)?;
     module.add_function(wrap_pyfunction!(fixed_points::alpha_star, module)?)?;

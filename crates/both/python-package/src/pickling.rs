@@ -44,7 +44,7 @@ pub(crate) fn restoring<'py>(
     kind: &str,
     values: Bound<'py, PyTuple>,
 ) -> PyResult<Reduced<'py>> {
-    let restore = py.import("passive_hopper._native")?.getattr("_restored")?;
+    let restore = py.import("nonsmooth._native")?.getattr("_restored")?;
     Ok((restore, (kind, values).into_pyobject(py)?))
 }
 

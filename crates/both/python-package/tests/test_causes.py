@@ -3,7 +3,8 @@
 import numpy as np
 import passive_hopper as hopper
 import pytest
-from passive_hopper import hybrid, labelling, motion
+from nonsmooth import hybrid, labelling
+from passive_hopper import motion
 
 NAN, INF = float("nan"), float("inf")
 

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import passive_hopper as hopper
 import pytest
-from passive_hopper import labelling
+from nonsmooth import labelling
 
 xarray = pytest.importorskip("xarray")
 

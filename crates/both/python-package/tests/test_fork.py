@@ -9,7 +9,7 @@ import warnings
 import numpy as np
 import passive_hopper as hopper
 import pytest
-from passive_hopper import labelling
+from nonsmooth import labelling
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
 

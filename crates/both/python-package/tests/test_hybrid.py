@@ -6,7 +6,7 @@ import pickle
 
 import numpy as np
 import pytest
-from passive_hopper.hybrid import (
+from nonsmooth.hybrid import (
     Clock,
     Guard,
     HybridSystem,

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from passive_hopper import labelling
-from passive_hopper.labelling import Attractors, basins_of, label_image, region_fractions, uncertainty_exponent
+from nonsmooth import labelling
+from nonsmooth.labelling import Attractors, basins_of, label_image, region_fractions, uncertainty_exponent
 
 UNIT = [(0, 1), (0, 1)]
 

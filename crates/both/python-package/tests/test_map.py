@@ -176,7 +176,7 @@ def test_numpy_is_loaded_with_the_package():
     import subprocess
     import sys
 
-    code = "import sys; from passive_hopper import _native; assert 'numpy' in sys.modules"
+    code = "import sys; from nonsmooth import _native; assert 'numpy' in sys.modules"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
     broken = "import sys; sys.modules['numpy'] = None\ntry:\n    import passive_hopper\nexcept ImportError: sys.exit(7)"
     assert subprocess.run([sys.executable, "-c", broken], check=False).returncode == 7

@@ -4,7 +4,7 @@ import sys
 
 import passive_hopper as hopper
 import pytest
-from passive_hopper.labelling import basins_of
+from nonsmooth.labelling import basins_of
 
 
 def raster(progress, folder):

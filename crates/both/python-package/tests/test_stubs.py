@@ -7,9 +7,11 @@ from pathlib import Path
 
 import passive_hopper
 import pytest
-from passive_hopper import _native, datasets, hybrid, labelling, motions
+import nonsmooth
+from nonsmooth import _native, hybrid, labelling
+from passive_hopper import datasets, motions
 
-STUB = ast.parse((Path(passive_hopper.__file__).parent / "_native.pyi").read_text())
+STUB = ast.parse((Path(nonsmooth.__file__).parent / "_native.pyi").read_text())
 CLASSES = {node.name: node for node in STUB.body if isinstance(node, ast.ClassDef)}
 
 

@@ -32,5 +32,6 @@ pub use branch::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint};
 pub use continued::continue_branch;
 pub use doubled::{cascade, doubled_branch};
 pub use follow::{BranchSteps, follow_branch, follow_equilibria};
+pub use start::branch_point;
 pub(crate) use start::{size_of, solve_periodic};
 pub use two_parameters::{BifurcationCurve, BifurcationCurvePoint, CurveEnd};

@@ -57,6 +57,28 @@ pub(super) fn check_direction<M: ?Sized>(orbit: &Orbit<'_, M>, at: &OnCurve) -> 
     Err(Error::Singular { point, parameter })
 }
 
+/// The point of period `period` of a family near a start at a parameter, with its multipliers and their errors, by Newton's method: a point of the
+/// branch that [`follow_branch`](super::follow_branch) follows from there.
+///
+/// ```
+/// use return_map::{branch_point, scalar_family};
+/// let logistic = scalar_family(|x, r| r * x * (1.0 - x));
+/// let fixed = branch_point(&logistic, 1, (&[0.6], 2.5))?;
+/// assert!((fixed.point[0] - 0.6).abs() < 1e-15 && (fixed.multipliers[0].re + 0.5).abs() < 1e-12);
+/// # Ok::<(), return_map::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::BadPeriod`]; [`Error::BadArgument`] for a start of another dimension or that is not finite; [`Error::NoPeriodicPoint`] if there is none near the
+/// start; errors of the map.
+pub fn branch_point<M: MapFamily + ?Sized>(
+    map: &M,
+    period: usize,
+    start: (&[f64], f64),
+) -> Result<BranchPoint, Error> {
+    Ok(solve_periodic(map, period, start)?.0)
+}
+
 /// The periodic point near a start, and the derivative of fⁿ there.
 pub(crate) fn solve_periodic<M: MapFamily + ?Sized>(
     map: &M,

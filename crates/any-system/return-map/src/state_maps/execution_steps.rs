@@ -1,10 +1,11 @@
 //! The executions of a hybrid system over some time as a map of states.
 
-use super::label_of_end;
+use super::EndLabels;
 use crate::events::plain;
 use crate::orbits::{OrbitEnd, end_of};
 use basin_of_attraction::{Label, StateMap};
 use hybrid_system::{End, Error, Execution, FateOf, HybridSystem, StateVector, Stop};
+use std::sync::Arc;
 
 /// The executions of a hybrid system over some time, events included: a flow, or a stroboscopic map.
 ///
@@ -37,7 +38,7 @@ pub struct ExecutionSteps<M, R> {
     dimension: usize,
     modes: Vec<M>,
     run: R,
-    label_of_end: fn(&OrbitEnd) -> Label,
+    labels: EndLabels,
 }
 
 impl<M, R> ExecutionSteps<M, R> {
@@ -49,12 +50,13 @@ impl<M, R> ExecutionSteps<M, R> {
         M: Copy,
         R: Fn(M, &[f64]) -> Result<Execution<'a, T>, Error> + Sync,
     {
-        ExecutionSteps { dimension, modes: modes.to_vec(), run, label_of_end }
+        ExecutionSteps { dimension, modes: modes.to_vec(), run, labels: EndLabels::default() }
     }
 
     /// The same with other labels of the ends of orbits, as in [`FamilySteps::label_ends`](crate::FamilySteps::label_ends).
-    pub fn label_ends(self, label: fn(&OrbitEnd) -> Label) -> Self {
-        ExecutionSteps { label_of_end: label, ..self }
+    #[must_use]
+    pub fn label_ends(self, label: impl Fn(&OrbitEnd) -> Label + Send + Sync + 'static) -> Self {
+        ExecutionSteps { labels: EndLabels(Arc::new(label)), ..self }
     }
 
     /// The fate of the execution from a state; `None` if the state is in none of the modes.
@@ -105,6 +107,6 @@ where
             Some(Err(error)) => end_of(error.into()),
             None => return Label::UNDECIDED_MAP,
         };
-        (self.label_of_end)(&end)
+        (self.labels.0)(&end)
     }
 }

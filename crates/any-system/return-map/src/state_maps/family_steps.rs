@@ -1,9 +1,10 @@
 //! A family of maps at a parameter as a map of states.
 
-use super::label_of_end;
+use super::EndLabels;
 use crate::families::MapFamily;
 use crate::orbits::{OrbitEnd, end_of};
 use basin_of_attraction::{Label, StateMap};
+use std::sync::Arc;
 
 /// A family of maps at one value of its parameter: a section of a model ([`EquationReturns`](crate::EquationReturns), [`returns`](crate::returns)),
 /// formulas, closures.
@@ -21,17 +22,17 @@ use basin_of_attraction::{Label, StateMap};
 /// assert_eq!(found.attractors()[0].period, Some(4));
 /// # Ok::<(), basin_of_attraction::Error>(())
 /// ```
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct FamilySteps<'a, M: ?Sized> {
     family: &'a M,
     parameter: f64,
-    label_of_end: fn(&OrbitEnd) -> Label,
+    labels: EndLabels,
 }
 
 impl<'a, M: MapFamily + ?Sized> FamilySteps<'a, M> {
     /// The map of this family at a value of its parameter.
     pub fn new(family: &'a M, parameter: f64) -> Self {
-        FamilySteps { family, parameter, label_of_end }
+        FamilySteps { family, parameter, labels: EndLabels::default() }
     }
 
     /// The same with other labels of the ends of orbits. `label` gets [`OrbitEnd::Terminal`] with the name of the surface, [`OrbitEnd::Zeno`],
@@ -61,8 +62,9 @@ impl<'a, M: MapFamily + ?Sized> FamilySteps<'a, M> {
     /// assert_eq!(found.label(&bounces, &[4.1]), Label::numbered::<65_001>());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn label_ends(self, label: fn(&OrbitEnd) -> Label) -> Self {
-        FamilySteps { label_of_end: label, ..self }
+    #[must_use]
+    pub fn label_ends(self, label: impl Fn(&OrbitEnd) -> Label + Send + Sync + 'static) -> Self {
+        FamilySteps { labels: EndLabels(Arc::new(label)), ..self }
     }
 }
 
@@ -82,7 +84,7 @@ impl<M: MapFamily + ?Sized> StateMap for FamilySteps<'_, M> {
     fn label_of_end(&self, state: &[f64]) -> Label {
         match self.family.image(state, self.parameter) {
             Ok(_) => Label::UNDECIDED_MAP,
-            Err(error) => (self.label_of_end)(&end_of(error)),
+            Err(error) => (self.labels.0)(&end_of(error)),
         }
     }
 }

@@ -5,6 +5,8 @@
 
 use crate::orbits::OrbitEnd;
 use basin_of_attraction::Label;
+use std::fmt;
+use std::sync::Arc;
 
 mod execution_steps;
 mod family_steps;
@@ -16,10 +18,22 @@ pub use family_steps::FamilySteps;
 pub use flow_steps::FlowSteps;
 pub use formula_steps::FormulaSteps;
 
-/// The label of an end, unless the caller says another one: a surface that ends the run is a fate that is known.
-fn label_of_end(end: &OrbitEnd) -> Label {
-    match end {
-        OrbitEnd::Terminal(_) => Label::ESCAPED,
-        _ => Label::UNDECIDED_MAP,
+/// The labels of the ends of orbits.
+#[derive(Clone)]
+struct EndLabels(Arc<dyn Fn(&OrbitEnd) -> Label + Send + Sync>);
+
+/// Unless the caller says other ones: a surface that ends the run is a fate that is known.
+impl Default for EndLabels {
+    fn default() -> Self {
+        EndLabels(Arc::new(|end| match end {
+            OrbitEnd::Terminal(_) => Label::ESCAPED,
+            _ => Label::UNDECIDED_MAP,
+        }))
+    }
+}
+
+impl fmt::Debug for EndLabels {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("EndLabels")
     }
 }

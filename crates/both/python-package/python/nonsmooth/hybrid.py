@@ -4,7 +4,7 @@ The search for events is that of the Rust crate ``hybrid-system``: each crossing
 before, infinitely many events in finite time (Zeno) end in their limit, and what rounding hides raises
 :class:`UndecidedError`.
 
->>> from passive_hopper.hybrid import Guard, HybridSystem
+>>> from nonsmooth.hybrid import Guard, HybridSystem
 >>> room = HybridSystem(
 ...     field=lambda heater, x: [30 - x[0]] if heater == "on" else [10 - x[0]],
 ...     guards=[

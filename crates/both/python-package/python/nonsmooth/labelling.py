@@ -5,7 +5,7 @@ codes of the other labels are those of all files and figures of this package: :d
 :data:`UNDECIDED_PRECISION`, :data:`UNDECIDED_MAP`, :data:`OUTSIDE`, :data:`ESCAPED`.
 
 >>> import numpy as np
->>> from passive_hopper.labelling import label_image, region_fractions
+>>> from nonsmooth.labelling import label_image, region_fractions
 >>> disc = lambda x, y: x**2 + y**2 < 1
 >>> fractions = region_fractions(disc, [(-1, 1), (-1, 1)], count=10_000, seed=1)
 >>> np.pi / 4 in fractions[1]
@@ -106,7 +106,7 @@ def basins_of(
     ends, as ``{"x": (-2, 2), "y": (-2, 2)}``; ``names`` names labels. Each label is that of its pixel's middle.
     ``progress(done, all)`` counts columns; ``progress=True`` shows a bar of tqdm.
 
-    >>> from passive_hopper.labelling import basins_of
+    >>> from nonsmooth.labelling import basins_of
     >>> found = basins_of(lambda x, y: x > y, {"x": (0, 1), "y": (0, 1)}, shape=(4, 4), names={1: "above"})
     >>> found.label.dims, found.label.attrs["flag_meanings"]
     (('x', 'y'), 'basin_0 above')
@@ -152,8 +152,8 @@ def basins_of(
             attrs={
                 "Conventions": CONVENTIONS,
                 "title": "basins of attraction",
-                "source": f"passive_hopper {_native.__version__}",
-                "history": f"computed by passive_hopper {_native.__version__}",
+                "source": f"nonsmooth {_native.__version__}",
+                "history": f"computed by nonsmooth {_native.__version__}",
             },
         )
     )
@@ -183,7 +183,7 @@ def uncertainty_exponent(
 
     The dimension of the boundary is that of the space less the exponent. Points may lie outside the window by up to ε.
 
-    >>> from passive_hopper.labelling import uncertainty_exponent
+    >>> from nonsmooth.labelling import uncertainty_exponent
     >>> found = uncertainty_exponent(lambda x, y: x > 0.5, [(0, 1), (0, 1)], [0.1, 0.03, 0.01, 0.003])
     >>> 1 in found.exponent and found.follows_a_power_law
     True

@@ -3,8 +3,7 @@
 All dynamics is one map of the lift-off speed, α′ = f(α; M). Lengths are in units of m₂g/k, times in units of 1/ω with
 ω² = k(1+M)/m₂, speeds in units of m₂gω/k. M = m₂/m₁ is the lower mass over the upper one.
 
-The modules :mod:`passive_hopper.hybrid` and :mod:`passive_hopper.labelling` are for any hybrid system, and for the
-basins of any labelling.
+The tools for any system are in the package :mod:`nonsmooth`, which is installed with this one.
 
 >>> import numpy as np
 >>> from passive_hopper import LiftOffMap, alpha_star
@@ -17,10 +16,8 @@ basins of any labelling.
 True
 """
 
-import os as _os
-
-from . import _native, hybrid, labelling
-from ._native import (
+from nonsmooth import _native
+from nonsmooth._native import (
     Bounds,
     Crisis,
     Fate,
@@ -47,9 +44,14 @@ from .datasets import basins
 from .motions import animate, motion
 from .plots import cobweb, plot_basins
 
-# A child of fork has none of the threads of its parent: it gets its own.
-if hasattr(_os, "register_at_fork"):
-    _os.register_at_fork(after_in_child=_native.after_fork)
+
+def __getattr__(name):
+    if name in ("hybrid", "labelling"):
+        import importlib
+
+        return importlib.import_module(f"passive_hopper.{name}")
+    raise AttributeError(f"module 'passive_hopper' has no attribute {name!r}")
+
 
 __all__ = [
     "Bounds",
@@ -69,11 +71,9 @@ __all__ = [
     "crisis",
     "fractions",
     "grounding",
-    "hybrid",
     "interval_basins",
     "label_colour",
     "label_name",
-    "labelling",
     "layers",
     "motion",
     "motion_arrays",

@@ -8,8 +8,8 @@ import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from . import _native
-from ._conventions import CONVENTIONS, complete, flag_attributes
+from nonsmooth import _native
+from nonsmooth._conventions import CONVENTIONS, complete, flag_attributes
 
 if TYPE_CHECKING:
     import distributed

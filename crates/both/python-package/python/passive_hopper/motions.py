@@ -6,8 +6,8 @@ import os
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from . import _native
-from ._conventions import CONVENTIONS, complete, flag_attributes
+from nonsmooth import _native
+from nonsmooth._conventions import CONVENTIONS, complete, flag_attributes
 from ._files import write_whole
 
 if TYPE_CHECKING:

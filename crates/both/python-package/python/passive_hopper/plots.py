@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import _native
+from nonsmooth import _native
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

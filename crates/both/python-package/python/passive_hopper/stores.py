@@ -21,10 +21,10 @@ import time
 import warnings
 from pathlib import Path
 
-from . import _native
+from nonsmooth import _native
 from ._files import write_whole
-from ._progress import function_of
-from ._conventions import complete
+from nonsmooth._progress import function_of
+from nonsmooth._conventions import complete
 from .datasets import coordinates, import_xarray, job_attributes, layer_of, number_attributes
 
 #: Columns of a region. More make larger files and later progress; fewer make many small files. 64 columns of 16384

@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use std::sync::Arc;
 
 /// An event: a jump between two arcs.
-#[pyclass(frozen, get_all, module = "passive_hopper.hybrid")]
+#[pyclass(frozen, get_all, module = "nonsmooth.hybrid")]
 #[derive(Debug)]
 pub(crate) struct Event {
     /// The name of the guard; "NAME: end of sliding" where the field of one side turns tangent to the guard of this
@@ -45,7 +45,7 @@ pub(crate) struct Event {
 }
 
 /// The limit of infinitely many events in finite time.
-#[pyclass(frozen, get_all, module = "passive_hopper.hybrid")]
+#[pyclass(frozen, get_all, module = "nonsmooth.hybrid")]
 #[derive(Debug)]
 pub(crate) struct Zeno {
     /// The time of the limit.
@@ -67,7 +67,7 @@ pub(crate) struct Zeno {
 }
 
 /// A piece of continuous motion in one mode, between two events.
-#[pyclass(frozen, name = "Arc", module = "passive_hopper.hybrid")]
+#[pyclass(frozen, name = "Arc", module = "nonsmooth.hybrid")]
 #[derive(Debug)]
 pub(crate) struct HybridArc {
     model: Arc<Model>,
@@ -142,21 +142,8 @@ impl HybridArc {
     #[getter]
     fn event(&self, py: Python<'_>) -> PyResult<Option<Event>> {
         let Some(event) = self.own.event() else { return Ok(None) };
-        let (next_mode, after) = self.next(py, event.after.as_ref())?;
-        Ok(Some(Event {
-            surface: self.model.event_name(event.surface),
-            time: event.time,
-            time_error: event.time_error,
-            time_rounding: event.time_rounding,
-            at_time_limit: event.at_time_limit,
-            jump: event.jump,
-            before: copied(py, &event.before),
-            next_mode,
-            after,
-            kind: kind(event.kind).to_owned(),
-            direction: event.direction.map(|direction| name_of(direction).to_owned()),
-            certainty: certainty(event.certainty).to_owned(),
-        }))
+        let surface = |surface: &ExecutionSurface| self.model.event_name(*surface);
+        Event::of(py, event, surface, |mode| self.model.mode_object(py, *mode)).map(Some)
     }
 
     /// The Zeno limit at the end; None if the arc ends in another way.
@@ -258,6 +245,32 @@ impl HybridArc {
 
     pub(super) fn own(&self) -> &OwnArc {
         &self.own
+    }
+}
+
+impl Event {
+    /// An event of the library, with the names of its surface and of its mode.
+    pub(crate) fn of<M, S>(
+        py: Python<'_>,
+        event: &hybrid_system::Event<M, S, State>,
+        surface: impl Fn(&S) -> String,
+        mode: impl Fn(&M) -> PyResult<Py<PyAny>>,
+    ) -> PyResult<Self> {
+        let after = event.after.as_ref();
+        Ok(Event {
+            surface: surface(&event.surface),
+            time: event.time,
+            time_error: event.time_error,
+            time_rounding: event.time_rounding,
+            at_time_limit: event.at_time_limit,
+            jump: event.jump,
+            before: copied(py, &event.before),
+            next_mode: after.map(|(next, _)| mode(next)).transpose()?,
+            after: after.map(|(_, state)| copied(py, state)),
+            kind: kind(event.kind).to_owned(),
+            direction: event.direction.map(|direction| name_of(direction).to_owned()),
+            certainty: certainty(event.certainty).to_owned(),
+        })
     }
 }
 

@@ -186,7 +186,7 @@ impl Derivative for AtTheEvent {
 /// differences, with about ten digits; a field has its variational equation. The model needs field=, also beside a
 /// flow in closed form. A parameter is a component of the state that never changes.
 ///
-/// >>> from passive_hopper.hybrid import Guard, HybridSystem, sensitivity
+/// >>> from nonsmooth.hybrid import Guard, HybridSystem, sensitivity
 /// >>> ball = HybridSystem(
 /// ...     field=lambda mode, x: [x[1], -1.0],
 /// ...     guards=[Guard("floor", lambda x: x[0], "falling", reset=lambda mode, x: (mode, [0.0, -x[1] / 2]))],

@@ -1,16 +1,15 @@
 //! Executions: iterators over arcs, which stay usable after an exception.
 
-use super::arcs::{HybridArc, certainty, kind};
+use super::arcs::HybridArc;
 use super::callables::Callables;
 use super::model::Model;
 use super::names::{ExecutionMode, ExecutionSurface, Mode};
+use super::trajectory::{stop_name, trajectory_arrays};
 use super::vectors::{State, copied, numbers};
-use crate::arrays::shaped;
 use crate::pickling::refused;
 use hybrid_system::{
-    Checkpoint, Error, Execution as LibraryExecution, Filippov, FilippovMode, Limits, Stop,
+    Checkpoint, Error, Execution as LibraryExecution, Filippov, FilippovMode, Limits,
 };
-use nalgebra::DMatrix;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -23,7 +22,7 @@ type Reached = Checkpoint<ExecutionMode, ExecutionSurface, State>;
 /// An execution of a hybrid system: an iterator over its arcs.
 ///
 /// After an exception of a function, or Ctrl-C, it is where it was before the call: next() tries the same arc again.
-#[pyclass(frozen, module = "passive_hopper.hybrid")]
+#[pyclass(frozen, module = "nonsmooth.hybrid")]
 #[derive(Debug)]
 pub(crate) struct Execution {
     model: Arc<Model>,
@@ -116,32 +115,7 @@ impl Execution {
         let grid = numbers(grid)?;
         let found = self.steps(py, |limits| limits, |execution| execution.trajectory(&grid))?;
         let name = |mode: &ExecutionMode| self.model.mode_object(py, *mode);
-        let names = |modes: &[ExecutionMode]| modes.iter().map(name).collect::<PyResult<Vec<_>>>();
-        let rows = |matrix: &DMatrix<f64>| {
-            shaped(py, matrix.transpose().as_slice().to_vec(), &[matrix.nrows(), matrix.ncols()])
-        };
-        let (count, all) = (found.times.len(), PyDict::new(py));
-        all.set_item("times", shaped(py, found.times, &[count])?)?;
-        let jumps: Vec<u64> = found.jumps.iter().map(|&jump| jump as u64).collect();
-        all.set_item("jumps", shaped(py, jumps, &[count])?)?;
-        all.set_item("modes", names(&found.modes)?)?;
-        all.set_item("states", rows(&found.states)?)?;
-        all.set_item("on_grid", shaped(py, found.on_grid, &[count])?)?;
-        let events = found.events;
-        let number = events.times.len();
-        all.set_item("event_times", shaped(py, events.times, &[number])?)?;
-        let surfaces = events.surfaces.iter().map(|&surface| self.model.event_name(surface));
-        all.set_item("event_surfaces", surfaces.collect::<Vec<_>>())?;
-        all.set_item("event_modes", names(&events.modes)?)?;
-        let next = events.next_modes.iter().map(|mode| mode.as_ref().map(name).transpose());
-        all.set_item("event_next_modes", next.collect::<PyResult<Vec<_>>>()?)?;
-        all.set_item("event_before", rows(&events.before)?)?;
-        all.set_item("event_after", rows(&events.after)?)?;
-        let kinds: Vec<_> = events.kinds.iter().map(|&of| kind(of)).collect();
-        all.set_item("event_kinds", kinds)?;
-        let certainties: Vec<_> = events.certainties.iter().map(|&of| certainty(of)).collect();
-        all.set_item("event_certainties", certainties)?;
-        Ok(all)
+        trajectory_arrays(py, found, name, |surface| self.model.event_name(*surface))
     }
 
     /// The mode in which the execution is; a SlidingMode along a surface.
@@ -172,17 +146,7 @@ impl Execution {
     /// or "failed"; None while it goes on.
     #[getter]
     fn stop(&self) -> PyResult<Option<&'static str>> {
-        let name = |stop| match stop {
-            Stop::TimeLimit => "time limit",
-            Stop::EventLimit => "event limit",
-            Stop::Terminal => "terminal",
-            Stop::NoFurtherEvent => "no further event",
-            Stop::Zeno => "zeno",
-            Stop::Sliding => "sliding",
-            Stop::Unfinished => "unfinished",
-            Stop::Failed => "failed",
-        };
-        Ok(self.seen(Checkpoint::stop)?.map(name))
+        Ok(self.seen(Checkpoint::stop)?.map(stop_name))
     }
 
     fn __reduce__(&self, py: Python<'_>) -> PyResult<()> {

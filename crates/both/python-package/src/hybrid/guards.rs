@@ -36,7 +36,7 @@ pub(crate) enum After {
 /// QuasiPolynomial, or None; enclosure(mode, x, order, times) returns bounds (low, high) on a derivative of g along
 /// the flow over the times (from, to), or None. Without them a guard of a closed-form flow is sampled, and one of
 /// an integrated flow is followed along the steps.
-#[pyclass(frozen, module = "passive_hopper.hybrid")]
+#[pyclass(frozen, module = "nonsmooth.hybrid")]
 #[derive(Debug)]
 pub(crate) struct Guard {
     /// The name.
@@ -168,7 +168,7 @@ pub(crate) enum Times {
 /// name names them. reset(mode, x) is as that of a Guard; without it nothing changes. The times are one of: times,
 /// a rising sequence, or a function from a time to the next event strictly after it, or None; period, with the time
 /// of the first event in first.
-#[pyclass(frozen, module = "passive_hopper.hybrid")]
+#[pyclass(frozen, module = "nonsmooth.hybrid")]
 #[derive(Debug)]
 pub(crate) struct Clock {
     /// The name.

@@ -3,9 +3,9 @@
 use super::guards::{After, Clock, Guard};
 use super::names::{ExecutionMode, ExecutionSurface, Mode, Modes, Surface};
 use super::sliding_mode::SlidingMode;
-use crate::errors::UndecidedError;
+use crate::errors::of_hybrid_with;
 use hybrid_system::{Error, FilippovMode, FilippovSurface, Tolerances};
-use pyo3::exceptions::{PyArithmeticError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 /// A guard or a clock.
@@ -211,18 +211,6 @@ impl Model {
         if let Some(cause) = cause.filter(|_| of_number) {
             text = format!("{cause}; so {text}");
         }
-        match error {
-            Error::Grazing { .. } | Error::UndecidedStart { .. } | Error::UndecidedSign { .. } => {
-                UndecidedError::new_err(text)
-            }
-            Error::StateNotFinite { .. }
-            | Error::FieldNotFinite { .. }
-            | Error::NotFinite { .. }
-            | Error::Integration { .. }
-            | Error::Root { .. }
-            | Error::TimelessChain { .. }
-            | Error::SlidingNotUnique { .. } => PyArithmeticError::new_err(text),
-            _ => PyValueError::new_err(text),
-        }
+        of_hybrid_with(error, text)
     }
 }

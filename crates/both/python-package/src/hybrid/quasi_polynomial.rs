@@ -12,12 +12,12 @@ use pyo3::types::PyTuple;
 /// Along the flow of constant forces, springs and linear dampers a guard is such a function. A Guard with a signal=
 /// has crossings that are certain: none is missed.
 ///
-/// >>> from passive_hopper.hybrid import QuasiPolynomial as Q
+/// >>> from nonsmooth.hybrid import QuasiPolynomial as Q
 /// >>> height = Q.polynomial([0, -4, 0.5]) + Q.sine(5, 1)      # t²/2 − 4t + 5 sin t
 /// >>> time = height.first_crossing("falling", 20)
 /// >>> abs(height(time)) < 1e-14
 /// True
-#[pyclass(frozen, eq, module = "passive_hopper.hybrid")]
+#[pyclass(frozen, eq, module = "nonsmooth.hybrid")]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct QuasiPolynomial {
     pub(crate) own: hybrid_system::QuasiPolynomial,

@@ -7,7 +7,7 @@ use crate::pickling::{Reduced, equal, plain, reduced};
 use pyo3::prelude::*;
 
 /// A point of a surface at which the fields on both sides point.
-#[pyclass(frozen, get_all, module = "passive_hopper.hybrid")]
+#[pyclass(frozen, get_all, module = "nonsmooth.hybrid")]
 #[derive(Debug)]
 pub(crate) struct Sliding {
     /// The name of the guard.

@@ -7,7 +7,7 @@ use pyo3::types::PyTuple;
 /// The mode of a motion along a surface, by Filippov's convention.
 ///
 /// Two of them are equal if the surface and the modes on both sides are.
-#[pyclass(frozen, get_all, module = "passive_hopper.hybrid")]
+#[pyclass(frozen, get_all, module = "nonsmooth.hybrid")]
 #[derive(Debug)]
 pub(crate) struct SlidingMode {
     /// The name of the guard.

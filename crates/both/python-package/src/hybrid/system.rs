@@ -30,7 +30,7 @@ use std::sync::Arc;
 /// enclosure. longest_step and check_interval bound the steps of an integration, and the distance of two looks at
 /// its guards.
 ///
-/// >>> from passive_hopper.hybrid import Guard, HybridSystem
+/// >>> from nonsmooth.hybrid import Guard, HybridSystem
 /// >>> ball = HybridSystem(
 /// ...     flow=lambda mode, x, t: [x[0] + t * (x[1] - t / 2), x[1] - t],
 /// ...     guards=[Guard("floor", lambda x: x[0], "falling", reset=lambda mode, x: (mode, [0, -x[1] / 2]))],
@@ -40,7 +40,7 @@ use std::sync::Arc;
 /// [1.0, 2.0, 2.5, 2.75]
 ///
 /// An exception in a function ends the call with this exception.
-#[pyclass(frozen, module = "passive_hopper.hybrid")]
+#[pyclass(frozen, module = "nonsmooth.hybrid")]
 #[derive(Debug)]
 pub(crate) struct HybridSystem {
     model: Arc<Model>,

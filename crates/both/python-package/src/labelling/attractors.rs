@@ -1,15 +1,19 @@
-//! The attractors of a map that is a function of Python.
+//! The attractors of a map: of a function of Python, or of steps that need none.
 
-use crate::arrays::shaped;
+use crate::arrays::{Numbers, shaped};
 use crate::errors::{of_callback, value_error};
-use crate::interruptible::{Watch, in_background};
+use crate::formulas::Steps;
+use crate::interruptible::{Watch, in_background, with_threads};
 use crate::pickling::refused;
 use crate::whole::whole;
-use basin_of_attraction::{Error, Hyperrectangle, Interval, Label, RecurrenceLimits, StateGrid};
+use basin_of_attraction::{
+    Error, Hyperrectangle, Interval, Label, RecurrenceLimits, StateGrid, StateMap, watched_map,
+};
 use numpy::PyArray1;
 use pyo3::exceptions::PyArithmeticError;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -69,9 +73,41 @@ impl PythonMap {
     }
 }
 
+/// What `work` finds of a map in the background: of steps on all threads, or on so many; of a function of Python on one.
+fn on_map<T: Send + 'static>(
+    py: Python<'_>,
+    map: &Py<PyAny>,
+    threads: Option<usize>,
+    work: impl FnOnce(&dyn StateMap) -> T + Send + 'static,
+) -> PyResult<T> {
+    if let Ok(steps) = map.bind(py).cast::<Steps>() {
+        let map = Arc::clone(&steps.get().map);
+        let run = move |watch: &Watch| {
+            let go_on = |_| match watch.is_stopped() {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            };
+            let map: &dyn StateMap = &*map;
+            with_threads(threads, || work(&watched_map(map, go_on)))
+        };
+        return in_background(py, run, value_error, |_| Ok(()));
+    }
+    let own = PythonMap::new(map.clone_ref(py));
+    let step = Arc::clone(&own);
+    // Only one thread can call Python at a time. More of them would wait for each other at every step.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().map_err(value_error)?;
+    let run = move |watch: &Watch| {
+        let image = |state: &[f64]| step.image(state, watch);
+        // The thread keeps the interpreter's lock from step to step: to take it anew takes longer than a step.
+        Ok::<_, Error>(pool.install(|| Python::attach(|_| work(&image))))
+    };
+    let found = in_background(py, run, value_error, |_| Ok(()))?;
+    own.unless_raised(found)
+}
+
 /// The attractors of a map of several variables, found by recurrences to cells of a grid and tested as traps.
 ///
-/// map(x) is a step: a map, a return map, or a flow over some time. It takes an array, and returns a list, a tuple
+/// map(x) is a step: a map, a return map, or a flow over some time. Steps of a System need no Python, and run on all processors. A function takes an array, and returns a list, a tuple
 /// or an array, or None where it has no value. region has the ends of each coordinate; starts is an array with one
 /// start a row. The basins have the labels 1, 2, … in the order in which the attractors are found; ESCAPED is the
 /// label of an orbit that passes the distance `escape` from the origin.
@@ -84,14 +120,14 @@ impl PythonMap {
 /// grid tried, of 16 times as many cells, may be found as one. If no attractor is found, `remedy` says what would
 /// help.
 ///
-/// >>> from passive_hopper.labelling import Attractors
+/// >>> from nonsmooth.labelling import Attractors
 /// >>> newton = lambda x: (x - (x ** 2 - 2) / (2 * x)) if x[0] else None
 /// >>> found = Attractors(newton, region=[(-3.1, 3)], starts=[[1.0], [-1.0]], tests=20)
 /// >>> [round(float(points[0, 0]), 6) for points in found.points.values()]
 /// [1.414214, -1.414214]
 /// >>> found.labels([[0.3], [-7.0]]).tolist()
 /// [1, 2]
-#[pyclass(frozen, module = "passive_hopper.labelling")]
+#[pyclass(frozen, module = "nonsmooth.labelling")]
 pub(crate) struct Attractors {
     function: Py<PyAny>,
     dimension: usize,
@@ -125,19 +161,10 @@ impl Attractors {
         let grid = StateGrid::uniform(region, cells).map_err(value_error)?;
         let grid = periodic.into_iter().try_fold(grid, StateGrid::periodic).map_err(value_error)?;
         let dimension = grid.dimension();
-        let own = PythonMap::new(map.clone_ref(py));
-        let step = Arc::clone(&own);
-        // Only one thread can call Python at a time. More of them would wait for each other at every step.
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().map_err(value_error)?;
-        let work = move |watch: &Watch| {
-            let image = |state: &[f64]| step.image(state, watch);
-            let search =
-                || basin_of_attraction::Attractors::search(&image, grid, &starts, limits);
-            // The thread keeps the interpreter's lock from step to step: to take it anew takes longer than a step.
-            Ok::<_, Error>(pool.install(|| Python::attach(|_| search())))
+        let search = move |map: &dyn StateMap| {
+            basin_of_attraction::Attractors::search(map, grid, &starts, limits)
         };
-        let found = in_background(py, work, value_error, |_| Ok(()))?;
-        let found = own.unless_raised(found)?.map_err(value_error)?;
+        let found = on_map(py, &map, None, search)?.map_err(value_error)?;
         Ok(Attractors { function: map, dimension, found: Arc::new(found) })
     }
 
@@ -166,23 +193,51 @@ impl Attractors {
         self.found.remedy().map(|remedy| remedy.to_string())
     }
 
+    /// The number of steps after which each attractor repeats itself, by label; None for one that does not.
+    #[getter]
+    fn periods(&self) -> BTreeMap<u16, Option<usize>> {
+        let all = self.found.attractors().iter();
+        all.map(|attractor| (attractor.label.code(), attractor.period)).collect()
+    }
+
     /// The labels of starts, one a row: an array of uint16. A start that comes to no attractor is undecided.
-    fn labels<'py>(&self, py: Python<'py>, starts: Vec<Vec<f64>>) -> PyResult<Bound<'py, PyAny>> {
-        let count = starts.len();
-        if let Some(other) = starts.iter().find(|start| start.len() != self.dimension) {
-            let (dimension, expected) = (other.len(), self.dimension);
-            return Err(value_error(Error::WrongDimension { dimension, expected }));
+    #[pyo3(signature = (starts, threads = None))]
+    fn labels<'py>(
+        &self,
+        py: Python<'py>,
+        starts: &Bound<'py, PyAny>,
+        threads: Option<usize>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        Ok(self.convergences(py, starts, threads)?.0)
+    }
+
+    /// The labels of starts, and the numbers of steps after which each is at its attractor.
+    #[pyo3(signature = (starts, threads = None))]
+    fn convergences<'py>(
+        &self,
+        py: Python<'py>,
+        starts: &Bound<'py, PyAny>,
+        threads: Option<usize>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let Numbers { values, shape } = starts.extract()?;
+        let (count, expected) = (shape.first().copied().unwrap_or(0), self.dimension);
+        match shape[..] {
+            [_, dimension] if dimension == expected => {}
+            [0] => {}
+            _ => {
+                let dimension = shape.last().copied().unwrap_or(0);
+                return Err(value_error(Error::WrongDimension { dimension, expected }));
+            }
         }
-        let (own, found) = (PythonMap::new(self.function.clone_ref(py)), Arc::clone(&self.found));
-        let step = Arc::clone(&own);
-        let work = move |watch: &Watch| {
-            let image = |state: &[f64]| step.image(state, watch);
-            let label = |start: &Vec<f64>| found.label(&image, start).code();
-            let labels = || starts.iter().map(label).collect::<Vec<u16>>();
-            Ok::<_, Error>(Python::attach(|_| labels()))
+        let found = Arc::clone(&self.found);
+        let start = move |k: usize, state: &mut [f64]| {
+            state.copy_from_slice(&values[expected * k..expected * (k + 1)]);
         };
-        let codes = in_background(py, work, value_error, |_| Ok(()))?;
-        shaped(py, own.unless_raised(codes)?, &[count])
+        let all = move |map: &dyn StateMap| found.convergences(map, count, start);
+        let all = on_map(py, &self.function, threads, all)?.map_err(value_error)?;
+        let labels = all.iter().map(|(label, _)| label.code()).collect();
+        let steps = all.iter().map(|(_, steps)| *steps as u64).collect();
+        Ok((shaped(py, labels, &[count])?, shaped(py, steps, &[count])?))
     }
 
     fn __reduce__(&self, py: Python<'_>) -> PyResult<()> {

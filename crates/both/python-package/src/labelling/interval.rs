@@ -5,7 +5,7 @@ use basin_of_attraction::{Bounds, ConfidenceInterval};
 use pyo3::prelude::*;
 
 /// A number, and an interval in which it lies: a 95 % confidence interval, or bounds. The source says which.
-#[pyclass(frozen, get_all, eq, from_py_object, module = "passive_hopper.labelling")]
+#[pyclass(frozen, get_all, eq, from_py_object, module = "nonsmooth.labelling")]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Interval {
     /// The estimate. It need not be the middle.

@@ -16,15 +16,15 @@ use std::sync::Arc;
 
 /// Labels of the pixels of a window: an array of uint16 with the shape (x, y).
 ///
-/// passive_hopper.labelling.label_image makes it of any array of integers.
-#[pyclass(frozen, eq, module = "passive_hopper.labelling")]
+/// nonsmooth.labelling.label_image makes it of any array of integers.
+#[pyclass(frozen, eq, module = "nonsmooth.labelling")]
 #[derive(Debug, PartialEq)]
 pub(crate) struct LabelImage {
     image: Arc<basin_of_attraction::LabelImage>,
 }
 
 /// A count of boxes of one size.
-#[pyclass(frozen, get_all, eq, module = "passive_hopper.labelling")]
+#[pyclass(frozen, get_all, eq, module = "nonsmooth.labelling")]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct BoxCount {
     /// The side, in pixels.

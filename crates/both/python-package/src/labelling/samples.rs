@@ -100,7 +100,7 @@ fn region_of(window: &[[f64; 2]]) -> PyResult<Hyperrectangle> {
     Hyperrectangle::new(sides).map_err(value_error)
 }
 
-/// As passive_hopper.labelling.region_fractions, for a function that returns an array of uint16.
+/// As nonsmooth.labelling.region_fractions, for a function that returns an array of uint16.
 #[pyfunction]
 pub(crate) fn region_fractions(
     py: Python<'_>,
@@ -120,7 +120,7 @@ pub(crate) fn region_fractions(
 
 /// The uncertainty exponent of a labelling: the fraction of pairs of points at a distance ε whose labels differ is
 /// ∝ ε^exponent.
-#[pyclass(frozen, get_all, eq, module = "passive_hopper.labelling")]
+#[pyclass(frozen, get_all, eq, module = "nonsmooth.labelling")]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct UncertaintyExponent {
     /// The exponent, with a 95 % interval. It means nothing unless follows_a_power_law.
@@ -145,7 +145,7 @@ impl UncertaintyExponent {
     }
 }
 
-/// As passive_hopper.labelling.uncertainty_exponent, for a function that returns an array of uint16.
+/// As nonsmooth.labelling.uncertainty_exponent, for a function that returns an array of uint16.
 #[pyfunction]
 pub(crate) fn uncertainty_exponent(
     py: Python<'_>,

@@ -1,0 +1,49 @@
+"""Hybrid systems: motions that events interrupt, their events, return maps, attractors and basins.
+
+A model is written once, as functions f(t, x, p) with NumPy's functions. They become formulas: a run needs no Python, no event of its motion is
+missed, and derivatives are exact.
+
+>>> import numpy as np
+>>> import nonsmooth as ns
+>>> pendulum = ns.System(lambda t, x, p: [x[1], -np.sin(x[0]) - p.damping * x[1]], states="angle speed", parameters={"damping": 0.1})
+>>> run = pendulum.run([3, 0], time=50)
+>>> round(float(run.sol(50)[0]), 6)
+0.078957
+"""
+
+import os as _os
+
+from . import _native, hybrid, labelling
+from ._native import Equations, Event, Formulas, Steps, TracingError, UndecidedError, Zeno, __version__
+from .returns import Bifurcation, Branch, Diagram, PeriodicPoint, ReturnMap
+from .runs import Fates, Run
+from .surfaces import Clock, Guard
+from .systems import System
+from .tracing import Parameters
+
+# A child of fork has none of the threads of its parent: it gets its own.
+if hasattr(_os, "register_at_fork"):
+    _os.register_at_fork(after_in_child=_native.after_fork)
+
+__all__ = [
+    "Bifurcation",
+    "Branch",
+    "Clock",
+    "Diagram",
+    "Equations",
+    "Event",
+    "Fates",
+    "Formulas",
+    "Guard",
+    "Parameters",
+    "PeriodicPoint",
+    "ReturnMap",
+    "Run",
+    "Steps",
+    "System",
+    "TracingError",
+    "UndecidedError",
+    "Zeno",
+    "hybrid",
+    "labelling",
+]

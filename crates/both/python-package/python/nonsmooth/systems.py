@@ -1,0 +1,480 @@
+"""Hybrid systems by functions f(t, x, p), which run as formulas where they can."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _native
+from ._native import Equations, Event, Steps, TracingError
+from .returns import ReturnMap
+from .runs import Fates, Run
+from .surfaces import Clock, FunctionOrFormulas, Guard
+from .tracing import Model
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+#: The mode of a system whose modes have no names.
+_ONLY = "motion"
+
+#: The most events of a run that states no limit.
+_MOST_EVENTS = 1_000_000
+
+
+class System:
+    """A hybrid system: ẋ = f(t, x, p), interrupted by events.
+
+    ``field`` is the function f(t, x, p), or a dictionary with one for each mode. It is called once with symbols, which NumPy's functions accept, and
+    becomes formulas: then a run needs no Python, misses no event of its Taylor polynomials, and can be pickled. A function without formulas,
+    such as one with an ``if``, is called at every stage of every step. ``compiled`` tells which, ``why_not`` why; ``compiled=True`` demands formulas.
+    Texts and SymPy's expressions are formulas, too.
+
+    ``states`` are the names of the components of the state, ``parameters`` the values of the parameters by name, ``guards`` surfaces
+    (:class:`Guard`) and preset times (:class:`Clock`). ``args`` are further arguments of all functions, as in SciPy. ``rests`` has for a mode where
+    the run goes on after infinitely many events in finite time (Zeno): the next mode, or a pair of it and the reset.
+    ``tolerance`` is the relative and absolute error of a step, ``absolute`` another absolute one: a number, or one for each component.
+
+    >>> import numpy as np, nonsmooth as ns
+    >>> oscillator = ns.System(
+    ...     lambda t, x, p: [x[1], -x[0] - 0.1 * x[1] + np.cos(1.3 * t)],
+    ...     states=["x", "v"],
+    ...     parameters={"restitution": 0.8},
+    ...     guards=[ns.Guard("stop", lambda t, x, p: x[0] - 0.5, "rising", reset=lambda t, x, p: [x[0], -p.restitution * x[1]])],
+    ... )
+    >>> oscillator.compiled
+    True
+    >>> len(oscillator.run([0, 1], time=400).events)
+    83
+    """
+
+    def __init__(
+        self,
+        field: FunctionOrFormulas | Mapping[str, FunctionOrFormulas],
+        *,
+        states: Sequence[str] | str,
+        parameters: Mapping[str, float] | None = None,
+        guards: Sequence[Guard | Clock] = (),
+        args: tuple[Any, ...] = (),
+        rests: Mapping[str, str | tuple[str, FunctionOrFormulas]] | None = None,
+        tolerance: float = 1e-10,
+        absolute: float | Sequence[float] | None = None,
+        longest_step: float = float("inf"),
+        compiled: bool | None = None,
+    ) -> None:
+        self.states = states.replace(",", " ").split() if isinstance(states, str) else list(states)
+        self.parameters = {name: float(value) for name, value in (parameters or {}).items()}
+        fields = dict(field) if isinstance(field, Mapping) else {_ONLY: field}
+        self.modes = list(fields)
+        self._tolerances = _tolerances(tolerance, absolute, longest_step, len(self.states))
+        functions = _Functions(fields, list(guards), dict(rests or {}), args)
+        self._ends = [guard.name for guard in guards if isinstance(guard, Guard) and guard.terminal]
+        self.why_not: str | None = None
+        self._equations: Equations | None = None
+        self._callbacks: _Callbacks | None = None
+        if compiled is not False:
+            try:
+                self._equations = functions.equations(Model(self.states, self.parameters), self._tolerances)
+            except TracingError as error:
+                if compiled:
+                    raise
+                self.why_not = str(error)
+        else:
+            self.why_not = "compiled=False"
+        if self._equations is None:
+            self._callbacks = _Callbacks(functions, self.states, self._tolerances)
+
+    @property
+    def compiled(self) -> bool:
+        """Whether it runs as formulas, without Python."""
+        return self._equations is not None
+
+    @property
+    def equations(self) -> Equations:
+        """Its formulas. A system without them raises :class:`TracingError`, which says why."""
+        if self._equations is None:
+            raise TracingError(f"the system has no formulas: {self.why_not}")
+        return self._equations
+
+    def with_parameters(self, **values: float) -> System:
+        """The same system with other values of parameters."""
+        own = object.__new__(System)
+        own.__dict__.update(self.__dict__)
+        own.parameters = self._parameters(values)
+        if self._equations is not None:
+            own._equations = self._equations.with_parameters(list(own.parameters.items()))
+        return own
+
+    def run(
+        self,
+        start: ArrayLike,
+        time: float | tuple[float, float],
+        *,
+        mode: str | None = None,
+        t: ArrayLike | None = None,
+        events: int = _MOST_EVENTS,
+        parameters: Mapping[str, float] | None = None,
+    ) -> Run:
+        """The run from a state, up to a time (from 0 on) or between two times, and to a number of events.
+
+        ``mode`` is the first one, if the system has several; ``t`` has times at which states are wanted; ``parameters`` other values of some parameters.
+        An error after some arcs has the :class:`Run` up to there as its attribute ``run``.
+        """
+        if parameters:
+            return self.with_parameters(**parameters).run(start, time, mode=mode, t=t, events=events)
+        begin, end = (0.0, float(time)) if np.ndim(time) == 0 else (float(part) for part in time)  # type: ignore[union-attr]
+        state = np.array(start, dtype=float).ravel()
+        if len(state) != len(self.states):
+            raise ValueError(f"the state has {len(self.states)} components ({', '.join(self.states)}), not {len(state)}")
+        mode = self._first_mode(mode)
+        if self._equations is not None:
+            solution: Any = self._equations.run(mode, state, (begin, end), events)
+        else:
+            assert self._callbacks is not None
+            solution = self._callbacks.run(mode, state, (begin, end), events, self.parameters)
+        run = Run(self.states, solution, t)
+        error = solution.error
+        if error is not None:
+            error.run = run
+            raise error
+        return run
+
+    def fates(
+        self,
+        starts: ArrayLike,
+        time: float | tuple[float, float],
+        *,
+        mode: str | Sequence[str] | None = None,
+        events: int = _MOST_EVENTS,
+        parameters: Mapping[str, ArrayLike] | None = None,
+        threads: int | None = None,
+        progress: Callable[[int, int], Any] | bool | None = None,
+    ) -> Fates:
+        """How the runs of many starts end: in parallel, with the same bits for any number of threads.
+
+        ``starts`` has one start a row. ``parameters`` may have an array for a parameter: one value for each start; one start is repeated for all of
+        them. ``progress`` is a function of (done, all), or True for a bar of tqdm.
+        """
+        begin, end = (0.0, float(time)) if np.ndim(time) == 0 else (float(part) for part in time)  # type: ignore[union-attr]
+        rows = np.atleast_2d(np.asarray(starts, dtype=float))
+        changed = {name: np.asarray(value, dtype=float) for name, value in (parameters or {}).items()}
+        self._parameters({name: 0.0 for name in changed})
+        try:
+            shape = np.broadcast_shapes((rows.shape[0],), *(value.shape for value in changed.values()))
+        except ValueError:
+            sizes = {name: value.shape for name, value in changed.items()}
+            raise ValueError(f"{rows.shape[0]} starts and parameters of the shapes {sizes} do not fit together") from None
+        rows = np.broadcast_to(rows, (shape[0], rows.shape[1]))
+        if rows.shape[1] != len(self.states):
+            raise ValueError(f"a start has {len(self.states)} components ({', '.join(self.states)}), not {rows.shape[1]}")
+        modes = [mode] * shape[0] if mode is None or isinstance(mode, str) else list(mode)
+        modes = [self._first_mode(own) for own in modes]
+        values = [list(row) for row in zip(*(np.broadcast_to(value, shape).tolist() for value in changed.values()))]
+        if self._equations is None:
+            return self._fates_by_callbacks(rows, (begin, end), modes, events, list(changed), values, progress)
+        found = self._equations.fates(
+            modes, rows.tolist(), (begin, end), events, list(changed), values, threads, progress
+        )
+        states = found.states[:, : len(self.states)]
+        texts = (np.array(part, dtype=str) for part in (found.reasons, found.surfaces, found.modes))
+        return Fates(*texts, found.times, found.events, states)
+
+    def steps(
+        self,
+        time: float | tuple[float, float],
+        *,
+        modes: Sequence[str] | None = None,
+        ends: Sequence[str] | None = None,
+        parameters: Mapping[str, float] | None = None,
+    ) -> Steps:
+        """The flow over a time as a map of states, for attractors and basins: over a period of the forcing, if the system has one.
+
+        With several modes the number of the mode in ``modes`` is the last coordinate. An orbit that ends at a surface has the label 65001, 65002, … of the
+        surface's place in ``ends``: by default those of all guards with ``terminal=True``, in their order.
+        """
+        begin, end = (0.0, float(time)) if np.ndim(time) == 0 else (float(part) for part in time)  # type: ignore[union-attr]
+        equations = (self.with_parameters(**parameters) if parameters else self).equations
+        names = list(modes) if modes is not None else self.modes
+        return _native.Steps.of_flow(equations, names, (begin, end), self._ends if ends is None else list(ends))
+
+    def returns(
+        self,
+        to: str,
+        *,
+        coordinates: Sequence[str],
+        start: FunctionOrFormulas | None = None,
+        image: FunctionOrFormulas | None = None,
+        parameter: str | None = None,
+        mode: str | None = None,
+    ) -> ReturnMap:
+        """The map from a section to the next event of the guard ``to``.
+
+        ``coordinates`` are the names of the section's coordinates. By default a return starts at the state with these components, and zeros, and its image has
+        these components of the state after the event. ``start`` f(t, q, p) gives the state of a point q, and after it perhaps the time of the start; ``image``
+        f(t, x, p) gives the coordinates of a state. ``mode`` is that of the start, ``parameter`` the one that may change: the first one by default.
+        """
+        equations = self.equations
+        if not self.parameters:
+            raise ValueError("a return map depends on a parameter, and the system has none: give it one, parameters={...}")
+        name = next(iter(self.parameters)) if parameter is None else parameter
+        self._parameters({name: 0.0})
+        if isinstance(coordinates, str):
+            coordinates = coordinates.replace(",", " ").split()
+        section = Model(coordinates, self.parameters)
+        begin = None if start is None else section.formulas("the start of a return", start).texts
+        after = None if image is None else Model(self.states, self.parameters).formulas("the image", image).texts
+        native = _native.ReturnMap(equations, name, self._first_mode(mode), to, list(coordinates), begin, after)
+        return ReturnMap(native, name, self.parameters[name])
+
+    def _fates_by_callbacks(
+        self, rows: Any, time: Any, modes: Any, events: int, names: Any, values: Any, progress: Any
+    ) -> Fates:
+        from ._progress import function_of
+
+        told, ends = function_of(progress), []
+        for k, row in enumerate(rows):
+            own = dict(zip(names, values[k])) if names else None
+            try:
+                run = self.run(row, time, mode=modes[k], events=events, parameters=own, t=[time[0]])
+                last = run.events[-1].surface if run.reason == "terminal" else ""
+                ends.append((run.reason, last, str(run.trajectory["modes"][-1]), run.trajectory["times"][-1], len(run.events), run.end))
+            except ArithmeticError as error:
+                ends.append((f"failed: {error}", "", "", np.nan, 0, np.full(len(self.states), np.nan)))
+            if told is not None:
+                told(k + 1, len(rows))
+        reason, surface, last_mode, when, count, state = zip(*ends) if ends else ((),) * 6
+        texts = (np.array(part, dtype=str) for part in (reason, surface, last_mode))
+        shape = (len(ends), len(self.states))
+        return Fates(*texts, np.array(when), np.array(count, dtype=np.uint64), np.array(state).reshape(shape))
+
+    def _first_mode(self, mode: str | None) -> str:
+        if mode is None:
+            if len(self.modes) > 1:
+                raise ValueError(f"the system has several modes: give mode=, one of {', '.join(self.modes)}")
+            return self.modes[0]
+        if mode not in self.modes:
+            raise ValueError(f"there is no mode {mode!r}; the modes are: {', '.join(self.modes)}")
+        return mode
+
+    def _parameters(self, changed: Mapping[str, float]) -> dict[str, float]:
+        for name in changed:
+            if name not in self.parameters:
+                known = ", ".join(self.parameters) or "none"
+                raise ValueError(f"there is no parameter {name!r}; the parameters are: {known}")
+        return {**self.parameters, **{name: float(value) for name, value in changed.items()}}
+
+    def __getstate__(self) -> dict[str, Any]:
+        if self._equations is None:
+            raise TypeError(
+                f"cannot pickle a System without formulas, as it holds functions: {self.why_not}; make it again where it is"
+                " needed"
+            )
+        return dict(self.__dict__)
+
+    def __repr__(self) -> str:
+        how = "compiled" if self.compiled else "by callbacks"
+        return f"System(states={self.states!r}, parameters={self.parameters!r}, modes={self.modes!r}, {how})"
+
+
+def _tolerances(tolerance: float, absolute: Any, longest_step: float, dimension: int) -> dict[str, Any]:
+    found: dict[str, Any] = {"relative": float(tolerance), "absolute": float(tolerance), "longest_step": float(longest_step)}
+    if np.ndim(absolute) == 1:
+        each = [float(part) for part in absolute]
+        if len(each) != dimension:
+            raise ValueError(f"absolute= has {len(each)} tolerances for {dimension} components")
+        found["absolute_each"] = each
+    elif absolute is not None:
+        found["absolute"] = float(absolute)
+    for name in ("relative", "absolute"):
+        if not 0.0 < found[name] <= 0.1:
+            raise ValueError(f"the {name} tolerance must be positive and at most 0.1, not {found[name]!r}")
+    if not found["longest_step"] > 0.0:
+        raise ValueError(f"longest_step must be positive, not {longest_step!r}")
+    return found
+
+
+class _Functions:
+    """The functions of a system, as the user gave them."""
+
+    def __init__(self, fields: dict[str, Any], guards: list[Any], rests: dict[str, Any], args: tuple[Any, ...]) -> None:
+        for guard in guards:
+            if not isinstance(guard, (Guard, Clock)):
+                raise TypeError(f"guards are of nonsmooth.Guard and Clock, not {type(guard).__name__}")
+        names = [guard.name for guard in guards]
+        twice = {name for name in names if names.count(name) > 1}
+        if twice:
+            raise ValueError(f"two guards are named {sorted(twice)[0]!r}: an event could not be told")
+        for guard in guards:
+            for mode in [*(guard.modes or []), *([guard.to] if guard.to is not None else [])]:
+                if mode not in fields:
+                    raise ValueError(f"{guard.name!r} names the mode {mode!r}; the modes are: {', '.join(fields)}")
+        self.fields, self.guards, self.args = fields, guards, args
+        self.rests = {mode: (to, None) if isinstance(to, str) else tuple(to) for mode, to in rests.items()}
+
+    def of(self, given: Any) -> Any:
+        """The function f(t, x, p) of a function with further arguments."""
+        args = self.args
+        if not args or not callable(given):
+            return given
+        return lambda t, x, p: given(t, x, *args) if not len(p) else given(t, x, p, *args)
+
+    def equations(self, model: Model, tolerances: dict[str, Any]) -> Equations:
+        def value(what: str, given: Any) -> Any:
+            return json.loads(model.formulas(what, self.of(given)).json)
+
+        def part(what: str, given: Any) -> Any:
+            whole = value(what, given)
+            return {"parts": whole["parts"], "outputs": whole["outputs"]}
+
+        def jump(what: str, surface: Any) -> dict[str, Any]:
+            found: dict[str, Any] = {}
+            if surface.to is not None:
+                found["mode"] = surface.to
+            if surface.reset is not None:
+                found["state"] = part(f"the reset of {what}", surface.reset)
+            return found
+
+        def guard(surface: Any) -> dict[str, Any]:
+            what = repr(surface.name)
+            found: dict[str, Any] = {"surface": surface.name, "touch": "error", "direction": "either"}
+            if isinstance(surface, Clock):
+                found["role"] = "clock"
+                if surface.times is not None:
+                    found["times"], times = "listed", [float(time) for time in surface.times]
+                else:
+                    period = float(surface.period)  # type: ignore[arg-type]
+                    times = [period if surface.first is None else float(surface.first), period]
+                found["function"] = part(f"the times of {what}", lambda t, x, p: times)
+            else:
+                found.update(direction=surface.direction, role=surface.role, touch=surface.touch)
+                found["function"] = part(f"the guard {what}", surface.function)
+                if surface.only_where is not None:
+                    found["condition"] = part(f"the condition of {what}", surface.only_where)
+                    found["role"] = "crossing" if surface.role == "switch" else surface.role
+            if not surface.terminal:
+                found["jump"] = jump(what, surface)
+            return found
+
+        modes = []
+        for mode, field in self.fields.items():
+            what = "the field" if len(self.fields) == 1 else f"the field of {mode!r}"
+            own: dict[str, Any] = {"name": mode, "field": part(what, field)}
+            own["guards"] = [guard(surface) for surface in self.guards if surface.modes is None or mode in surface.modes]
+            if mode in self.rests:
+                to, reset = self.rests[mode]
+                own["after_limit"] = {"mode": to}
+                if reset is not None:
+                    own["after_limit"]["state"] = part(f"the rest of {mode!r}", reset)
+            modes.append(own)
+        names = {"states": model.states, "parameters": [[name, repr(value)] for name, value in model.parameters.items()]}
+        whole = {"format": "hybrid equations", "version": 1, **names, "everywhere": [], "modes": modes}
+        return Equations(json.dumps(whole), **tolerances)
+
+
+class _Callbacks:
+    """A system whose functions are called: the time is the last component of its state."""
+
+    def __init__(self, functions: _Functions, states: list[str], tolerances: dict[str, Any]) -> None:
+        if "absolute_each" in tolerances or tolerances["absolute"] != tolerances["relative"]:
+            raise ValueError("tolerances for each component, and another absolute one, need formulas")
+        for guard in functions.guards:
+            if isinstance(guard, Guard) and guard.only_where is not None:
+                raise ValueError(f"only_where of {guard.name!r} needs formulas")
+        for what, given in [
+            *((f"the field of {mode!r}", field) for mode, field in functions.fields.items()),
+            *((f"the guard {guard.name!r}", guard.function) for guard in functions.guards if isinstance(guard, Guard)),
+            *((f"the reset of {guard.name!r}", guard.reset) for guard in functions.guards if guard.reset is not None),
+        ]:
+            if not callable(given):
+                raise TypeError(f"{what} is no function, and others have no formulas: give functions for all")
+        self.functions, self.states, self.tolerances = functions, states, tolerances
+
+    def run(
+        self, mode: str, start: NDArray[np.float64], times: tuple[float, float], events: int, parameters: dict[str, float]
+    ) -> _CallbackSolution:
+        from .tracing import Parameters
+
+        p = Parameters(list(parameters), list(parameters.values()))
+        of = self.functions.of
+        fields = {mode: of(field) for mode, field in self.functions.fields.items()}
+
+        def field(mode: str, x: Any) -> list[Any]:
+            return [*np.ravel(fields[mode](x[-1], x[:-1], p)), 1.0]
+
+        def reset(surface: Any) -> Any:
+            if surface.terminal:
+                return None
+            own = None if surface.reset is None else of(surface.reset)
+
+            def jump(mode: str, x: Any) -> tuple[str, Any]:
+                state = x if own is None else [*np.ravel(own(x[-1], x[:-1], p)), x[-1]]
+                return (surface.to if surface.to is not None else mode, state)
+
+            return jump
+
+        def native(surface: Any) -> Any:
+            modes = None if surface.modes is None else list(surface.modes)
+            if isinstance(surface, Clock):
+                times = None if surface.times is None else [float(time) for time in surface.times]
+                first = 0.0 if surface.period is None else surface.period if surface.first is None else surface.first
+                return _native.Clock(
+                    surface.name, times=times, period=surface.period, first=first, reset=reset(surface), modes=modes
+                )
+            own = of(surface.function)
+            observes = not surface.terminal and surface.reset is None and surface.to is None
+            role: Any = "terminal" if surface.terminal else "observer" if observes else surface.role
+            return _native.Guard(
+                surface.name,
+                lambda x: own(x[-1], x[:-1], p),
+                surface.direction,
+                reset=None if observes else reset(surface),
+                role=role,
+                touch=surface.touch,
+                modes=modes,
+            )
+
+        def rest(mode: str, x: Any) -> Any:
+            if mode not in self.functions.rests:
+                return None
+            to, own = self.functions.rests[mode]
+            return (to, x if own is None else [*np.ravel(of(own)(x[-1], x[:-1], p)), x[-1]])
+
+        system = _native.HybridSystem(
+            field=field,
+            guards=[native(surface) for surface in self.functions.guards],
+            rest=rest if self.functions.rests else None,
+            tolerance=self.tolerances["relative"],
+            longest_step=self.tolerances["longest_step"],
+        )
+        execution = system.run([*start, times[0]], time=times[1], mode=mode, events=events, start_time=times[0])
+        return _CallbackSolution(execution, len(self.states))
+
+
+class _CallbackSolution:
+    """A run by callbacks, with what a Solution of formulas has."""
+
+    def __init__(self, execution: Any, dimension: int) -> None:
+        self.arcs: list[Any] = []
+        self.error: Exception | None = None
+        self._dimension = dimension
+        try:
+            self.arcs.extend(execution)
+        except Exception as error:
+            if not self.arcs:
+                raise
+            self.error = error
+        self.stop: str = execution.stop or "failed"
+        self.times = (self.arcs[0].time, execution.time)
+
+    @property
+    def events(self) -> list[Event]:
+        return [arc.event for arc in self.arcs if arc.event is not None]
+
+    def states(self, times: Any, /) -> Any:
+        return _native.arc_states(self.arcs, times)
+
+    def trajectory(self, grid: Any, /) -> Any:
+        return _native.arc_trajectory(self.arcs, grid)
