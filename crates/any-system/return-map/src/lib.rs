@@ -129,8 +129,8 @@ mod state_maps;
 
 pub use branches::{
     Bifurcation, BifurcationCurve, BifurcationCurvePoint, BifurcationKind, Branch, BranchEnd,
-    BranchPoint, BranchSteps, CurveEnd, bifurcation_curve, branch_point, border_curve, cascade, continue_branch,
-    doubled_branch, follow_behind, follow_branch, follow_equilibria,
+    BranchPoint, BranchSteps, CurveEnd, bifurcation_curve, border_curve, branch_point, cascade,
+    continue_branch, doubled_branch, follow_behind, follow_branch, follow_equilibria,
 };
 pub use error::Error;
 pub use families::{

@@ -8,13 +8,14 @@ missed, and derivatives are exact.
 >>> pendulum = ns.System(lambda t, x, p: [x[1], -np.sin(x[0]) - p.damping * x[1]], states="angle speed", parameters={"damping": 0.1})
 >>> run = pendulum.run([3, 0], time=50)
 >>> round(float(run.sol(50)[0]), 6)
-0.078957
+0.149956
 """
 
 import os as _os
 
-from . import _native, hybrid, labelling
+from . import _native, hybrid, labelling, plots
 from ._native import Equations, Event, Formulas, Steps, TracingError, UndecidedError, Zeno, __version__
+from .basins import attractors_of, basins_of, map_steps
 from .returns import Bifurcation, Branch, Diagram, PeriodicPoint, ReturnMap
 from .runs import Fates, Run
 from .surfaces import Clock, Guard
@@ -44,6 +45,10 @@ __all__ = [
     "TracingError",
     "UndecidedError",
     "Zeno",
+    "attractors_of",
+    "basins_of",
     "hybrid",
     "labelling",
+    "map_steps",
+    "plots",
 ]

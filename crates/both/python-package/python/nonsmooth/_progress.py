@@ -1,10 +1,16 @@
 """How far a computation is: by a function of the caller, or by a bar of tqdm."""
 
 
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+
 class _Bar:
     """A bar of tqdm as a function of the finished and of all parts. It is closed when all are finished."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         try:
             from tqdm.auto import tqdm
         except ImportError as error:
@@ -15,7 +21,7 @@ class _Bar:
         self._tqdm = tqdm
         self._bar = None
 
-    def __call__(self, done, all):
+    def __call__(self, done: int, all: int) -> None:
         if self._bar is None:
             self._bar = self._tqdm(total=all)
         self._bar.update(done - self._bar.n)
@@ -23,7 +29,7 @@ class _Bar:
             self._bar.close()
 
 
-def function_of(progress):
+def function_of(progress: Any) -> Callable[[int, int], Any] | None:
     """The function progress(done, all) of an argument ``progress``: None or False for none, True for a bar of tqdm, or
     a function."""
     if progress is None or progress is False:
@@ -33,7 +39,7 @@ def function_of(progress):
     if not callable(progress):
         raise TypeError(f"progress is a function of (done, all), True for a bar of tqdm, or None, not {progress!r}")
 
-    def told(done, all):
+    def told(done: int, all: int) -> Any:
         try:
             return progress(done, all)
         except StopIteration as error:

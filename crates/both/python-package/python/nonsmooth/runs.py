@@ -50,7 +50,8 @@ class Run:
     """
 
     def __init__(self, states: list[str], solution: _Solution, times: ArrayLike | None) -> None:
-        self._names = states
+        #: The names of the components.
+        self.names = states
         self._solution = solution
         self._asked = None if times is None else np.asarray(times, dtype=float)
 
@@ -75,7 +76,7 @@ class Run:
         else:
             grid = np.array([begin])
         found = self._solution.trajectory(grid)
-        found["states"] = found["states"][:, : len(self._names)]
+        found["states"] = found["states"][:, : len(self.names)]
         return found
 
     @property
@@ -101,8 +102,8 @@ class Run:
         times = np.asarray(t, dtype=float)
         flat = times.ravel()
         order = np.argsort(flat, kind="stable")
-        found = np.empty((len(flat), len(self._names)))
-        found[order] = self._solution.states(flat[order])[:, : len(self._names)]
+        found = np.empty((len(flat), len(self.names)))
+        found[order] = self._solution.states(flat[order])[:, : len(self.names)]
         return found[0] if times.ndim == 0 else found.T
 
     @property
@@ -117,7 +118,7 @@ class Run:
         except ImportError as error:
             raise ImportError("to_pandas needs pandas: pip install pandas") from error
         rows = self.trajectory
-        table = pandas.DataFrame(rows["states"], columns=self._names)
+        table = pandas.DataFrame(rows["states"], columns=self.names)
         table.insert(0, "t", rows["times"])
         table["mode"] = [str(mode) for mode in rows["modes"]]
         table["jump"] = rows["jumps"]
@@ -131,7 +132,7 @@ class Run:
             raise ImportError("to_xarray needs xarray: pip install 'passive-hopper[xarray]'") from error
         rows = self.trajectory
         on = slice(None) if self._asked is None else rows["on_grid"]
-        data = {name: ("t", rows["states"][on][:, k]) for k, name in enumerate(self._names)}
+        data = {name: ("t", rows["states"][on][:, k]) for k, name in enumerate(self.names)}
         data["mode"] = ("t", np.array([str(mode) for mode in rows["modes"]])[on])
         data["jump"] = ("t", rows["jumps"][on])
         data["event_time"] = ("event", rows["event_times"])

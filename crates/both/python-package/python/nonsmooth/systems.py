@@ -125,7 +125,7 @@ class System:
         """
         if parameters:
             return self.with_parameters(**parameters).run(start, time, mode=mode, t=t, events=events)
-        begin, end = (0.0, float(time)) if np.ndim(time) == 0 else (float(part) for part in time)  # type: ignore[union-attr]
+        begin, end = _span(time)
         state = np.array(start, dtype=float).ravel()
         if len(state) != len(self.states):
             raise ValueError(f"the state has {len(self.states)} components ({', '.join(self.states)}), not {len(state)}")
@@ -158,7 +158,7 @@ class System:
         ``starts`` has one start a row. ``parameters`` may have an array for a parameter: one value for each start; one start is repeated for all of
         them. ``progress`` is a function of (done, all), or True for a bar of tqdm.
         """
-        begin, end = (0.0, float(time)) if np.ndim(time) == 0 else (float(part) for part in time)  # type: ignore[union-attr]
+        begin, end = _span(time)
         rows = np.atleast_2d(np.asarray(starts, dtype=float))
         changed = {name: np.asarray(value, dtype=float) for name, value in (parameters or {}).items()}
         self._parameters({name: 0.0 for name in changed})
@@ -179,8 +179,8 @@ class System:
             modes, rows.tolist(), (begin, end), events, list(changed), values, threads, progress
         )
         states = found.states[:, : len(self.states)]
-        texts = (np.array(part, dtype=str) for part in (found.reasons, found.surfaces, found.modes))
-        return Fates(*texts, found.times, found.events, states)
+        reason, surface, last = (np.array(part, dtype=str) for part in (found.reasons, found.surfaces, found.modes))
+        return Fates(reason, surface, last, found.times, found.events, states)
 
     def steps(
         self,
@@ -195,7 +195,7 @@ class System:
         With several modes the number of the mode in ``modes`` is the last coordinate. An orbit that ends at a surface has the label 65001, 65002, … of the
         surface's place in ``ends``: by default those of all guards with ``terminal=True``, in their order.
         """
-        begin, end = (0.0, float(time)) if np.ndim(time) == 0 else (float(part) for part in time)  # type: ignore[union-attr]
+        begin, end = _span(time)
         equations = (self.with_parameters(**parameters) if parameters else self).equations
         names = list(modes) if modes is not None else self.modes
         return _native.Steps.of_flow(equations, names, (begin, end), self._ends if ends is None else list(ends))
@@ -245,10 +245,10 @@ class System:
                 ends.append((f"failed: {error}", "", "", np.nan, 0, np.full(len(self.states), np.nan)))
             if told is not None:
                 told(k + 1, len(rows))
-        reason, surface, last_mode, when, count, state = zip(*ends) if ends else ((),) * 6
-        texts = (np.array(part, dtype=str) for part in (reason, surface, last_mode))
-        shape = (len(ends), len(self.states))
-        return Fates(*texts, np.array(when), np.array(count, dtype=np.uint64), np.array(state).reshape(shape))
+        columns = [list(column) for column in zip(*ends)] if ends else [[]] * 6
+        reason, surface, last_mode = (np.array(column, dtype=str) for column in columns[:3])
+        when, count, state = np.array(columns[3]), np.array(columns[4], dtype=np.uint64), np.array(columns[5])
+        return Fates(reason, surface, last_mode, when, count, state.reshape(len(ends), len(self.states)))
 
     def _first_mode(self, mode: str | None) -> str:
         if mode is None:
@@ -277,6 +277,14 @@ class System:
     def __repr__(self) -> str:
         how = "compiled" if self.compiled else "by callbacks"
         return f"System(states={self.states!r}, parameters={self.parameters!r}, modes={self.modes!r}, {how})"
+
+
+def _span(time: float | tuple[float, float]) -> tuple[float, float]:
+    """Both ends of a time: it begins at 0, unless the caller gives two."""
+    if isinstance(time, (tuple, list, np.ndarray)):
+        begin, end = time
+        return float(begin), float(end)
+    return 0.0, float(time)
 
 
 def _tolerances(tolerance: float, absolute: Any, longest_step: float, dimension: int) -> dict[str, Any]:

@@ -93,7 +93,7 @@ class Model:
         if not callable(given):
             given = list(given)
             if all(isinstance(text, str) for text in given):
-                return self.trace.from_text(given)
+                return self.trace.of_text(given)
             given = self._of_sympy(given)
         try:
             symbolic = Parameters(list(self.parameters), self.trace.parameters())

@@ -6,13 +6,14 @@
 //!                          └──────► returns ─► steps
 //! ```
 //!
-//! A `trace` makes `symbols` for the time, the state and the parameters. A function of Python is called once with them, and what it
+//! A `trace` makes `symbols` for the time, the state and the parameters, which `numpy_functions` accept. A function of Python is called once with them, and what it
 //! returns are formulas as JSON. The `equations` of a model are made of them; a run of these is a `solution`, and the ends of many
 //! runs are `fates`. `returns` are the map from a section to itself, and `steps` any map of states, for attractors and basins. No Python runs
 //! meanwhile.
 
 mod equations;
 mod fates;
+mod numpy_functions;
 mod returns;
 mod solution;
 mod steps;

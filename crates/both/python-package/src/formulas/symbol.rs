@@ -1,5 +1,6 @@
 //! Symbols that a function of Python computes with.
 
+use super::numpy_functions::{GUARD, is_function, no_function};
 use crate::errors::TracingError;
 use equations::{Binary, Node, Unary};
 use numpy::PyUntypedArray;
@@ -25,58 +26,6 @@ pub(crate) struct Symbol {
     pub(super) place: usize,
 }
 
-/// A function of one number by the name that NumPy's function has.
-const UNARY: [(&str, Unary); 19] = [
-    ("negative", Unary::Negative),
-    ("sqrt", Unary::SquareRoot),
-    ("exp", Unary::Exponential),
-    ("log", Unary::Logarithm),
-    ("sin", Unary::Sine),
-    ("cos", Unary::Cosine),
-    ("tan", Unary::Tangent),
-    ("arcsin", Unary::ArcSine),
-    ("arccos", Unary::ArcCosine),
-    ("arctan", Unary::ArcTangent),
-    ("sinh", Unary::HyperbolicSine),
-    ("cosh", Unary::HyperbolicCosine),
-    ("tanh", Unary::HyperbolicTangent),
-    ("arcsinh", Unary::InverseHyperbolicSine),
-    ("arccosh", Unary::InverseHyperbolicCosine),
-    ("arctanh", Unary::InverseHyperbolicTangent),
-    ("absolute", Unary::Absolute),
-    ("fabs", Unary::Absolute),
-    ("sign", Unary::Sign),
-];
-
-/// The same of two numbers.
-const BINARY: [(&str, Binary); 12] = [
-    ("add", Binary::Sum),
-    ("subtract", Binary::Difference),
-    ("multiply", Binary::Product),
-    ("divide", Binary::Quotient),
-    ("true_divide", Binary::Quotient),
-    ("power", Binary::Power),
-    ("float_power", Binary::Power),
-    ("arctan2", Binary::ArcTangent2),
-    ("minimum", Binary::Minimum),
-    ("maximum", Binary::Maximum),
-    ("fmin", Binary::Minimum),
-    ("fmax", Binary::Maximum),
-];
-
-/// Functions that ask whether something is true.
-const COMPARISONS: [&str; 9] = [
-    "greater",
-    "greater_equal",
-    "less",
-    "less_equal",
-    "equal",
-    "not_equal",
-    "heaviside",
-    "floor",
-    "ceil",
-];
-
 impl Symbol {
     /// A new part, and its symbol.
     pub(super) fn of(parts: &Parts, node: Node) -> PyResult<Symbol> {
@@ -89,15 +38,15 @@ impl Symbol {
         Ok(Symbol { parts: Arc::clone(parts), place: list.len() - 1 })
     }
 
-    fn unary(&self, function: Unary) -> PyResult<Symbol> {
+    pub(super) fn unary(&self, function: Unary) -> PyResult<Symbol> {
         Symbol::of(&self.parts, Node::Unary(function, self.place))
     }
 
-    fn binary(&self, function: Binary, other: &Symbol) -> PyResult<Symbol> {
+    pub(super) fn binary(&self, function: Binary, other: &Symbol) -> PyResult<Symbol> {
         Symbol::of(&self.parts, Node::Binary(function, self.place, other.place))
     }
 
-    fn number(&self, value: f64) -> PyResult<Symbol> {
+    pub(super) fn number(&self, value: f64) -> PyResult<Symbol> {
         if !value.is_finite() {
             let text = format!("{value} is no number of a formula: it must be finite");
             return Err(PyValueError::new_err(text));
@@ -135,70 +84,10 @@ impl Symbol {
         let (left, right) = if is_left { (self, &other) } else { (&other, self) };
         Ok(Py::new(py, left.binary(function, right)?)?.into_any())
     }
-
-    /// A function of NumPy of one symbol, by its name.
-    fn function(&self, name: &str) -> PyResult<Option<Symbol>> {
-        if let Some((_, function)) = UNARY.iter().find(|(known, _)| *known == name) {
-            return self.unary(*function).map(Some);
-        }
-        let scaled = |factor: f64| self.binary(Binary::Product, &self.number(factor)?);
-        let half = || self.binary(Binary::Quotient, &self.number(2.0)?);
-        Ok(Some(match name {
-            "positive" | "conjugate" | "real" => self.clone(),
-            "square" => self.binary(Binary::Product, self)?,
-            "reciprocal" => self.number(1.0)?.binary(Binary::Quotient, self)?,
-            "deg2rad" | "radians" => scaled(std::f64::consts::PI / 180.0)?,
-            "rad2deg" | "degrees" => scaled(180.0 / std::f64::consts::PI)?,
-            "exp2" => scaled(std::f64::consts::LN_2)?.unary(Unary::Exponential)?,
-            "log2" => {
-                let logarithm = self.unary(Unary::Logarithm)?;
-                logarithm.binary(Binary::Quotient, &self.number(std::f64::consts::LN_2)?)?
-            }
-            "log10" => {
-                let logarithm = self.unary(Unary::Logarithm)?;
-                logarithm.binary(Binary::Quotient, &self.number(std::f64::consts::LN_10)?)?
-            }
-            // eˣ − 1 = 2 sinh(x/2) e^(x/2), which loses no digits near 0.
-            "expm1" => {
-                let (sine, power) =
-                    (half()?.unary(Unary::HyperbolicSine)?, half()?.unary(Unary::Exponential)?);
-                self.number(2.0)?.binary(Binary::Product, &sine.binary(Binary::Product, &power)?)?
-            }
-            // ln(1 + x) = 2 artanh(x/(x + 2)).
-            "log1p" => {
-                let below = self.binary(Binary::Sum, &self.number(2.0)?)?;
-                let tangent = self.binary(Binary::Quotient, &below)?;
-                let area = tangent.unary(Unary::InverseHyperbolicTangent)?;
-                self.number(2.0)?.binary(Binary::Product, &area)?
-            }
-            _ => return Ok(None),
-        }))
-    }
-
-    /// A function of NumPy of two, of which one is this symbol.
-    fn function_of_two(name: &str, left: &Symbol, right: &Symbol) -> PyResult<Option<Symbol>> {
-        if name == "hypot" {
-            let square = left.binary(Binary::Product, left)?;
-            let sum = square.binary(Binary::Sum, &right.binary(Binary::Product, right)?)?;
-            return sum.unary(Unary::SquareRoot).map(Some);
-        }
-        let known = BINARY.iter().find(|(known, _)| *known == name);
-        known.map(|(_, function)| left.binary(*function, right)).transpose()
-    }
-
-    fn no_function(name: &str) -> PyErr {
-        let text = match COMPARISONS.contains(&name) {
-            true => format!("numpy.{name} asks where a symbol is: {GUARD}"),
-            false => format!("formulas have no numpy.{name}"),
-        };
-        TracingError::new_err(text)
-    }
 }
 
 /// What NumPy adds to the name of a function of each element.
 const VECTORIZED: &str = " (vectorized)";
-
-const GUARD: &str = "a comparison is a guard between two modes, or numpy.minimum, maximum, abs";
 
 fn no_value(asked: &str) -> PyErr {
     TracingError::new_err(format!("{asked} asks for the value of a symbol"))
@@ -272,10 +161,7 @@ impl Symbol {
     /// NumPy's functions of arrays of symbols call methods of these names.
     fn __getattr__(own: &Bound<'_, Self>, name: &str) -> PyResult<Py<PyAny>> {
         let py = own.py();
-        let is_known = UNARY.iter().any(|(known, _)| *known == name)
-            || BINARY.iter().any(|(known, _)| *known == name)
-            || NAMES_OF_ONE.contains(&name);
-        if !is_known {
+        if !is_function(name) {
             let text = format!("a symbol of a formula has no attribute {name:?}");
             return Err(pyo3::exceptions::PyAttributeError::new_err(text));
         }
@@ -331,7 +217,7 @@ impl Symbol {
             [left, right] => Symbol::function_of_two(&name, left, right)?,
             _ => None,
         };
-        let found = found.ok_or_else(|| Symbol::no_function(&name))?;
+        let found = found.ok_or_else(|| no_function(&name))?;
         Ok(Py::new(py, found)?.into_any())
     }
 
@@ -383,21 +269,3 @@ impl Symbol {
         format!("Symbol({})", self.place)
     }
 }
-
-/// Functions that are made of others.
-const NAMES_OF_ONE: [&str; 14] = [
-    "positive",
-    "conjugate",
-    "square",
-    "reciprocal",
-    "deg2rad",
-    "radians",
-    "rad2deg",
-    "degrees",
-    "exp2",
-    "log2",
-    "log10",
-    "expm1",
-    "log1p",
-    "hypot",
-];

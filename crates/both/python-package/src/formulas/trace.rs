@@ -47,7 +47,7 @@ impl Trace {
     }
 
     /// The formulas of texts.
-    fn from_text(&self, texts: Vec<String>) -> PyResult<Formulas> {
+    fn of_text(&self, texts: Vec<String>) -> PyResult<Formulas> {
         let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
         let own = equations::Formulas::from_text(self.names.clone(), &texts);
         Ok(Formulas { own: own.map_err(value_error)? })

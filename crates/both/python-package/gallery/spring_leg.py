@@ -1,0 +1,30 @@
+"""A runner on a spring leg (SLIP): the map from apex to apex, its stable run, and the heights from which the runner falls."""
+
+import matplotlib.pyplot as plt
+import nonsmooth as ns
+import numpy as np
+
+
+def stance(t, x, p):
+    length = np.sqrt(x[0] ** 2 + x[1] ** 2)
+    push = p.stiffness / p.mass * (p.leg / length - 1)
+    return [x[2], x[3], push * x[0], push * x[1] - 9.81]
+
+
+def touchdown(t, x, p):
+    return [-p.leg * np.cos(np.deg2rad(p.attack)), x[1], x[2], x[3]]
+
+
+runner = ns.System(
+    {"flight": lambda t, x, p: [x[2], x[3], 0, -9.81], "stance": stance},
+    states="x height speed climb",
+    parameters={"attack": 68, "mass": 80, "stiffness": 2e4, "leg": 1},
+    guards=[
+        ns.Guard("touchdown", lambda t, x, p: x[1] - p.leg * np.sin(np.deg2rad(p.attack)), "falling", touchdown, "stance", ["flight"], role="crossing"),
+        ns.Guard("apex", lambda t, x, p: x[3], "falling", modes=["flight"]),
+        ns.Guard("take-off", lambda t, x, p: np.sqrt(x[0] ** 2 + x[1] ** 2) - p.leg, "rising", None, "flight", ["stance"], role="crossing"),
+    ],
+)
+apexes = runner.returns("apex", coordinates="h", start=lambda t, q, p: [0, q[0], np.sqrt(25 + 2 * 9.81 * (1 - q[0])), 0], image=["height"], mode="flight")
+ns.plots.plot_cobweb(apexes, 0.99, (0.928, 1.1), images=30).set(xlabel="apex height, m", ylabel="next apex height, m")
+plt.savefig("spring_leg.png", dpi=80, bbox_inches="tight")
