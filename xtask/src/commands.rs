@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::process::{become_program, cargo, print, profile};
 use crate::repository::repository;
 use crate::{check_builds, check_certificates, check_dependencies, check_explorer, check_python};
-use crate::{explore, regenerate, tidy};
+use crate::{explore, python_release, regenerate, tidy};
 use std::ffi::{OsStr, OsString};
 use std::process::{Command, ExitCode};
 
@@ -37,7 +37,7 @@ const fn task(name: &'static str, run: Run, about: &'static str) -> Task {
 }
 
 /// The commands of this program, in the order of the help.
-const TASKS: [Task; 9] = [
+const TASKS: [Task; 10] = [
     task(
         "basin-raster",
         OfProgram("basins"),
@@ -67,6 +67,11 @@ const TASKS: [Task; 9] = [
         "check-python",
         Alone(check_python::run),
         "Build the Python package and run its tests: needs Python and package indices",
+    ),
+    task(
+        "python-release",
+        Alone(python_release::run),
+        "Build the wheel and the source archive of the Python package, look at them, and test each installed: needs package indices",
     ),
     task(
         "check-certificates",

@@ -15,6 +15,7 @@ mod explorer_build;
 mod explorer_file;
 mod process;
 mod python_environment;
+mod python_release;
 mod regenerate;
 mod repository;
 mod static_server;

@@ -4,23 +4,19 @@ import matplotlib.pyplot as plt
 import nonsmooth as ns
 import numpy as np
 
-R, C, L, T = 22.0, 47e-6, 20e-3, 400e-6
-
-
-def above_ramp(t, x, p):
-    return 8.4 * (x[0] - 11.3) - 3.8 - 4.4 * x[2]
-
-
+T = 400e-6
+CHARGE, ABOVE_RAMP = "(current - voltage/22)/47e-6", "8.4*(voltage - 11.3) - 3.8 - 4.4*phase"
 converter = ns.System(
     {
-        "on": lambda t, x, p: [(x[1] - x[0] / R) / C, (p.input - x[0]) / L, 1 / T],
-        "off": lambda t, x, p: [(x[1] - x[0] / R) / C, -x[0] / L, 1 / T],
+        "on": [CHARGE, "(input - voltage)/20e-3", "1/400e-6"],
+        "off": [CHARGE, "-voltage/20e-3", "1/400e-6"],
     },
-    states="voltage current phase", parameters={"input": 25.0},
+    states="voltage current phase",
+    parameters={"input": 25.0},
     guards=[
-        ns.Guard("off", above_ramp, "rising", to="off", modes=["on"], role="contact"),
-        ns.Guard("on", above_ramp, "falling", to="on", modes=["off"], role="contact"),
-        ns.Guard("period", lambda t, x, p: x[2] - 1, "rising", lambda t, x, p: [x[0], x[1], 0]),
+        ns.Guard("off", ABOVE_RAMP, "rising", to="off", modes=["on"], role="contact"),
+        ns.Guard("on", ABOVE_RAMP, "falling", to="on", modes=["off"], role="contact"),
+        ns.Guard("period", "phase - 1", "rising", ["voltage", "current", "0"]),
     ],
 )
 run = converter.run([12, 0.55, 0], time=(0, 240 * T), mode="off", t=np.linspace(200 * T, 240 * T, 8001))

@@ -1,6 +1,7 @@
 """The map of the hopper, and an orbit as a cobweb."""
 
+import matplotlib.pyplot as plt
 import passive_hopper as hopper
 
-axes = hopper.cobweb(0.2, 7.0)
-axes.figure.savefig("cobweb.png", dpi=80)
+hopper.cobweb(0.2, 7.0)
+plt.savefig("cobweb.png", dpi=80)

@@ -1,11 +1,13 @@
 """An impact oscillator through grazing: it chatters, rests at its stop until the force turns, and grazes. Its velocity at each period, over the gap."""
 
+from typing import Any
+
 import matplotlib.pyplot as plt
 import nonsmooth as ns
 import numpy as np
 
 
-def force(t, x, p):
+def force(t: Any, x: Any, p: Any) -> Any:
     return -x[0] - 0.2 * x[1] + np.cos(2.7 * t)
 
 

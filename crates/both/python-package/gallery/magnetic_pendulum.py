@@ -1,5 +1,7 @@
 """A pendulum over three magnets: where it comes to rest, for each place at which it is let go."""
 
+from typing import Any
+
 import matplotlib.pyplot as plt
 import nonsmooth as ns
 import numpy as np
@@ -7,7 +9,7 @@ import numpy as np
 ANGLES = 2 * np.pi * np.arange(3) / 3
 
 
-def field(t, x, p):
+def field(t: Any, x: Any, p: Any) -> list[Any]:
     ax, ay = -0.5 * x[0] - p.friction * x[2], -0.5 * x[1] - p.friction * x[3]
     for u, v in zip(np.cos(ANGLES), np.sin(ANGLES)):
         near = ((u - x[0]) ** 2 + (v - x[1]) ** 2 + 0.09) ** 1.5

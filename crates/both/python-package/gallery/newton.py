@@ -1,5 +1,7 @@
 """Newton's method for z³ = 1: three basins with one boundary, and the entropy that shows it to be fractal."""
 
+from typing import Any
+
 import matplotlib.pyplot as plt
 import numpy as np
 from nonsmooth.labelling import UNDECIDED, basins_of, label_image
@@ -7,7 +9,7 @@ from nonsmooth.labelling import UNDECIDED, basins_of, label_image
 roots = np.exp(2j * np.pi * np.arange(3) / 3)
 
 
-def label(x, y):
+def label(x: Any, y: Any) -> Any:
     z = x + 1j * y
     for _ in range(40):
         z = z - (z**3 - 1) / (3 * z**2)

@@ -4,23 +4,14 @@ import matplotlib.pyplot as plt
 import nonsmooth as ns
 import numpy as np
 
-
-def stance(t, x, p):
-    length = np.sqrt(x[0] ** 2 + x[1] ** 2)
-    push = p.stiffness / p.mass * (p.leg / length - 1)
-    return [x[2], x[3], push * x[0], push * x[1] - 9.81]
-
-
-def touchdown(t, x, p):
-    return [-p.leg * np.cos(np.deg2rad(p.attack)), x[1], x[2], x[3]]
-
-
+FORCE = "stiffness/mass*(leg/sqrt(x^2 + height^2) - 1)"
+HEIGHT = "height - leg*sin(attack*pi/180)"
 runner = ns.System(
-    {"flight": lambda t, x, p: [x[2], x[3], 0, -9.81], "stance": stance},
+    {"flight": lambda t, x, p: [x[2], x[3], 0, -9.81], "stance": ["speed", "climb", f"{FORCE}*x", f"{FORCE}*height - 9.81"]},
     states="x height speed climb",
     parameters={"attack": 68, "mass": 80, "stiffness": 2e4, "leg": 1},
     guards=[
-        ns.Guard("touchdown", lambda t, x, p: x[1] - p.leg * np.sin(np.deg2rad(p.attack)), "falling", touchdown, "stance", ["flight"], role="crossing"),
+        ns.Guard("touchdown", HEIGHT, "falling", ["-leg*cos(attack*pi/180)", "height", "speed", "climb"], "stance", ["flight"], role="crossing"),
         ns.Guard("apex", lambda t, x, p: x[3], "falling", modes=["flight"]),
         ns.Guard("take-off", lambda t, x, p: np.sqrt(x[0] ** 2 + x[1] ** 2) - p.leg, "rising", None, "flight", ["stance"], role="crossing"),
     ],

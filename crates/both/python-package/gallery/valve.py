@@ -1,5 +1,7 @@
 """A pressure relief valve whose disc chatters on its seat (Hős, Champneys)."""
 
+from typing import Any
+
 import matplotlib.pyplot as plt
 import numpy as np
 from nonsmooth.hybrid import Guard, HybridSystem
@@ -7,7 +9,7 @@ from nonsmooth.hybrid import Guard, HybridSystem
 damping, load, filling, restitution, flow_rate = 1.25, 10, 20, 0.8, 0.3
 
 
-def field(mode, y):
+def field(mode: str, y: Any) -> Any:
     if mode == "closed":
         return [0, 0, filling * flow_rate]
     return [y[1], y[2] - load - y[0] - damping * y[1], filling * (flow_rate - y[0] * np.sqrt(y[2]))]

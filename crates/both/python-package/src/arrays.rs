@@ -58,6 +58,27 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Numbers {
     }
 }
 
+/// A number, or an array of numbers.
+pub(crate) enum Given {
+    One(f64),
+    Many(Numbers),
+}
+
+impl Given {
+    /// # Errors
+    /// As of [`Numbers`].
+    pub(crate) fn of(object: &Bound<'_, PyAny>) -> PyResult<Self> {
+        if let Some(one) = scalar(object.as_borrowed()) {
+            return Ok(Given::One(one));
+        }
+        let numbers: Numbers = object.extract()?;
+        Ok(match (numbers.shape.as_slice(), numbers.values.as_slice()) {
+            ([], &[one]) => Given::One(one),
+            _ => Given::Many(numbers),
+        })
+    }
+}
+
 /// Where speeds are read from, piece by piece.
 pub(crate) enum Source<'py> {
     /// An array of f64 whose numbers are beside each other. Another Python thread may change it during a

@@ -1,10 +1,12 @@
 //! Long computations that Ctrl-C ends soon, and during which other Python threads run.
 
 use crate::errors::of_callback;
+use crate::generation::generation;
+use crate::workers;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -95,22 +97,13 @@ impl Watch {
     }
 }
 
-/// How often this process was forked from one that had loaded the package: its generation.
-static GENERATION: AtomicU64 = AtomicU64::new(0);
-
 /// The threads of a forked process, with its generation. It is locked only by a thread that is attached to the
 /// interpreter, and so never while another one forks.
 static POOL: Mutex<Option<(u64, Arc<ThreadPool>)>> = Mutex::new(None);
 
-/// To be called in the child after a fork: of the threads of the parent none is there.
-#[pyfunction]
-pub(crate) fn after_fork() {
-    GENERATION.fetch_add(1, Ordering::Relaxed);
-}
-
 /// The threads of a forked process; `None` in a process that was not forked, which has rayon's own.
 fn pool_of_child(_: Python<'_>) -> PyResult<Option<Arc<ThreadPool>>> {
-    let generation = GENERATION.load(Ordering::Relaxed);
+    let generation = generation();
     if generation == 0 {
         return Ok(None);
     }
@@ -127,7 +120,7 @@ fn pool_of_child(_: Python<'_>) -> PyResult<Option<Arc<ThreadPool>>> {
     Ok(Some(new))
 }
 
-/// The result of `work`, which runs in a thread of its own. `report` gets the number of finished parts whenever it
+/// The result of `work`, which runs in another thread. `report` gets the number of finished parts whenever it
 /// has grown.
 ///
 /// After Ctrl-C or an error of `report` this function returns at once. The thread ends as soon as it looks at the
@@ -150,8 +143,7 @@ pub(crate) fn in_background<T: Send + 'static, E: Send + 'static>(
         // The receiver is gone if the result is no longer wanted.
         drop(sender.send(found));
     };
-    let thread = std::thread::Builder::new().spawn(run);
-    thread.map_err(|error| PyRuntimeError::new_err(format!("no thread can be had: {error}")))?;
+    let worker = workers::given(py, Box::new(run))?;
     let mut told = 0;
     let mut look = || {
         py.check_signals()?;
@@ -175,7 +167,10 @@ pub(crate) fn in_background<T: Send + 'static, E: Send + 'static>(
             return Err(error);
         }
         match found {
-            Ok(found) => return found.map_err(error),
+            Ok(found) => {
+                workers::keep(py, worker);
+                return found.map_err(error);
+            }
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(PyRuntimeError::new_err("the computation ended without a result"));

@@ -7,6 +7,7 @@ mod errors;
 mod fates;
 mod fixed_points;
 mod formulas;
+mod generation;
 mod hop;
 mod hybrid;
 mod interruptible;
@@ -15,8 +16,10 @@ mod map;
 mod motion;
 mod pickling;
 mod rasters;
+mod records;
 mod restored;
 mod whole;
+mod workers;
 
 use pyo3::prelude::*;
 
@@ -30,7 +33,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("UndecidedError", module.py().get_type::<errors::UndecidedError>())?;
     module.add("TracingError", module.py().get_type::<errors::TracingError>())?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add_function(wrap_pyfunction!(interruptible::after_fork, module)?)?;
+    module.add_function(wrap_pyfunction!(generation::after_fork, module)?)?;
     module.add_function(wrap_pyfunction!(restored::_restored, module)?)?;
     module.add_class::<map::LiftOffMap>()?;
     module.add_class::<hop::Hop>()?;
@@ -60,6 +63,9 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(formulas::_solution, module)?)?;
     module.add_class::<hybrid::HybridSystem>()?;
     module.add_class::<hybrid::Guard>()?;
+    module.add_class::<hybrid::CFunction>()?;
+    module.add_class::<hybrid::CField>()?;
+    module.add_class::<hybrid::CGuard>()?;
     module.add_class::<hybrid::Clock>()?;
     module.add_class::<hybrid::Execution>()?;
     module.add_class::<hybrid::HybridArc>()?;
@@ -76,6 +82,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(fixed_points::trap, module)?)?;
     module.add_function(wrap_pyfunction!(fixed_points::crisis, module)?)?;
     module.add_function(wrap_pyfunction!(fixed_points::grounding, module)?)?;
+    module.add_function(wrap_pyfunction!(records::images, module)?)?;
     module.add_function(wrap_pyfunction!(fates::label_name, module)?)?;
     module.add_function(wrap_pyfunction!(fates::label_colour, module)?)?;
     module.add_function(wrap_pyfunction!(rasters::basin_labels, module)?)?;

@@ -1,13 +1,17 @@
 //! The lift-off map for scalars and arrays.
 
-use crate::arrays::{Numbers, Source, like, scalar, shaped};
+use crate::arrays::{Given, Numbers, Source, like, scalar, shaped};
 use crate::errors::{map_error, value_error};
 use crate::fates::Fate;
 use crate::hop::Hop;
 use crate::interruptible::{Pace, Watch, in_background};
+use crate::records;
 use crate::whole::{no_room, whole};
 use hopper_basin::{Fates, HopperFate};
+use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use passive_hopper::{HopStatus, MassRatio};
+use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 use std::sync::{Arc, OnceLock};
@@ -55,13 +59,22 @@ impl LiftOffMap {
         self.map.mass_ratio().value()
     }
 
-    /// f(α), for a number or an array; NaN where the hopper is grounded.
-    #[pyo3(signature = (alpha, /))]
+    /// f(α), for a number or an array; NaN where the hopper is grounded. `out` is an array of float64 for the results.
+    #[pyo3(signature = (alpha, /, *, out = None, r#where = None))]
     fn __call__<'py>(
         &self,
         py: Python<'py>,
         alpha: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        r#where: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
+        if r#where.is_some() {
+            let text = "where= is not taken: give the speeds that count, as in m(alpha[mask])";
+            return Err(PyTypeError::new_err(text));
+        }
+        if let Some(out) = out {
+            return self.images_to(py, alpha, out);
+        }
         if let Some(alpha) = scalar(alpha.as_borrowed()) {
             let next =
                 if alpha.is_nan() { None } else { self.map.image(alpha).map_err(map_error)? };
@@ -112,9 +125,15 @@ impl LiftOffMap {
         Ok((images, codes).into_pyobject(py)?.into_any())
     }
 
-    /// The hop that starts with speed α, with all its landings.
-    fn hop(&self, alpha: f64) -> PyResult<Hop> {
-        self.map.bounded_hop(alpha).map(Hop::from).map_err(map_error)
+    /// The hop that starts with speed α, with all its landings. Of an array a record array: `speed`, `next`, `next_error`, `loss`, `sudden`, `flight_time`.
+    fn hop<'py>(&self, py: Python<'py>, alpha: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        match Given::of(alpha)? {
+            Given::One(alpha) => {
+                let hop = self.map.bounded_hop(alpha).map(Hop::from).map_err(map_error)?;
+                Ok(Bound::new(py, hop)?.into_any())
+            }
+            Given::Many(speeds) => records::hops(py, self.map, speeds),
+        }
     }
 
     /// The speeds α, f(α), f(f(α)), …: an array with up to `hops` + 1 speeds. It ends early if the hopper is grounded.
@@ -149,13 +168,17 @@ impl LiftOffMap {
     }
 
     /// The fate of the orbit from α, with the number of hops until it is known. NaN, which the map gives for a
-    /// grounded hopper, is grounded.
-    fn fate(&self, py: Python<'_>, alpha: f64) -> PyResult<Fate> {
-        if alpha.is_nan() {
-            return Ok(Fate::grounded());
+    /// grounded hopper, is grounded. Of an array a record array: `label`, `hops`.
+    fn fate<'py>(&self, py: Python<'py>, alpha: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let given = Given::of(alpha)?;
+        if matches!(given, Given::One(alpha) if alpha.is_nan()) {
+            return Ok(Bound::new(py, Fate::grounded())?.into_any());
         }
         let fates = py.detach(|| self.stored_fates()).map_err(value_error)?;
-        Fate::of(py, fates, alpha)
+        match given {
+            Given::One(alpha) => Ok(Bound::new(py, Fate::of(py, fates, alpha)?)?.into_any()),
+            Given::Many(speeds) => records::fates(py, Arc::clone(fates), speeds),
+        }
     }
 
     /// The labels of many speeds, as an array of uint16; label_name names them. NaN is grounded.
@@ -183,13 +206,22 @@ impl LiftOffMap {
         shaped(py, in_background(py, label, value_error, |_| Ok(()))?, &shape)
     }
 
-    /// The derivatives (∂α′/∂α, ∂α′/∂M); None if the hopper is grounded, and for NaN.
-    fn slopes(&self, alpha: f64) -> PyResult<Option<(f64, f64)>> {
-        if alpha.is_nan() {
-            return Ok(None);
-        }
-        let slopes = self.map.slopes(alpha).map_err(map_error)?;
-        Ok(slopes.map(|slopes| (slopes.by_speed, slopes.by_mass_ratio)))
+    /// The derivatives (∂α′/∂α, ∂α′/∂M); None if the hopper is grounded, and for NaN. Of an array a record array: `by_speed`, `by_mass_ratio`.
+    fn slopes<'py>(
+        &self,
+        py: Python<'py>,
+        alpha: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let alpha = match Given::of(alpha)? {
+            Given::One(alpha) => alpha,
+            Given::Many(speeds) => return records::slopes(py, self.map, speeds),
+        };
+        let slopes = match alpha.is_nan() {
+            true => None,
+            false => self.map.slopes(alpha).map_err(map_error)?,
+        };
+        let pair = slopes.map(|slopes| (slopes.by_speed, slopes.by_mass_ratio));
+        pair.into_bound_py_any(py)
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
@@ -207,6 +239,47 @@ impl LiftOffMap {
 }
 
 impl LiftOffMap {
+    /// The images, written into an array of float64 with the shape of the speeds.
+    fn images_to<'py>(
+        &self,
+        py: Python<'py>,
+        alpha: &Bound<'py, PyAny>,
+        out: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        // Speeds that are overwritten are copied before.
+        let speeds = match alpha.is(out) {
+            true => Source::Converted(alpha.extract()?),
+            false => Source::of(alpha)?,
+        };
+        let refused = || {
+            let text = format!(
+                "out= is an array of float64 with the shape {:?}, in C order, that can be written, and no view of the speeds",
+                speeds.shape()
+            );
+            PyValueError::new_err(text)
+        };
+        let array = out.cast::<PyArrayDyn<f64>>().map_err(|_| refused())?;
+        if array.shape() != speeds.shape() || !array.is_c_contiguous() {
+            return Err(refused());
+        }
+        let count: usize = speeds.shape().iter().product();
+        let mut piece = Vec::with_capacity(Pace::LONGEST.min(count));
+        let mut images = vec![0.0; Pace::LONGEST.min(count)];
+        let (mut pace, mut done) = (Pace::new(), 0);
+        while done < count {
+            let range = done..(done + pace.next(py)?).min(count);
+            done = range.end;
+            speeds.copy(range.clone(), &mut piece)?;
+            let to = &mut images[..piece.len()];
+            py.detach(|| self.map.images_into(&piece, to)).map_err(map_error)?;
+            // Another thread may have the array meanwhile: it is held for the copy alone.
+            let mut held = array.try_readwrite().map_err(|_| refused())?;
+            let all = held.as_slice_mut().map_err(|_| refused())?;
+            all.get_mut(range).ok_or_else(refused)?.copy_from_slice(&images[..piece.len()]);
+        }
+        Ok(out.clone())
+    }
+
     fn stored_fates(&self) -> Result<&Arc<Fates>, hopper_basin::Error> {
         if let Some(fates) = self.fates.get() {
             return Ok(fates);

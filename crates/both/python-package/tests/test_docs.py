@@ -20,9 +20,9 @@ def test_the_lines_of_the_readme_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     matplotlib.use("Agg")
     (block,) = blocks("README.md")
-    assert len(block.splitlines()) == 5
+    assert len(block.splitlines()) == 6
     exec(block, {})
-    assert sorted(file.name for file in tmp_path.iterdir()) == ["basins.png", "hopper.gif"]
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["hopper.gif"]
 
 
 @pytest.mark.parametrize(

@@ -144,6 +144,54 @@ def test_hops_and_orbits(lift_off_map):
     assert (lift_off_map(7.0 + step) - lift_off_map(7.0 - step)) / (2 * step) == pytest.approx(slope, rel=1e-4)
 
 
+def test_hops_fates_and_slopes_of_arrays_are_records(lift_off_map):
+    speeds = np.array([[4.55, 7.0, np.nan], [5.5, 1.0, 9.0]])
+    hops, fates, slopes = lift_off_map.hop(speeds), lift_off_map.fate(speeds), lift_off_map.slopes(speeds)
+    assert hops.shape == fates.shape == slopes.shape == speeds.shape
+    for at, speed in np.ndenumerate(speeds):
+        if np.isnan(speed):
+            assert np.isnan(hops.next[at]) and fates.hops[at] == 0 and np.isnan(slopes.by_speed[at])
+            continue
+        hop, fate, slope = lift_off_map.hop(speed), lift_off_map.fate(speed), lift_off_map.slopes(speed)
+        assert (fates.label[at], fates.hops[at]) == (fate.label, fate.hops)
+        assert (hops.sudden[at], hops.flight_time[at]) == (hop.sudden, hop.flight_time)
+        known = np.nan if hop.next is None else hop.next
+        assert np.array_equal(hops.next[at], known, equal_nan=True)
+        assert np.array_equal([slopes.by_speed[at], slopes.by_mass_ratio[at]], slope or (np.nan, np.nan), equal_nan=True)
+    # What is one number is no array, whatever its type.
+    for seven in (7, np.float32(7), np.array(7.0)):
+        assert lift_off_map.hop(seven) == lift_off_map.hop(7.0) and lift_off_map.fate(seven) == lift_off_map.fate(7.0)
+
+
+def test_results_go_into_a_given_array_and_masks_are_refused(lift_off_map):
+    speeds = np.linspace(4.5, 20, 20_000).reshape(100, 200)
+    out = np.zeros_like(speeds)
+    assert lift_off_map(speeds, out=out) is out
+    assert np.array_equal(out, lift_off_map(speeds), equal_nan=True)
+    assert lift_off_map(speeds, out=speeds) is speeds and np.array_equal(speeds, out, equal_nan=True)
+    for bad in (np.zeros(3), np.zeros((100, 200), dtype=np.float32), np.zeros((200, 100)).T, [0.0]):
+        with pytest.raises(ValueError, match="out= is an array of float64 with the shape"):
+            lift_off_map(out, out=bad)
+    out.flags.writeable = False
+    with pytest.raises(ValueError, match="written"):
+        lift_off_map(speeds, out=out)
+    with pytest.raises(TypeError, match="alpha.mask"):
+        lift_off_map([5.0, 7.0], where=[True, False])
+    assert lift_off_map(np.float32([5, 7])).dtype == np.float64
+
+
+def test_mass_ratios_are_broadcast(lift_off_map):
+    ratios, speeds = np.array([0.2, 0.4, 0.2]), np.array([[5.5], [7.0]])
+    found = hopper.images(speeds, ratios)
+    assert found.shape == (2, 3) and (found[:, 0] == found[:, 2]).all()
+    assert found[1, 0] == lift_off_map(7.0) and found[0, 1] == hopper.LiftOffMap(0.4)(5.5)
+    assert isinstance(hopper.images(7.0, 0.2), float) and np.isnan(hopper.images(np.nan, 0.2))
+    with pytest.raises(ValueError, match="mass ratio"):
+        hopper.images(7.0, [0.2, -1.0])
+    with pytest.raises(ValueError, match="broadcast"):
+        hopper.images([1.0, 2.0, 3.0], [0.2, 0.4])
+
+
 def test_a_map_is_copied_and_sent_to_other_processes(lift_off_map):
     for other in (copy.copy(lift_off_map), copy.deepcopy(lift_off_map), pickle.loads(pickle.dumps(lift_off_map))):
         assert other.mass_ratio == lift_off_map.mass_ratio and other(7.0) == lift_off_map(7.0)

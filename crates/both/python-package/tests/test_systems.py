@@ -3,8 +3,6 @@
 import concurrent.futures
 import multiprocessing
 import pickle
-import threading
-import time
 
 import nonsmooth as ns
 import numpy as np
@@ -374,19 +372,13 @@ def test_threads_of_python_run_side_by_side():
 
 
 @pytest.mark.parametrize("call", ["run", "fates"])
-def test_ctrl_c_ends_a_compiled_run_at_once(call):
-    import _thread
-
+def test_ctrl_c_ends_a_compiled_run_at_once(call, ctrl_c):
     system = ns.System(lambda t, x, p: [x[1], -np.sin(x[0]) + np.cos(t) * np.sin(2 * x[0])], states="x v")
-    threading.Timer(0.3, _thread.interrupt_main).start()
-    begun = time.perf_counter()
-    with pytest.raises(KeyboardInterrupt):
+    with ctrl_c():
         if call == "run":
             system.run([0.1, 0.0], time=1e5)
         else:
             system.fates(np.zeros((2000, 2)) + 0.1, 1e4)
-    # 0.3 s until the key, and at most 0.1 s for the answer; the rest is for a busy machine.
-    assert time.perf_counter() - begun < 2.0
 
 
 def test_return_maps_have_derivatives_branches_and_diagrams():

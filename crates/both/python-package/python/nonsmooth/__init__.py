@@ -16,6 +16,7 @@ import os as _os
 from . import _native, hybrid, labelling, plots
 from ._native import Equations, Event, Formulas, Steps, TracingError, UndecidedError, Zeno, __version__
 from .basins import attractors_of, basins_of, map_steps
+from .c_functions import c_function
 from .returns import Bifurcation, Branch, Diagram, PeriodicPoint, ReturnMap
 from .runs import Fates, Run
 from .surfaces import Clock, Guard
@@ -47,6 +48,7 @@ __all__ = [
     "Zeno",
     "attractors_of",
     "basins_of",
+    "c_function",
     "hybrid",
     "labelling",
     "map_steps",

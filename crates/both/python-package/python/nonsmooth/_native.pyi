@@ -1,14 +1,16 @@
 from collections.abc import Callable, Sequence
-from typing import Any, Literal, overload
+from typing import Any, Literal, NoReturn, final, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Self
 
 __version__: str
 
 class UndecidedError(ArithmeticError): ...
 class TracingError(TypeError): ...
 
+@final
 class Symbol:
     """A part of a formula: what a function of a System sees instead of a number."""
 
@@ -25,8 +27,10 @@ class Symbol:
     def __neg__(self) -> Symbol: ...
     def __pos__(self) -> Symbol: ...
     def __abs__(self) -> Symbol: ...
+    def __complex__(self) -> NoReturn: ...
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **keywords: Any) -> Any: ...
 
+@final
 class Formulas:
     """Formulas of the time, the state and the parameters."""
 
@@ -42,16 +46,18 @@ class Formulas:
     def values(self, time: float, state: ArrayLike) -> NDArray[np.float64]: ...
     def __len__(self) -> int: ...
 
+@final
 class Trace:
     """The symbols of some functions of one model, with names."""
 
-    def __init__(self, states: Sequence[str], parameters: Sequence[tuple[str, str]]) -> None: ...
+    def __new__(cls, states: Sequence[str], parameters: Sequence[tuple[str, str]]) -> Self: ...
     def time(self) -> Symbol: ...
     def state(self) -> list[Symbol]: ...
     def parameters(self) -> list[Symbol]: ...
     def of_text(self, texts: Sequence[str]) -> Formulas: ...
     def formulas(self, outputs: Sequence[Any]) -> Formulas: ...
 
+@final
 class Solution:
     """A run of a model of formulas: its arcs and events, and the states at all times."""
 
@@ -69,6 +75,7 @@ class Solution:
     def trajectory(self, grid: ArrayLike) -> dict[str, Any]: ...
     def __len__(self) -> int: ...
 
+@final
 class Fates:
     """The ends of many runs, in arrays with one entry for each run."""
 
@@ -88,11 +95,12 @@ class Fates:
     def first_error(self) -> tuple[int, Exception] | None: ...
     def __len__(self) -> int: ...
 
+@final
 class Equations:
     """A hybrid system by its equations: what the functions of a System become."""
 
-    def __init__(
-        self,
+    def __new__(
+        cls,
         json: str,
         *,
         relative: float = 1e-12,
@@ -101,7 +109,7 @@ class Equations:
         absolute_each: Sequence[float] | None = None,
         longest_step: float = ...,
         steps: int = 1_000_000,
-    ) -> None: ...
+    ) -> Self: ...
     @property
     def json(self) -> str: ...
     @property
@@ -122,6 +130,7 @@ class Equations:
         progress: Callable[[int, int], Any] | bool | None = None,
     ) -> Fates: ...
 
+@final
 class Landing:
     time: float
     closing_speed: float
@@ -129,6 +138,7 @@ class Landing:
     velocity: float
     sudden: bool
 
+@final
 class Hop:
     speed: float
     next: float | None
@@ -139,11 +149,13 @@ class Hop:
     flight_time: float
     landings: list[Landing]
 
+@final
 class Fate:
     label: int
     name: str
     hops: int
 
+@final
 class Trap:
     n: int
     left: float
@@ -151,39 +163,54 @@ class Trap:
     length: float
     error: float
     edge: Literal["crossing", "contact end", "next fixed point"]
-    def __contains__(self, alpha: float) -> bool: ...
+    def __contains__(self, alpha: float, /) -> bool: ...
 
+@final
 class Crisis:
     n: int
     mass_ratio: float
     error: float
     alpha: float
 
+@final
 class Bounds:
     lower: float
     upper: float
-    def __contains__(self, number: float) -> bool: ...
+    def __contains__(self, number: float, /) -> bool: ...
 
+@final
 class LiftOffMap:
-    def __init__(self, mass_ratio: float) -> None: ...
+    def __new__(cls, mass_ratio: float) -> Self: ...
     @property
     def mass_ratio(self) -> float: ...
     @overload
-    def __call__(self, alpha: float, /) -> float: ...
+    def __call__(self, alpha: float, /, *, out: None = None, where: None = None) -> float: ...
     @overload
-    def __call__(self, alpha: ArrayLike, /) -> NDArray[np.float64]: ...
+    def __call__(
+        self, alpha: ArrayLike, /, *, out: NDArray[np.float64] | None = None, where: None = None
+    ) -> NDArray[np.float64]: ...
     @overload
     def images(self, alpha: ArrayLike, status: Literal[False] = False) -> NDArray[np.float64]: ...
     @overload
     def images(
         self, alpha: ArrayLike, status: Literal[True]
     ) -> tuple[NDArray[np.float64], NDArray[np.uint8]]: ...
+    @overload
     def hop(self, alpha: float) -> Hop: ...
+    @overload
+    def hop(self, alpha: ArrayLike) -> np.recarray[Any, Any]: ...
     def orbit(self, alpha: float, hops: int = 100) -> NDArray[np.float64]: ...
+    @overload
     def fate(self, alpha: float) -> Fate: ...
+    @overload
+    def fate(self, alpha: ArrayLike) -> np.recarray[Any, Any]: ...
     def fates(self, alpha: ArrayLike) -> NDArray[np.uint16]: ...
+    @overload
     def slopes(self, alpha: float) -> tuple[float, float] | None: ...
+    @overload
+    def slopes(self, alpha: ArrayLike) -> np.recarray[Any, Any]: ...
 
+@final
 class IntervalBasins:
     def arrays(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint16]]: ...
     def __len__(self) -> int: ...
@@ -208,6 +235,7 @@ def alpha_star(n: Sequence[int] | range) -> NDArray[np.float64]: ...
 def trap(n: int, mass_ratio: float) -> Trap: ...
 def crisis(n: int) -> Crisis: ...
 def grounding(n: int) -> Crisis: ...
+def images(alpha: ArrayLike, M: ArrayLike) -> NDArray[np.float64]: ...
 def label_name(label: int) -> str: ...
 def label_colour(label: int) -> str: ...
 def basin_labels(
@@ -233,6 +261,17 @@ def fractions(
 def motion_arrays(alpha: float, mass_ratio: float, hops: int = 10) -> dict[str, Any]: ...
 def motion_event_names() -> list[tuple[int, str]]: ...
 def after_fork() -> None: ...
+def _restored(kind: str, values: tuple[Any, ...]) -> Any: ...
+def _solution(equations: Equations, stored: str) -> Solution: ...
+def _equations(
+    json: str,
+    relative: float,
+    absolute: float,
+    relative_each: Sequence[float] | None,
+    absolute_each: Sequence[float] | None,
+    longest_step: float,
+    steps: int,
+) -> Equations: ...
 def animation_bytes(
     mass_ratio: float,
     times: Sequence[float],
@@ -259,12 +298,14 @@ def pixel_middles(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 def label_codes() -> dict[str, int]: ...
 
+@final
 class Interval:
     value: float
     lower: float
     upper: float
-    def __contains__(self, number: float) -> bool: ...
+    def __contains__(self, number: float, /) -> bool: ...
 
+@final
 class BoxCount:
     size: float
     boxes: int
@@ -273,8 +314,9 @@ class BoxCount:
     basin_entropy: float
     boundary_entropy: float | None
 
+@final
 class LabelImage:
-    def __init__(self, labels: NDArray[np.uint16]) -> None: ...
+    def __new__(cls, labels: NDArray[np.uint16]) -> Self: ...
     def array(self) -> NDArray[np.uint16]: ...
     def counts(self) -> dict[int, int]: ...
     def fractions(self) -> dict[int, Interval]: ...
@@ -283,14 +325,18 @@ class LabelImage:
     def exceeds_ln_2(self) -> bool: ...
     def far_from_other_boundaries(self, distance: int) -> float: ...
 
+@final
 class UncertaintyExponent:
     exponent: Interval
     follows_a_power_law: bool
     fractions: list[tuple[float, Interval]]
 
+@final
 class Attractors:
-    def __init__(
-        self,
+    def __copy__(self) -> Self: ...
+    def __deepcopy__(self, memo: object, /) -> Self: ...
+    def __new__(
+        cls,
         map: Callable[[NDArray[np.float64]], Sequence[float] | NDArray[np.float64] | None] | Steps,
         *,
         region: Sequence[tuple[float, float]],
@@ -303,7 +349,7 @@ class Attractors:
         tests: int = 200,
         escape: float | None = None,
         periodic: Sequence[int] = ...,
-    ) -> None: ...
+    ) -> Self: ...
     @property
     def points(self) -> dict[int, NDArray[np.float64]]: ...
     @property
@@ -333,6 +379,7 @@ _Vector = Sequence[float] | NDArray[np.float64]
 _State = NDArray[np.float64]
 _Reset = Callable[[_Mode, _State], tuple[_Mode, _Vector] | None]
 
+@final
 class QuasiPolynomial:
     @staticmethod
     def polynomial(coefficients: Sequence[float]) -> QuasiPolynomial: ...
@@ -346,16 +393,21 @@ class QuasiPolynomial:
     def derivative(self) -> QuasiPolynomial: ...
     def first_crossing(self, direction: str, horizon: float) -> float | None: ...
     def __call__(self, time: float) -> float: ...
-    def __add__(self, other: QuasiPolynomial) -> QuasiPolynomial: ...
-    def __sub__(self, other: QuasiPolynomial) -> QuasiPolynomial: ...
+    def __add__(self, other: QuasiPolynomial, /) -> QuasiPolynomial: ...
+    def __radd__(self, other: QuasiPolynomial, /) -> QuasiPolynomial: ...
+    def __sub__(self, other: QuasiPolynomial, /) -> QuasiPolynomial: ...
+    def __rsub__(self, other: QuasiPolynomial, /) -> QuasiPolynomial: ...
     def __neg__(self) -> QuasiPolynomial: ...
-    def __mul__(self, other: QuasiPolynomial | float) -> QuasiPolynomial: ...
-    def __rmul__(self, factor: float) -> QuasiPolynomial: ...
+    def __mul__(self, other: QuasiPolynomial | float, /) -> QuasiPolynomial: ...
+    def __rmul__(self, factor: float, /) -> QuasiPolynomial: ...
 
+@final
 class Guard:
+    def __copy__(self) -> Self: ...
+    def __deepcopy__(self, memo: object, /) -> Self: ...
     name: str
-    def __init__(
-        self,
+    def __new__(
+        cls,
         name: str,
         value: Callable[[_State], float],
         direction: Literal["rising", "falling", "either"],
@@ -366,12 +418,15 @@ class Guard:
         modes: Sequence[_Mode] | None = None,
         signal: Callable[[_Mode, _State], QuasiPolynomial | None] | None = None,
         enclosure: Callable[[_Mode, _State, int, tuple[float, float]], tuple[float, float] | None] | None = None,
-    ) -> None: ...
+    ) -> Self: ...
 
+@final
 class Clock:
+    def __copy__(self) -> Self: ...
+    def __deepcopy__(self, memo: object, /) -> Self: ...
     name: str
-    def __init__(
-        self,
+    def __new__(
+        cls,
         name: str,
         *,
         times: Sequence[float] | Callable[[float], float | None] | None = None,
@@ -379,8 +434,9 @@ class Clock:
         first: float = 0.0,
         reset: _Reset | None = None,
         modes: Sequence[_Mode] | None = None,
-    ) -> None: ...
+    ) -> Self: ...
 
+@final
 class Event:
     surface: str
     time: float
@@ -395,6 +451,7 @@ class Event:
     direction: Literal["rising", "falling"] | None
     certainty: Literal["exact", "certain", "interpolated", "sampled"]
 
+@final
 class Zeno:
     time: float
     time_error: float
@@ -405,6 +462,7 @@ class Zeno:
     next_mode: _Mode | None
     after: _State | None
 
+@final
 class Sliding:
     surface: str
     below: _Mode
@@ -414,12 +472,16 @@ class Sliding:
     rates: tuple[float, float]
     field: _State | None
 
+@final
 class SlidingMode:
     surface: str
     below: _Mode
     above: _Mode
 
+@final
 class Arc:
+    def __copy__(self) -> Self: ...
+    def __deepcopy__(self, memo: object, /) -> Self: ...
     @property
     def mode(self) -> _Mode: ...
     @property
@@ -442,6 +504,7 @@ class Arc:
     def sliding(self) -> Sliding | None: ...
     def states(self, elapsed: ArrayLike) -> NDArray[np.float64]: ...
 
+@final
 class Execution:
     def __iter__(self) -> Execution: ...
     def __next__(self) -> Arc: ...
@@ -458,9 +521,12 @@ class Execution:
     @property
     def stop(self) -> str | None: ...
 
+@final
 class HybridSystem:
-    def __init__(
-        self,
+    def __copy__(self) -> Self: ...
+    def __deepcopy__(self, memo: object, /) -> Self: ...
+    def __new__(
+        cls,
         *,
         flow: Callable[[_Mode, _State, float], _Vector] | None = None,
         field: Callable[[_Mode, _State], _Vector] | None = None,
@@ -471,16 +537,40 @@ class HybridSystem:
         longest_step: float = ...,
         check_interval: float = ...,
         sampled: float | None = None,
-    ) -> None: ...
+    ) -> Self: ...
     def run(
         self, start: ArrayLike, *, time: float, mode: _Mode = None, events: int = 1_000_000, start_time: float = 0.0
     ) -> Execution: ...
 
+@final
+class CFunction:
+    """A function of C with the signature void (double, double *, double *, double *)."""
+
+    def __new__(cls, address: int, owner: Any) -> Self: ...
+    def __call__(
+        self, time: float, state: Sequence[float], parameters: Sequence[float], results: int
+    ) -> list[float]: ...
+
+@final
+class CField:
+    """The field of a model by functions of C, one for each mode."""
+
+    def __new__(cls, functions: Sequence[tuple[Any, CFunction]], parameters: Sequence[float]) -> Self: ...
+    def __call__(self, mode: Any, state: Sequence[float]) -> list[float]: ...
+
+@final
+class CGuard:
+    """The value of a guard by a function of C."""
+
+    def __new__(cls, function: CFunction, parameters: Sequence[float]) -> Self: ...
+    def __call__(self, state: Sequence[float]) -> float: ...
+
+@final
 class ReturnMap:
     """The map from a section to the next event of a surface, as a parameter changes."""
 
-    def __init__(
-        self,
+    def __new__(
+        cls,
         equations: Equations,
         parameter: str,
         mode: str,
@@ -488,7 +578,7 @@ class ReturnMap:
         coordinates: Sequence[str],
         start: Sequence[str] | None = None,
         image: Sequence[str] | None = None,
-    ) -> None: ...
+    ) -> Self: ...
     @property
     def dimension(self) -> int: ...
     def image(self, point: ArrayLike, parameter: float) -> dict[str, Any]: ...
@@ -511,6 +601,7 @@ class ReturnMap:
         self, start: ArrayLike, parameter: float, transient: int, images: int
     ) -> list[tuple[float, float, float]]: ...
 
+@final
 class Steps:
     """A map of states: of formulas, of a flow over some time, or of returns to a surface."""
 

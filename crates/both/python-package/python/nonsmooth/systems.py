@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
-from ._native import Equations, Event, Steps, TracingError
+from ._native import CFunction, Equations, Event, Steps, TracingError
+from .c_functions import c_function, is_c_function
 from .returns import ReturnMap
 from .runs import Fates, Run
 from .surfaces import Clock, FunctionOrFormulas, Guard
@@ -325,11 +326,17 @@ class _Functions:
     def of(self, given: Any) -> Any:
         """The function f(t, x, p) of a function with further arguments."""
         args = self.args
+        if is_c_function(given):
+            return c_function(given)
         if not args or not callable(given):
             return given
         return lambda t, x, p: given(t, x, *args) if not len(p) else given(t, x, p, *args)
 
     def equations(self, model: Model, tolerances: dict[str, Any]) -> Equations:
+        given = [*self.fields.values(), *(guard.function for guard in self.guards if isinstance(guard, Guard))]
+        if any(is_c_function(own) for own in given):
+            raise TracingError("a function of C is called, and has no formulas")
+
         def value(what: str, given: Any) -> Any:
             return json.loads(model.formulas(what, self.of(given)).json)
 
@@ -396,8 +403,11 @@ class _Callbacks:
             *((f"the guard {guard.name!r}", guard.function) for guard in functions.guards if isinstance(guard, Guard)),
             *((f"the reset of {guard.name!r}", guard.reset) for guard in functions.guards if guard.reset is not None),
         ]:
-            if not callable(given):
+            if not callable(given) and not is_c_function(given):
                 raise TypeError(f"{what} is no function, and others have no formulas: give functions for all")
+            if is_c_function(given):
+                # Another signature is an error here, not in a run.
+                c_function(given)
         self.functions, self.states, self.tolerances = functions, states, tolerances
 
     def run(
@@ -406,8 +416,16 @@ class _Callbacks:
         from .tracing import Parameters
 
         p = Parameters(list(parameters), list(parameters.values()))
-        of = self.functions.of
+        dimension = len(start)
+
+        def of(given: Any, results: int = dimension) -> Any:
+            own = self.functions.of(given)
+            if not isinstance(own, CFunction):
+                return own
+            return lambda t, x, p: own(t, x, [*p], results)
+
         fields = {mode: of(field) for mode, field in self.functions.fields.items()}
+        in_c = [(mode, self.functions.of(field)) for mode, field in self.functions.fields.items()]
 
         def field(mode: str, x: Any) -> list[Any]:
             return [*np.ravel(fields[mode](x[-1], x[:-1], p)), 1.0]
@@ -431,12 +449,15 @@ class _Callbacks:
                 return _native.Clock(
                     surface.name, times=times, period=surface.period, first=first, reset=reset(surface), modes=modes
                 )
-            own = of(surface.function)
+            own, in_c = of(surface.function, 1), self.functions.of(surface.function)
+            value: Any = lambda x: own(x[-1], x[:-1], p)
+            if isinstance(in_c, CFunction):
+                value = _native.CGuard(in_c, [*p])
             observes = not surface.terminal and surface.reset is None and surface.to is None
             role: Any = "terminal" if surface.terminal else "observer" if observes else surface.role
             return _native.Guard(
                 surface.name,
-                lambda x: own(x[-1], x[:-1], p),
+                value,
                 surface.direction,
                 reset=None if observes else reset(surface),
                 role=role,
@@ -451,7 +472,7 @@ class _Callbacks:
             return (to, x if own is None else [*np.ravel(of(own)(x[-1], x[:-1], p)), x[-1]])
 
         system = _native.HybridSystem(
-            field=field,
+            field=_native.CField(in_c, [*p]) if all(isinstance(own, CFunction) for _, own in in_c) else field,
             guards=[native(surface) for surface in self.functions.guards],
             rest=rest if self.functions.rests else None,
             tolerance=self.tolerances["relative"],

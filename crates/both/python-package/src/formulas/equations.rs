@@ -85,7 +85,8 @@ impl Equations {
     /// formulas use it).
     #[new]
     #[pyo3(signature = (json, *, relative = 1e-12, absolute = 1e-12, relative_each = None, absolute_each = None,
-                        longest_step = f64::INFINITY, steps = 1_000_000))]
+                        longest_step = f64::INFINITY, steps = 1_000_000),
+           text_signature = "(json, *, relative=1e-12, absolute=1e-12, relative_each=None, absolute_each=None, longest_step=1e999, steps=1000000)")]
     fn new(
         json: &str,
         relative: f64,
@@ -159,7 +160,8 @@ impl Equations {
 
     /// The ends of many runs: starts has one start a row, and there is one mode for each. values has the values of the parameters with these
     /// names, one row for each start.
-    #[pyo3(signature = (modes, starts, times, events, names = Vec::new(), values = Vec::new(), threads = None, progress = None))]
+    #[pyo3(signature = (modes, starts, times, events, names = Vec::new(), values = Vec::new(), threads = None, progress = None),
+           text_signature = "($self, modes, starts, times, events, names=(), values=(), threads=None, progress=None)")]
     #[expect(clippy::too_many_arguments, reason = "the front in Python names them")]
     fn fates(
         &self,

@@ -4,6 +4,7 @@
 //! later values are NaN without a call of Python, the search ends at once on them, and the caller raises the
 //! exception that is kept.
 
+use super::c_function::{CField, CGuard};
 use super::guards::{After, Times};
 use super::model::{Model, Watched};
 use super::names::{Mode, Surface};
@@ -165,7 +166,11 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
         };
         let what = || format!("the value of {:?}", guard.get().name());
         let call = || {
-            let found = guard.get().value.bind(self.py).call1((self.array(state),))?;
+            let value = guard.get().value.bind(self.py);
+            if let Ok(own) = value.cast::<CGuard>() {
+                return Ok(own.get().value(state.as_slice()));
+            }
+            let found = value.call1((self.array(state),))?;
             // True and False would be numbers, and one of them the surface itself.
             if found.is_instance_of::<PyBool>() || found.get_type().name()? == "bool" {
                 let text = format!(
@@ -236,6 +241,17 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
     fn vector_field(&self, mode: Mode, state: &State) -> Option<State> {
         let field = self.model.functions.field.as_ref()?.bind(self.py);
         let call = || {
+            if let Ok(own) = field.cast::<CField>() {
+                let mut rates = Self::nan(state);
+                let mode = self.mode(mode);
+                own.get().write(
+                    self.py,
+                    mode.bind(self.py),
+                    state.as_slice(),
+                    rates.as_mut_slice(),
+                )?;
+                return Ok(rates);
+            }
             let found = field.call1((self.mode(mode), self.array(state)))?;
             vector(&found, state.len(), "field")
         };

@@ -51,7 +51,8 @@ pub(crate) struct HybridSystem {
 impl HybridSystem {
     #[new]
     #[pyo3(signature = (*, flow = None, field = None, guards = Vec::new(), rest = None, slide = None, tolerance = 1e-10,
-                        longest_step = f64::INFINITY, check_interval = f64::INFINITY, sampled = None))]
+                        longest_step = f64::INFINITY, check_interval = f64::INFINITY, sampled = None),
+           text_signature = "(*, flow=None, field=None, guards=(), rest=None, slide=None, tolerance=1e-10, longest_step=1e999, check_interval=1e999, sampled=None)")]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn new(
         py: Python<'_>,

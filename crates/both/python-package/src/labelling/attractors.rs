@@ -138,7 +138,8 @@ pub(crate) struct Attractors {
 impl Attractors {
     #[new]
     #[pyo3(signature = (map, *, region, starts, cells = 100, recurrences = 100, locate = 1000, budget = 100_000, lost = 1000, tests = 200,
-                        escape = None, periodic = Vec::new()))]
+                        escape = None, periodic = Vec::new()),
+           text_signature = "(map, *, region, starts, cells=100, recurrences=100, locate=1000, budget=100000, lost=1000, tests=200, escape=None, periodic=())")]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn new(
         py: Python<'_>,
