@@ -82,9 +82,9 @@ fn install(python: &Path, file: &Path, builds: bool, target: &Path) -> Result<()
     install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps"]);
     install.args(["--force-reinstall", "--no-build-isolation"]).arg(file);
     match builds {
-        true => install
-            .env("PATH", with_programs(python))
-            .env("CARGO_TARGET_DIR", target.join("build")),
+        true => {
+            install.env("PATH", with_programs(python)).env("CARGO_TARGET_DIR", target.join("build"))
+        }
         false => install.env("PATH", without_cargo()),
     };
     call(python, &mut install)
@@ -101,7 +101,8 @@ fn with_programs(python: &Path) -> OsString {
 /// The search path without the folders that have Rust.
 fn without_cargo() -> OsString {
     let path = std::env::var_os("PATH").unwrap_or_default();
-    let has_rust = |folder: &PathBuf| ["cargo", "rustc"].iter().any(|name| folder.join(name).exists());
+    let has_rust =
+        |folder: &PathBuf| ["cargo", "rustc"].iter().any(|name| folder.join(name).exists());
     let others = std::env::split_paths(&path).filter(|folder| !has_rust(folder));
     std::env::join_paths(others).unwrap_or(path)
 }

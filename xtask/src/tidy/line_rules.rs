@@ -6,9 +6,9 @@ use super::sources::Source;
 
 /// The crate and the file that look for Ctrl-C now and then. No result depends on the clock.
 const WITH_CLOCK: (&str, &str) = ("python-package", "interruptible.rs");
-/// The crates and the file with calls of loops compiled for wider vectors, after a check of the processor.
-const WITH_UNSAFE_CODE: [(&str, &str); 2] =
-    [("passive-hopper", "simd.rs"), ("equations", "simd.rs")];
+/// The crates and the file with calls of loops compiled for wider vectors, after a check of the processor, and with calls of functions of C.
+const WITH_UNSAFE_CODE: [(&str, &str); 3] =
+    [("passive-hopper", "simd.rs"), ("equations", "simd.rs"), ("python-package", "c_function.rs")];
 /// The crate and the file with calls of the root finder of the `roots` crate, on brackets that are certain.
 const WITH_ROOTS: (&str, &str) = ("interval-arithmetic", "bracketed_root.rs");
 /// Largest number of lines of a file. The numerical crates that were read as examples stay below it. In this project
@@ -85,7 +85,10 @@ pub(super) fn check(source: &Source, breaches: &mut Vec<Breach>) {
         }
         let may_be_unsafe = WITH_UNSAFE_CODE.iter().any(|place| is(source, *place));
         if has(code, &["unsafe ", "unsafe{", "unsafe_code"]) && !may_be_unsafe {
-            breach(at, "unsafe code is in simd.rs of passive-hopper and of equations alone");
+            breach(
+                at,
+                "unsafe code is in simd.rs of passive-hopper and of equations, and in c_function.rs of python-package, alone",
+            );
         }
         if code.contains("roots::") && !is(source, WITH_ROOTS) {
             breach(at, "only bracketed_root.rs of interval-arithmetic uses the roots crate");
