@@ -24,6 +24,9 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     let Ok(tools) = environment_python(&first_python(), &target.join("release"), &list) else {
         return skip(RELEASE, "its tools cannot be installed; the messages stand above");
     };
+    let mut notice = Command::new(&tools);
+    notice.arg(root.join("xtask/generators/notice.py")).arg("--check");
+    step(&mut notice, "the comparison of NOTICE with the crates that are linked")?;
     let folder = target.join("dist");
     if folder.exists() {
         std::fs::remove_dir_all(&folder).map_err(Error::at(&folder))?;
