@@ -1,10 +1,11 @@
 //! Numbers from whatever NumPy makes an array of, and results of the same shape.
 
+use crate::errors::InputError;
 use numpy::{
     AllowTypeChange, Element, PyArray, PyArrayDyn, PyArrayLikeDyn, PyArrayMethods,
     PyReadonlyArrayDyn, PyUntypedArrayMethods,
 };
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyInt};
 use std::ops::Range;
@@ -114,7 +115,7 @@ impl<'py> Source<'py> {
         };
         let Some(part) = all.get(range) else {
             let text = "the array was made shorter during the call";
-            return Err(PyValueError::new_err(text));
+            return Err(InputError::new_err(text));
         };
         piece.clear();
         piece.extend_from_slice(part);

@@ -1,14 +1,13 @@
 //! Basins over the plane and at one mass ratio.
 
 use crate::arrays::shaped;
-use crate::errors::value_error;
+use crate::errors::{InputError, value_error};
 use crate::interruptible::{Watch, in_background};
 use crate::pickling::{Reduced, plain, reduced, restoring};
 use crate::whole::{room_for, two_whole, whole};
 use basin_of_attraction::{Grid, Interval, Label, LabelledInterval, Refinement, StopReason};
 use hopper_basin::{BranchGround, Fates, HopperBasins, HopperFate, Probes};
 use passive_hopper::MassRatio;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::collections::BTreeMap;
@@ -108,7 +107,7 @@ fn number_of<T: PartialEq>(all: &[T], value: &T) -> usize {
 /// The intervals that pickle has stored.
 pub(crate) fn restored_basins(py: Python<'_>, values: &Bound<'_, PyTuple>) -> PyResult<Py<PyAny>> {
     let ((left, right), parts, reason, ground, probes): Stored = values.extract()?;
-    let wrong = || PyValueError::new_err("the pickle of these intervals has a wrong number");
+    let wrong = || InputError::new_err("the pickle of these intervals has a wrong number");
     let window = Interval::new(left, right).map_err(value_error)?;
     let part = |(left, right, label, level): PickledInterval| {
         let interval = Interval::new(left, right).map_err(value_error)?;

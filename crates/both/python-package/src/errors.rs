@@ -1,28 +1,17 @@
 //! Errors of the libraries as Python's exceptions.
 
 use hybrid_system::Error as HybridError;
-use pyo3::exceptions::{
-    PyArithmeticError, PyRuntimeError, PyStopIteration, PyTypeError, PyValueError,
-};
-use pyo3::{PyErr, Python, create_exception};
+use pyo3::exceptions::{PyRuntimeError, PyStopIteration};
+use pyo3::{PyErr, Python, import_exception};
 
-create_exception!(
-    nonsmooth,
-    UndecidedError,
-    PyArithmeticError,
-    "What happens cannot be decided: a hop with 1024 bits (sudden or not, on which branch, or grounded or not), or an \
-     event of a hybrid system that rounding hides."
-);
+// The classes are those of the package in Python: an exception of Rust has one base only.
+import_exception!(nonsmooth.errors, InputError);
+import_exception!(nonsmooth.errors, ComputationError);
+import_exception!(nonsmooth.errors, UndecidedError);
+import_exception!(nonsmooth.errors, TracingError);
 
-create_exception!(
-    nonsmooth,
-    TracingError,
-    PyTypeError,
-    "A function has no formulas: it asks for the value of a symbol, or calls what formulas do not have."
-);
-
-/// The exception of an error of a hybrid system: UndecidedError where rounding hides what happens, ArithmeticError where a
-/// computation cannot go on, ValueError for wrong input.
+/// The exception of an error of a hybrid system: UndecidedError where rounding hides what happens, ComputationError where a
+/// computation cannot go on, InputError for wrong input.
 pub(crate) fn of_hybrid(error: &HybridError) -> PyErr {
     of_hybrid_with(error, error.to_string())
 }
@@ -40,17 +29,15 @@ pub(crate) fn of_hybrid_with(error: &HybridError, text: String) -> PyErr {
         | HybridError::Root { .. }
         | HybridError::TimelessChain { .. }
         | HybridError::SlidingNotUnique { .. }
-        | HybridError::Formula(equations::Error::NoValue { .. }) => {
-            PyArithmeticError::new_err(text)
-        }
+        | HybridError::Formula(equations::Error::NoValue { .. }) => ComputationError::new_err(text),
         HybridError::Formula(equations::Error::Kink { .. }) => TracingError::new_err(text),
-        _ => PyValueError::new_err(text),
+        _ => InputError::new_err(text),
     }
 }
 
-/// A ValueError with the message of a library's error, which has the numbers in it.
+/// An InputError with the message of a library's error, which has the numbers in it.
 pub(crate) fn value_error(error: impl std::fmt::Display) -> PyErr {
-    PyValueError::new_err(error.to_string())
+    InputError::new_err(error.to_string())
 }
 
 /// As [`value_error`], for an error of the map: an undecided hop is an [`UndecidedError`].

@@ -30,8 +30,6 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     // makes an array, and panic.
     module.py().import("numpy")?;
     drop(numpy::PyArray1::<f64>::from_slice(module.py(), &[]));
-    module.add("UndecidedError", module.py().get_type::<errors::UndecidedError>())?;
-    module.add("TracingError", module.py().get_type::<errors::TracingError>())?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(generation::after_fork, module)?)?;
     module.add_function(wrap_pyfunction!(restored::_restored, module)?)?;

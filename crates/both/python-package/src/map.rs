@@ -1,7 +1,7 @@
 //! The lift-off map for scalars and arrays.
 
 use crate::arrays::{Given, Numbers, Source, like, scalar, shaped};
-use crate::errors::{map_error, value_error};
+use crate::errors::{InputError, map_error, value_error};
 use crate::fates::Fate;
 use crate::hop::Hop;
 use crate::interruptible::{Pace, Watch, in_background};
@@ -11,7 +11,7 @@ use hopper_basin::{Fates, HopperFate};
 use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use passive_hopper::{HopStatus, MassRatio};
 use pyo3::IntoPyObjectExt;
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 use std::sync::{Arc, OnceLock};
@@ -256,7 +256,7 @@ impl LiftOffMap {
                 "out= is an array of float64 with the shape {:?}, in C order, that can be written, and no view of the speeds",
                 speeds.shape()
             );
-            PyValueError::new_err(text)
+            InputError::new_err(text)
         };
         let array = out.cast::<PyArrayDyn<f64>>().map_err(|_| refused())?;
         if array.shape() != speeds.shape() || !array.is_c_contiguous() {

@@ -1,14 +1,13 @@
 //! The motion of both masses, as arrays and as an animation.
 
 use crate::arrays::shaped;
-use crate::errors::value_error;
+use crate::errors::{InputError, value_error};
 use crate::interruptible::{Watch, in_background, progress_function};
 use crate::whole::whole;
 use hopper_figures::{
     AnimationForm, Motion, MotionEvent, Sample, animation, frame_png, frame_times,
 };
 use passive_hopper::{HopperState, MassRatio, Phase};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::ops::ControlFlow;
@@ -86,7 +85,7 @@ pub(crate) fn animation_bytes<'py>(
 ) -> PyResult<Bound<'py, PyBytes>> {
     let count = times.len();
     if [hops.len(), contact.len(), states.len()] != [count; 3] {
-        return Err(PyValueError::new_err(format!(
+        return Err(InputError::new_err(format!(
             "the samples of a motion have one length: {count} times, {} hops, {} contacts and {} states",
             hops.len(),
             contact.len(),
@@ -106,7 +105,7 @@ pub(crate) fn animation_bytes<'py>(
         "apng" => AnimationForm::Apng,
         other => {
             let text = format!("an animation is a gif or an apng file, not {other:?}");
-            return Err(PyValueError::new_err(text));
+            return Err(InputError::new_err(text));
         }
     };
     let progress = progress_function(py, progress)?;

@@ -1,6 +1,7 @@
 //! The objects that pickle has stored, by the names of their classes.
 
 use crate::basins::{Bounds, restored_basins};
+use crate::errors::InputError;
 use crate::fates::Fate;
 use crate::fixed_points::Crisis;
 use crate::hop::{Hop, Landing};
@@ -8,7 +9,6 @@ use crate::hybrid::{Event, QuasiPolynomial, Sliding, SlidingMode, Zeno};
 use crate::labelling::{BoxCount, Interval, UncertaintyExponent};
 use crate::pickling::Plain;
 use hybrid_system::QuasiPolynomialPart;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -42,7 +42,7 @@ pub(crate) fn _restored(
             Ok(Py::new(py, QuasiPolynomial::from(own))?.into_any())
         }
         "IntervalBasins" => restored_basins(py, values),
-        other => Err(PyValueError::new_err(format!(
+        other => Err(InputError::new_err(format!(
             "this version of passive_hopper has no {other} in its pickles"
         ))),
     }

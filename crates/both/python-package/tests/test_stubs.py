@@ -54,7 +54,7 @@ def signatures():
             )
             if plain:
                 yield f"{node.name}.{method.name}", method, getattr(getattr(_native, node.name), method.name)
-            elif isinstance(method, ast.FunctionDef) and method.name == "__init__" and node.name not in ("UndecidedError", "TracingError"):
+            elif isinstance(method, ast.FunctionDef) and method.name == "__init__":
                 yield node.name, method, getattr(_native, node.name)
 
 

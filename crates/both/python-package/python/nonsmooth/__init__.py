@@ -14,9 +14,10 @@ missed, and derivatives are exact.
 import os as _os
 
 from . import _native, hybrid, labelling, plots
-from ._native import Equations, Event, Formulas, Steps, TracingError, UndecidedError, Zeno, __version__
+from ._native import Equations, Event, Formulas, Steps, Zeno, __version__
 from .basins import attractors_of, basins_of, map_steps
 from .c_functions import c_function
+from .errors import ComputationError, InputError, NonsmoothError, TracingError, UndecidedError
 from .returns import Bifurcation, Branch, Diagram, PeriodicPoint, ReturnMap
 from .runs import Fates, Run
 from .surfaces import Clock, Guard
@@ -31,12 +32,15 @@ __all__ = [
     "Bifurcation",
     "Branch",
     "Clock",
+    "ComputationError",
     "Diagram",
     "Equations",
     "Event",
     "Fates",
     "Formulas",
     "Guard",
+    "InputError",
+    "NonsmoothError",
     "Parameters",
     "PeriodicPoint",
     "ReturnMap",

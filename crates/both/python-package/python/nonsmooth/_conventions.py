@@ -2,6 +2,8 @@
 
 import re
 
+from .errors import InputError
+
 CONVENTIONS = "CF-1.11"
 
 
@@ -18,9 +20,9 @@ def flag_attributes(codes, names, long_name):
     words = [word(name) for name in names]
     for index, own in enumerate(words):
         if not own:
-            raise ValueError(f"the name {names[index]!r} of the label {codes[index]} has no letter or digit")
+            raise InputError(f"the name {names[index]!r} of the label {codes[index]} has no letter or digit")
         if own in words[:index]:
-            raise ValueError(f"two labels are named {own!r}; give each a name of its own")
+            raise InputError(f"two labels are named {own!r}; give each a name of its own")
     # Lists of numbers would become int64 in a file, whatever the array has.
     return {"long_name": long_name, "flag_values": codes, "flag_meanings": " ".join(words)}
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .errors import InputError
 from . import labelling
 from ._native import Attractors, Steps
 from .returns import ReturnMap
@@ -59,13 +60,15 @@ def attractors_of(
     """
     steps = _steps(of, step, parameters)
     if isinstance(of, System) and list(region) != of.states:
-        raise ValueError(f"region has the ends of each component, in this order: {', '.join(of.states)}; not {list(region)}")
+        raise InputError(f"region has the ends of each component, in this order: {', '.join(of.states)}; not {list(region)}")
     sides = [(float(left), float(right)) for left, right in region.values()]
     if isinstance(starts, (int, np.integer)):
         low, high = np.array(sides).T
         rows = np.random.default_rng(seed).uniform(low, high, (int(starts), len(sides)))
     else:
         rows = np.atleast_2d(np.asarray(starts, dtype=float))
+        if not np.isfinite(rows).all():
+            raise InputError("starts= has numbers that are not finite")
     return Attractors(steps, region=sides, starts=rows.tolist(), **limits)
 
 
@@ -106,16 +109,19 @@ def basins_of(
     steps = _steps(of, step, parameters)
     known = of.states if isinstance(of, System) else list(window)
     if not set(window) <= set(known):
-        raise ValueError(f"the window names {list(window)}; the components of the state are: {', '.join(known)}")
+        raise InputError(f"the window names {list(window)}; the components of the state are: {', '.join(known)}")
+    unknown = [name for name in others or {} if name not in known or name in window]
+    if unknown:
+        raise InputError(f"others= names {unknown}; the components beside the window are: {[own for own in known if own not in window]}")
     rest = [name for name in known if name not in window]
     missing = [name for name in rest if name not in (others or {})]
     if missing:
-        raise ValueError(f"others= needs a value of each component that is not in the window: {', '.join(missing)}")
+        raise InputError(f"others= needs a value of each component that is not in the window: {', '.join(missing)}")
     if attractors is None:
         whole = dict(window) if region is None else dict(region)
         absent = [name for name in known if name not in whole]
         if absent:
-            raise ValueError(f"region= needs the ends of each component; there are none of: {', '.join(absent)}")
+            raise InputError(f"region= needs the ends of each component; there are none of: {', '.join(absent)}")
         attractors = attractors_of(steps, {name: whole[name] for name in known}, **search)
     elif search:
         raise TypeError(f"attractors= are given, so that there is no search with {', '.join(search)}")
@@ -141,5 +147,5 @@ def _steps(of: Any, step: Any, parameters: Any) -> Steps:
     if not isinstance(of, System):
         raise TypeError(f"a System or Steps are needed, not {type(of).__name__}")
     if step is None:
-        raise ValueError("a System is followed in steps: give step=, the period of its forcing or a short time")
+        raise InputError("a System is followed in steps: give step=, the period of its forcing or a short time")
     return of.steps(step, parameters=parameters)

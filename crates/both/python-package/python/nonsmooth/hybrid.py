@@ -32,6 +32,7 @@ With ``slide="filippov"`` a motion goes on along a surface at which the fields o
 :func:`sensitivity` and :func:`event_sensitivity` give the derivatives of states and event times by the start.
 """
 
+from .errors import UndecidedError
 from ._native import (
     Arc,
     Clock,
@@ -42,7 +43,6 @@ from ._native import (
     QuasiPolynomial,
     Sliding,
     SlidingMode,
-    UndecidedError,
     Zeno,
     event_sensitivity,
     sensitivity,

@@ -23,6 +23,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from .errors import InputError
 from . import _native
 from ._conventions import CONVENTIONS, complete, flag_attributes
 from ._native import Attractors, BoxCount, Interval, LabelImage, UncertaintyExponent
@@ -73,12 +74,12 @@ def _labels(found, shape):
     if labels.dtype.kind not in "bui":
         raise TypeError(f"labels are integers or booleans, not {labels.dtype}")
     if labels.size and not (0 <= int(labels.min()) and int(labels.max()) <= 65535):
-        raise ValueError(f"labels are integers from 0 to 65535, not {labels.min()} to {labels.max()}")
+        raise InputError(f"labels are integers from 0 to 65535, not {labels.min()} to {labels.max()}")
     if shape is not None and labels.shape != shape:
         try:
             labels = numpy.broadcast_to(labels, shape)
         except ValueError:
-            raise ValueError(
+            raise InputError(
                 f"the labelling returned the shape {labels.shape} for points of the shape {shape}"
             ) from None
     return numpy.ascontiguousarray(labels, dtype=numpy.uint16)
@@ -89,7 +90,7 @@ def label_image(labels: ArrayLike | xarray.DataArray) -> LabelImage:
     or booleans."""
     labels = _labels(labels, None)
     if labels.ndim != 2:
-        raise ValueError(f"an image of labels has two dimensions, not {labels.ndim}")
+        raise InputError(f"an image of labels has two dimensions, not {labels.ndim}")
     return LabelImage(labels)
 
 
@@ -123,10 +124,10 @@ def basins_of(
     if not isinstance(window, Mapping):
         raise TypeError(f"a window names its coordinates, as {{'x': (-2, 2), 'y': (-2, 2)}}, and is not {window!r}")
     if len(window) != 2:
-        raise ValueError(f"a window has two coordinates with their ends, not {len(window)}")
+        raise InputError(f"a window has two coordinates with their ends, not {len(window)}")
     for name in window:
         if not (isinstance(name, str) and name.isidentifier() and name != "label"):
-            raise ValueError(
+            raise InputError(
                 f"a coordinate is named by a word of letters, digits and _, other than 'label', not {name!r}"
             )
     if names is not None and not isinstance(names, Mapping):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
+from .errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -137,7 +138,10 @@ class ReturnMap:
         self.parameter, self.value = parameter, value
 
     def _value(self, value: float | None) -> float:
-        return self.value if value is None else float(value)
+        own = self.value if value is None else float(value)
+        if not np.isfinite(own):
+            raise InputError(f"the parameter {self.parameter} is {own!r}: it must be finite")
+        return own
 
     @property
     def dimension(self) -> int:
@@ -218,10 +222,16 @@ class ReturnMap:
     def steps(self, value: float | None = None, ends: Sequence[str] = ()) -> Steps:
         """The map at a value of the parameter, for attractors and basins. An orbit that ends at a surface of ``ends`` has the label
         65001, 65002, … of its place there."""
-        return _native.Steps.of_returns(self._native, self._value(value), list(ends))
+        return _native.Steps.of_returns(self._native, self._value(value), _names(ends))
 
     def __repr__(self) -> str:
         return f"ReturnMap(dimension={self.dimension}, {self.parameter}={self.value!r})"
+
+
+def _names(ends: Sequence[str]) -> list[str]:
+    if isinstance(ends, str):
+        raise InputError(f"ends= is a list of names, not the text {ends!r}")
+    return list(ends)
 
 
 def _vector(point: ArrayLike) -> Any:

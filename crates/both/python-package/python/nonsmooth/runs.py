@@ -63,7 +63,9 @@ class Run:
     @cached_property
     def events(self) -> list[Event]:
         """The events, in their order. Each has its ``surface``, ``time``, the states ``before`` and ``after``, and ``certainty``."""
-        return self._solution.events
+        dimension = len(self.names)
+        # The state of a model has the time behind its components, where functions use it.
+        return [_of_dimension(event, dimension) for event in self._solution.events]
 
     @cached_property
     def trajectory(self) -> dict[str, Any]:
@@ -142,6 +144,15 @@ class Run:
     def __repr__(self) -> str:
         begin, end = self._solution.times
         return f"Run(t=({begin!r}, {end!r}), events={len(self.events)}, reason={self.reason!r})"
+
+
+def _of_dimension(event: Event, dimension: int) -> Event:
+    if len(event.before) == dimension:
+        return event
+    make, (kind, values) = event.__reduce__()
+    cut = tuple(value[:dimension] if isinstance(value, np.ndarray) else value for value in values)
+    found: Event = make(kind, cut)
+    return found
 
 
 @dataclass(frozen=True)

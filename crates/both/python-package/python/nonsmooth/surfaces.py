@@ -6,6 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from .errors import InputError
+
 #: A function f(t, x, p) of the time, the state and the parameters; or texts, or SymPy's expressions.
 FunctionOrFormulas = Callable[..., Any] | str | Sequence[Any]
 
@@ -40,7 +42,7 @@ class Guard:
             ("touch", self.touch, ("error", "event", "ignore")),
         ):
             if value not in known:
-                raise ValueError(f"{what}={value!r} of the guard {self.name!r}: it is one of {', '.join(known)}")
+                raise InputError(f"{what}={value!r} of the guard {self.name!r}: it is one of {', '.join(known)}")
         _check(self)
 
 
@@ -59,14 +61,14 @@ class Clock:
 
     def __post_init__(self) -> None:
         if (self.times is None) == (self.period is None):
-            raise ValueError(f"the clock {self.name!r} has either times= or period=")
+            raise InputError(f"the clock {self.name!r} has either times= or period=")
         if self.times is not None and self.first is not None:
-            raise ValueError(f"the clock {self.name!r} has times=, and so no first=")
+            raise InputError(f"the clock {self.name!r} has times=, and so no first=")
         _check(self)
 
 
 def _check(surface: Guard | Clock) -> None:
     if surface.terminal and (surface.reset is not None or surface.to is not None):
-        raise ValueError(f"{surface.name!r} ends the run: it has no reset= and no to=")
+        raise InputError(f"{surface.name!r} ends the run: it has no reset= and no to=")
     if isinstance(surface.modes, str):
         raise TypeError(f"modes of {surface.name!r} is a list of names, not the text {surface.modes!r}")

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .errors import InputError, TracingError
 from . import _native
-from ._native import CFunction, Equations, Event, Steps, TracingError
+from ._native import CFunction, Equations, Event, Steps
 from .c_functions import c_function, is_c_function
-from .returns import ReturnMap
+from .returns import ReturnMap, _names
 from .runs import Fates, Run
 from .surfaces import Clock, FunctionOrFormulas, Guard
 from .tracing import Model
@@ -69,10 +70,13 @@ class System:
         self.states = states.replace(",", " ").split() if isinstance(states, str) else list(states)
         self.parameters = {name: float(value) for name, value in (parameters or {}).items()}
         fields = dict(field) if isinstance(field, Mapping) else {_ONLY: field}
+        if not fields:
+            raise InputError("a system has at least one mode")
         self.modes = list(fields)
         self._tolerances = _tolerances(tolerance, absolute, longest_step, len(self.states))
         functions = _Functions(fields, list(guards), dict(rests or {}), args)
         self._ends = [guard.name for guard in guards if isinstance(guard, Guard) and guard.terminal]
+        self._surfaces = [guard.name for guard in guards if isinstance(guard, (Guard, Clock))]
         self.why_not: str | None = None
         self._equations: Equations | None = None
         self._callbacks: _Callbacks | None = None
@@ -86,7 +90,7 @@ class System:
         else:
             self.why_not = "compiled=False"
         if self._equations is None:
-            self._callbacks = _Callbacks(functions, self.states, self._tolerances)
+            self._callbacks = _Callbacks(functions, self.states, self._tolerances, self.why_not)
 
     @property
     def compiled(self) -> bool:
@@ -129,7 +133,7 @@ class System:
         begin, end = _span(time)
         state = np.array(start, dtype=float).ravel()
         if len(state) != len(self.states):
-            raise ValueError(f"the state has {len(self.states)} components ({', '.join(self.states)}), not {len(state)}")
+            raise InputError(f"the state has {len(self.states)} components ({', '.join(self.states)}), not {len(state)}")
         mode = self._first_mode(mode)
         if self._equations is not None:
             solution: Any = self._equations.run(mode, state, (begin, end), events)
@@ -160,6 +164,7 @@ class System:
         them. ``progress`` is a function of (done, all), or True for a bar of tqdm.
         """
         begin, end = _span(time)
+        _check_threads(threads)
         rows = np.atleast_2d(np.asarray(starts, dtype=float))
         changed = {name: np.asarray(value, dtype=float) for name, value in (parameters or {}).items()}
         self._parameters({name: 0.0 for name in changed})
@@ -167,10 +172,10 @@ class System:
             shape = np.broadcast_shapes((rows.shape[0],), *(value.shape for value in changed.values()))
         except ValueError:
             sizes = {name: value.shape for name, value in changed.items()}
-            raise ValueError(f"{rows.shape[0]} starts and parameters of the shapes {sizes} do not fit together") from None
+            raise InputError(f"{rows.shape[0]} starts and parameters of the shapes {sizes} do not fit together") from None
         rows = np.broadcast_to(rows, (shape[0], rows.shape[1]))
         if rows.shape[1] != len(self.states):
-            raise ValueError(f"a start has {len(self.states)} components ({', '.join(self.states)}), not {rows.shape[1]}")
+            raise InputError(f"a start has {len(self.states)} components ({', '.join(self.states)}), not {rows.shape[1]}")
         modes = [mode] * shape[0] if mode is None or isinstance(mode, str) else list(mode)
         modes = [self._first_mode(own) for own in modes]
         values = [list(row) for row in zip(*(np.broadcast_to(value, shape).tolist() for value in changed.values()))]
@@ -179,7 +184,7 @@ class System:
         found = self._equations.fates(
             modes, rows.tolist(), (begin, end), events, list(changed), values, threads, progress
         )
-        states = found.states[:, : len(self.states)]
+        states = found.states.reshape(len(rows), -1)[:, : len(self.states)] if len(rows) else np.empty(rows.shape)
         reason, surface, last = (np.array(part, dtype=str) for part in (found.reasons, found.surfaces, found.modes))
         return Fates(reason, surface, last, found.times, found.events, states)
 
@@ -199,7 +204,7 @@ class System:
         begin, end = _span(time)
         equations = (self.with_parameters(**parameters) if parameters else self).equations
         names = list(modes) if modes is not None else self.modes
-        return _native.Steps.of_flow(equations, names, (begin, end), self._ends if ends is None else list(ends))
+        return _native.Steps.of_flow(equations, names, (begin, end), self._ends if ends is None else _names(ends))
 
     def returns(
         self,
@@ -219,9 +224,11 @@ class System:
         """
         equations = self.equations
         if not self.parameters:
-            raise ValueError("a return map depends on a parameter, and the system has none: give it one, parameters={...}")
+            raise InputError("a return map depends on a parameter, and the system has none: give it one, parameters={...}")
         name = next(iter(self.parameters)) if parameter is None else parameter
         self._parameters({name: 0.0})
+        if to not in self._surfaces:
+            raise InputError(f"there is no guard {to!r}; the guards are: {', '.join(self._surfaces) or 'none'}")
         if isinstance(coordinates, str):
             coordinates = coordinates.replace(",", " ").split()
         section = Model(coordinates, self.parameters)
@@ -254,17 +261,17 @@ class System:
     def _first_mode(self, mode: str | None) -> str:
         if mode is None:
             if len(self.modes) > 1:
-                raise ValueError(f"the system has several modes: give mode=, one of {', '.join(self.modes)}")
+                raise InputError(f"the system has several modes: give mode=, one of {', '.join(self.modes)}")
             return self.modes[0]
         if mode not in self.modes:
-            raise ValueError(f"there is no mode {mode!r}; the modes are: {', '.join(self.modes)}")
+            raise InputError(f"there is no mode {mode!r}; the modes are: {', '.join(self.modes)}")
         return mode
 
     def _parameters(self, changed: Mapping[str, float]) -> dict[str, float]:
         for name in changed:
             if name not in self.parameters:
                 known = ", ".join(self.parameters) or "none"
-                raise ValueError(f"there is no parameter {name!r}; the parameters are: {known}")
+                raise InputError(f"there is no parameter {name!r}; the parameters are: {known}")
         return {**self.parameters, **{name: float(value) for name, value in changed.items()}}
 
     def __getstate__(self) -> dict[str, Any]:
@@ -282,10 +289,17 @@ class System:
 
 def _span(time: float | tuple[float, float]) -> tuple[float, float]:
     """Both ends of a time: it begins at 0, unless the caller gives two."""
-    if isinstance(time, (tuple, list, np.ndarray)):
-        begin, end = time
-        return float(begin), float(end)
-    return 0.0, float(time)
+    if np.ndim(time) == 0 and isinstance(time, (int, float, np.number)):
+        return 0.0, float(time)
+    ends = np.ravel(np.asarray(time))
+    if ends.shape != (2,):
+        raise InputError(f"time= is the end of a run, or a pair of its start and end, not {time!r}")
+    return float(ends[0]), float(ends[1])
+
+
+def _check_threads(threads: int | None) -> None:
+    if threads is not None and threads < 1:
+        raise InputError(f"threads= is a number from 1 on, not {threads!r}")
 
 
 def _tolerances(tolerance: float, absolute: Any, longest_step: float, dimension: int) -> dict[str, Any]:
@@ -293,15 +307,15 @@ def _tolerances(tolerance: float, absolute: Any, longest_step: float, dimension:
     if np.ndim(absolute) == 1:
         each = [float(part) for part in absolute]
         if len(each) != dimension:
-            raise ValueError(f"absolute= has {len(each)} tolerances for {dimension} components")
+            raise InputError(f"absolute= has {len(each)} tolerances for {dimension} components")
         found["absolute_each"] = each
     elif absolute is not None:
         found["absolute"] = float(absolute)
     for name in ("relative", "absolute"):
         if not 0.0 < found[name] <= 0.1:
-            raise ValueError(f"the {name} tolerance must be positive and at most 0.1, not {found[name]!r}")
+            raise InputError(f"the {name} tolerance must be positive and at most 0.1, not {found[name]!r}")
     if not found["longest_step"] > 0.0:
-        raise ValueError(f"longest_step must be positive, not {longest_step!r}")
+        raise InputError(f"longest_step must be positive, not {longest_step!r}")
     return found
 
 
@@ -315,13 +329,16 @@ class _Functions:
         names = [guard.name for guard in guards]
         twice = {name for name in names if names.count(name) > 1}
         if twice:
-            raise ValueError(f"two guards are named {sorted(twice)[0]!r}: an event could not be told")
+            raise InputError(f"two guards are named {sorted(twice)[0]!r}: an event could not be told")
         for guard in guards:
             for mode in [*(guard.modes or []), *([guard.to] if guard.to is not None else [])]:
                 if mode not in fields:
-                    raise ValueError(f"{guard.name!r} names the mode {mode!r}; the modes are: {', '.join(fields)}")
+                    raise InputError(f"{guard.name!r} names the mode {mode!r}; the modes are: {', '.join(fields)}")
         self.fields, self.guards, self.args = fields, guards, args
         self.rests = {mode: (to, None) if isinstance(to, str) else tuple(to) for mode, to in rests.items()}
+        for mode in [*self.rests, *(to for to, _ in self.rests.values())]:
+            if mode not in fields:
+                raise InputError(f"rests= names the mode {mode!r}; the modes are: {', '.join(fields)}")
 
     def of(self, given: Any) -> Any:
         """The function f(t, x, p) of a function with further arguments."""
@@ -392,19 +409,21 @@ class _Functions:
 class _Callbacks:
     """A system whose functions are called: the time is the last component of its state."""
 
-    def __init__(self, functions: _Functions, states: list[str], tolerances: dict[str, Any]) -> None:
+    def __init__(
+        self, functions: _Functions, states: list[str], tolerances: dict[str, Any], why_not: str | None
+    ) -> None:
         if "absolute_each" in tolerances or tolerances["absolute"] != tolerances["relative"]:
-            raise ValueError("tolerances for each component, and another absolute one, need formulas")
+            raise InputError("tolerances for each component, and another absolute one, need formulas")
         for guard in functions.guards:
             if isinstance(guard, Guard) and guard.only_where is not None:
-                raise ValueError(f"only_where of {guard.name!r} needs formulas")
+                raise InputError(f"only_where of {guard.name!r} needs formulas")
         for what, given in [
             *((f"the field of {mode!r}", field) for mode, field in functions.fields.items()),
             *((f"the guard {guard.name!r}", guard.function) for guard in functions.guards if isinstance(guard, Guard)),
             *((f"the reset of {guard.name!r}", guard.reset) for guard in functions.guards if guard.reset is not None),
         ]:
             if not callable(given) and not is_c_function(given):
-                raise TypeError(f"{what} is no function, and others have no formulas: give functions for all")
+                raise TypeError(f"{what} is no function, and there are no formulas ({why_not}): give functions for all")
             if is_c_function(given):
                 # Another signature is an error here, not in a run.
                 c_function(given)
@@ -432,7 +451,7 @@ class _Callbacks:
 
         def reset(surface: Any) -> Any:
             if surface.terminal:
-                return None
+                return (lambda mode, x: None) if isinstance(surface, Clock) else None
             own = None if surface.reset is None else of(surface.reset)
 
             def jump(mode: str, x: Any) -> tuple[str, Any]:
@@ -450,7 +469,13 @@ class _Callbacks:
                     surface.name, times=times, period=surface.period, first=first, reset=reset(surface), modes=modes
                 )
             own, in_c = of(surface.function, 1), self.functions.of(surface.function)
-            value: Any = lambda x: own(x[-1], x[:-1], p)
+
+            def plain(x: Any) -> Any:
+                found = own(x[-1], x[:-1], p)
+                # A list of one number is one, as for formulas.
+                return found[0] if isinstance(found, (list, tuple, np.ndarray)) and np.size(found) == 1 else found
+
+            value: Any = plain
             if isinstance(in_c, CFunction):
                 value = _native.CGuard(in_c, [*p])
             observes = not surface.terminal and surface.reset is None and surface.to is None

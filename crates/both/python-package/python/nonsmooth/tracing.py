@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from ._native import Formulas, Trace, TracingError
+from ._native import Formulas, Trace
+from .errors import InputError, TracingError
 
-#: States at which a function and its formulas are compared. A function that is no function of its arguments, such as one that keeps
-#: something from call to call, differs at the first ones.
-_COMPARED = 4
+#: Sizes of states at which a function and its formulas are compared, at its own and at other values of the parameters. A function that is no
+#: function of its arguments, such as one that keeps something from call to call, differs at the first ones; one that asks for types, where they matter.
+_COMPARED = (2.0,) * 8 + (0.01,) * 2 + (10.0,) * 8 + (1000.0,) * 8
 
 #: How far both may be apart there, beside 1: some rounding, and the sums of NumPy in another order.
 _APART = 1e-9
@@ -56,10 +57,15 @@ class _Symbols(np.ndarray[Any, Any]):
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **keywords: Any) -> Any:
         plain = [part.view(np.ndarray) if isinstance(part, _Symbols) else part for part in inputs]
+        (out,) = keywords.pop("out", (None,))
         if method != "__call__" or ufunc.signature is not None or keywords or ufunc.nout != 1:
             found = getattr(ufunc, method)(*plain, **keywords)
         else:
             found = np.frompyfunc(ufunc, ufunc.nin, 1)(*plain)
+        if out is not None:
+            # In place, as in x += 1.
+            out.view(np.ndarray)[...] = found
+            return out
         return found.view(_Symbols) if isinstance(found, np.ndarray) else found
 
 
@@ -123,7 +129,7 @@ class Model:
         unknown = set().union(*(part.free_symbols for part in expressions))
         unknown = {str(symbol) for symbol in unknown} - set(names)
         if unknown:
-            raise ValueError(f"the expressions have symbols without a meaning: {sorted(unknown)}; known are {names}")
+            raise InputError(f"the expressions have symbols without a meaning: {sorted(unknown)}; known are {names}")
         # A symbol may have been made with assumptions, such as positive: its name counts.
         plain = {symbol: sympy.Symbol(str(symbol)) for part in expressions for symbol in part.free_symbols}
         called = sympy.lambdify(
@@ -137,15 +143,24 @@ class Model:
 
     def _compare(self, what: str, function: Callable[..., Any], formulas: Formulas) -> None:
         random = np.random.default_rng(1)
-        for _ in range(_COMPARED):
+        for number, size in enumerate(_COMPARED):
             t, x = self._probe(random)
+            x *= size / 2.0
+            values = list(self.parameters.values())
+            if number % 2 == 1:
+                values = [value * factor for value, factor in zip(values, random.uniform(0.5, 1.5, len(values)))]
             try:
                 with np.errstate(all="ignore"):
-                    plain = np.array([float(part) for part in _flat(function(t, x.copy(), self.values()))])
-                traced = formulas.values(t, x)
+                    found = _flat(function(t, x.copy(), Parameters(list(self.parameters), values)))
+                    plain = np.array([float(part) for part in found])
             except (ArithmeticError, ValueError):
-                # There it has no value.
                 continue
+            if not np.isfinite(plain).all():
+                continue
+            try:
+                traced = formulas.values(t, x, list(zip(self.parameters, values)))
+            except ArithmeticError as error:
+                raise TracingError(f"{what} has a value where its formulas have none: {error}") from error
             apart = np.abs(plain - traced) / np.maximum(1.0, np.abs(traced))
             if np.any(apart > _APART):
                 raise TracingError(

@@ -17,6 +17,7 @@ True
 """
 
 from nonsmooth import _native
+from nonsmooth.errors import UndecidedError
 from nonsmooth._native import (
     Bounds,
     Crisis,
@@ -26,7 +27,6 @@ from nonsmooth._native import (
     Landing,
     LiftOffMap,
     Trap,
-    UndecidedError,
     __version__,
     alpha_star,
     basin_labels,

@@ -8,6 +8,7 @@ import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from nonsmooth.errors import InputError
 from nonsmooth import _native
 from nonsmooth._conventions import CONVENTIONS, complete, flag_attributes
 
@@ -51,15 +52,15 @@ def basins(
     shape = tuple(operator.index(side) for side in shape)
     layer = layer_of(layer)["key"]
     if any(side < 1 for side in shape):
-        raise ValueError(f"a raster has at least one pixel across and up, not {shape}")
+        raise InputError(f"a raster has at least one pixel across and up, not {shape}")
     for name, window in (("M", M), ("alpha", alpha)):
         if not 0 <= window[0] < window[1] < float("inf"):
-            raise ValueError(
+            raise InputError(
                 f"{name}={window!r} is no window: give its lower and its upper end, not negative and finite"
             )
     for name, window, values in zip(("M", "alpha"), (M, alpha), _native.pixel_middles((M, alpha), shape)):
         if len(values) > 1 and not (values[1:] > values[:-1]).all():
-            raise ValueError(
+            raise InputError(
                 f"{name}={window!r} has fewer floats than the {len(values)} pixels across it; give a wider window or"
                 " fewer pixels"
             )
@@ -70,7 +71,7 @@ def basins(
 
         return write_basins(store, (M, alpha, shape, layer), client=client, progress=progress)
     if client is not None:
-        raise ValueError("the workers of a client write into a store: give store='….zarr' as well")
+        raise InputError("the workers of a client write into a store: give store='….zarr' as well")
     _, _, numbers = _native.basin_labels(M=M, alpha=alpha, shape=shape, progress=progress, layer=layer)
     import numpy
 
@@ -91,7 +92,7 @@ def layer_of(key):
     found = [layer for layer in _native.layers() if layer["key"] == key and layer["dtype"] is not None]
     if not found:
         known = "', '".join(layer["key"] for layer in _native.layers() if layer["dtype"] is not None)
-        raise ValueError(f"there is no layer {key!r} of numbers; there are '{known}'")
+        raise InputError(f"there is no layer {key!r} of numbers; there are '{known}'")
     return found[0]
 
 

@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from nonsmooth.errors import InputError
 from nonsmooth import _native
 from nonsmooth._conventions import CONVENTIONS, complete, flag_attributes
 from ._files import write_whole
@@ -99,7 +100,7 @@ def animate(
     ending = os.path.splitext(os.fspath(path))[1].removeprefix(".").lower()
     form = "apng" if ending == "png" else ending
     if form not in ("gif", "apng"):
-        raise ValueError(f"an animation is a file ….gif or ….apng, not {os.fspath(path)!r}")
+        raise InputError(f"an animation is a file ….gif or ….apng, not {os.fspath(path)!r}")
     import numpy
 
     columns = ("upper_position", "upper_velocity", "lower_position", "lower_velocity")
@@ -114,14 +115,14 @@ def animate(
             if missing
             else f"it is {type(motion).__name__}" if not isinstance(motion, Mapping) else "mass_ratio is missing"
         )
-        raise ValueError(
+        raise InputError(
             f"animate needs the Dataset of motion(…), or a part of it: {', '.join(needed)}, and the attribute"
             f" mass_ratio; {found}"
         ) from error
     if not numpy.isfinite(numpy.asarray(hops, dtype=float)).all():
-        raise ValueError("animate needs whole numbers in hop, not NaN")
+        raise InputError("animate needs whole numbers in hop, not NaN")
     if len(times) and times[-1] == times[0]:
-        raise ValueError(f"the motion lasts no time: it begins and ends at {times[0]}; give a longer part of it")
+        raise InputError(f"the motion lasts no time: it begins and ends at {times[0]}; give a longer part of it")
     content = _native.animation_bytes(
         ratio,
         times.astype(float).tolist(),

@@ -21,6 +21,7 @@ import time
 import warnings
 from pathlib import Path
 
+from nonsmooth.errors import InputError
 from nonsmooth import _native
 from ._files import write_whole
 from nonsmooth._progress import function_of
@@ -103,7 +104,7 @@ def _open_or_make(path, job):
         attributes = found.get("attributes", {})
         for name in ("command", "computation"):
             if attributes.get(name) != wanted[name]:
-                raise ValueError(
+                raise InputError(
                     f"{path} has another job: its {name} is {attributes.get(name)!r}, not {wanted[name]!r}; "
                     "give the name of a new folder, or remove this one"
                 )

@@ -2,7 +2,7 @@
 
 use super::fates::Fates;
 use super::solution::Solution;
-use crate::errors::{of_hybrid, value_error};
+use crate::errors::{InputError, of_hybrid, value_error};
 use crate::hybrid::numbers;
 use crate::interruptible::{Watch, in_background};
 use crate::pickling::Reduced;
@@ -11,7 +11,6 @@ use hybrid_system::{
     Arc as LibraryArc, EquationsModel, Error, Execution, Label, Limits, Tolerances,
 };
 use nalgebra::DVector;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::collections::BTreeMap;
@@ -60,7 +59,7 @@ impl Equations {
     pub(super) fn with(&self, values: &[(String, f64)]) -> PyResult<Equations> {
         let texts = values.iter().map(|(name, value)| match value.is_finite() {
             true => Ok((name.as_str(), format!("{value:?}"))),
-            false => Err(PyValueError::new_err(format!("the parameter {name} is {value}"))),
+            false => Err(InputError::new_err(format!("the parameter {name} is {value}"))),
         });
         let texts = texts.collect::<PyResult<Vec<_>>>()?;
         let values: Vec<_> = texts.iter().map(|(name, text)| (*name, text.as_str())).collect();

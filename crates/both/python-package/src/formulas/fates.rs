@@ -2,11 +2,10 @@
 
 use super::equations::{Model, begin};
 use crate::arrays::shaped;
-use crate::errors::{of_hybrid, value_error};
+use crate::errors::{InputError, of_hybrid, value_error};
 use crate::hybrid::stop_name;
 use crate::interruptible::{Watch, in_background, progress_function, with_threads};
 use hybrid_system::{End, Error, FateOf, StateVector, many};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -54,7 +53,7 @@ impl Fates {
         if models.len() != starts.1.len() {
             let (models, starts) = (models.len(), starts.1.len());
             let text = format!("{models} rows of parameters are given for {starts} starts");
-            return Err(PyValueError::new_err(text));
+            return Err(InputError::new_err(text));
         }
         Fates::find(py, starts, watching, move |count, (modes, starts), progress| {
             let run = |k: usize| {
@@ -79,7 +78,7 @@ impl Fates {
         let (count, dimension) = (starts.len(), starts.first().map_or(0, Vec::len));
         if modes.len() != count {
             let text = format!("{} modes are given for {count} starts", modes.len());
-            return Err(PyValueError::new_err(text));
+            return Err(InputError::new_err(text));
         }
         let progress = progress_function(py, progress)?;
         let starts = (modes, starts);

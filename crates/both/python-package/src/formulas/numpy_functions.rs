@@ -1,7 +1,6 @@
 //! NumPy's functions as those of formulas.
 
 use super::symbol::Symbol;
-use crate::errors::TracingError;
 use equations::{Binary, Unary};
 use pyo3::prelude::*;
 
@@ -62,7 +61,7 @@ const COMPARISONS: [&str; 9] = [
 ];
 
 /// Functions that are made of others.
-const NAMES_OF_ONE: [&str; 14] = [
+const NAMES_OF_ONE: [&str; 13] = [
     "positive",
     "conjugate",
     "square",
@@ -75,7 +74,6 @@ const NAMES_OF_ONE: [&str; 14] = [
     "log2",
     "log10",
     "expm1",
-    "log1p",
     "hypot",
 ];
 
@@ -115,13 +113,6 @@ impl Symbol {
                     (half()?.unary(Unary::HyperbolicSine)?, half()?.unary(Unary::Exponential)?);
                 self.number(2.0)?.binary(Binary::Product, &sine.binary(Binary::Product, &power)?)?
             }
-            // ln(1 + x) = 2 artanh(x/(x + 2)).
-            "log1p" => {
-                let below = self.binary(Binary::Sum, &self.number(2.0)?)?;
-                let tangent = self.binary(Binary::Quotient, &below)?;
-                let area = tangent.unary(Unary::InverseHyperbolicTangent)?;
-                self.number(2.0)?.binary(Binary::Product, &area)?
-            }
             _ => return Ok(None),
         }))
     }
@@ -142,11 +133,13 @@ impl Symbol {
     }
 }
 
-/// The exception of a function that formulas do not have.
-pub(super) fn no_function(name: &str) -> PyErr {
-    let text = match COMPARISONS.contains(&name) {
+/// What is said of a function that formulas do not have.
+pub(super) fn no_function(name: &str) -> String {
+    match COMPARISONS.contains(&name) {
         true => format!("numpy.{name} asks where a symbol is: {GUARD}"),
+        false if name == "log1p" => {
+            "formulas have no numpy.log1p: write numpy.log(1 + x)".to_owned()
+        }
         false => format!("formulas have no numpy.{name}"),
-    };
-    TracingError::new_err(text)
+    }
 }

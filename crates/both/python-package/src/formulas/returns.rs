@@ -2,13 +2,12 @@
 
 use super::equations::Equations;
 use crate::arrays::shaped;
-use crate::errors::{of_hybrid, value_error};
+use crate::errors::{InputError, of_hybrid, value_error};
 use crate::hybrid::{certainty, numbers};
 use crate::interruptible::{Watch, in_background, progress_function};
 use crate::pickling::Reduced;
 use crate::whole::whole;
 use nalgebra::{Complex, DMatrix};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use return_map::{
@@ -84,7 +83,7 @@ impl ReturnMap {
         if found.len() != dimension {
             let text =
                 format!("a point of the section has {dimension} coordinates, not {}", found.len());
-            return Err(PyValueError::new_err(text));
+            return Err(InputError::new_err(text));
         }
         Ok(found)
     }
@@ -258,7 +257,7 @@ impl ReturnMap {
         if seeds.is_empty() || seeds.iter().any(|seed| seed.len() != dimension) {
             let text =
                 format!("seeds are points of the section, with {dimension} coordinates each");
-            return Err(PyValueError::new_err(text));
+            return Err(InputError::new_err(text));
         }
         let progress = progress_function(py, progress)?;
         let report = |done| match &progress {

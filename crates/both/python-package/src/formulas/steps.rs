@@ -3,11 +3,10 @@
 use super::equations::{Equations, Model};
 use super::returns::ReturnMap;
 use super::trace::Formulas;
-use crate::errors::{of_hybrid, value_error};
+use crate::errors::{InputError, of_hybrid, value_error};
 use crate::pickling::Reduced;
 use basin_of_attraction::{Label, StateMap};
 use hybrid_system::Label as Name;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use return_map::{ExecutionSteps, FamilySteps, FlowSteps, FormulaSteps, OrbitEnd};
@@ -127,7 +126,7 @@ impl Steps {
                 "a step lasts a positive and finite time, not from {:?} to {:?}",
                 times.0, times.1
             );
-            return Err(PyValueError::new_err(text));
+            return Err(InputError::new_err(text));
         }
         let names = modes.iter().map(|mode| Name::new(mode));
         let names = names.collect::<Result<Vec<_>, _>>().map_err(|error| of_hybrid(&error))?;
@@ -178,7 +177,7 @@ impl Steps {
     fn __call__(&self, state: Vec<f64>) -> PyResult<Option<Vec<f64>>> {
         if self.map.dimension().is_some_and(|dimension| dimension != state.len()) {
             let text = format!("a state has {} coordinates, not {}", self.dimension(), state.len());
-            return Err(PyValueError::new_err(text));
+            return Err(InputError::new_err(text));
         }
         let mut image = vec![0.0; state.len()];
         Ok(self.map.image(&state, &mut image).then_some(image))

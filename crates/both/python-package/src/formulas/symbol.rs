@@ -1,16 +1,23 @@
 //! Symbols that a function of Python computes with.
 
 use super::numpy_functions::{GUARD, is_function, no_function};
-use crate::errors::TracingError;
+use crate::errors::{InputError, TracingError};
 use equations::{Binary, Node, Unary};
 use numpy::PyUntypedArray;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The parts of the formulas of some functions, which their symbols share.
-pub(crate) type Parts = Arc<Mutex<Vec<Node>>>;
+pub(crate) type Parts = Arc<Mutex<Recorded>>;
+
+/// What functions have done with symbols.
+#[derive(Debug, Default)]
+pub(crate) struct Recorded {
+    pub(super) nodes: Vec<Node>,
+    /// Why there are no formulas: a function may catch the exception of what it has asked for, and go another way.
+    pub(super) refused: Option<String>,
+}
 
 /// The most parts: a function that makes more would fill the memory.
 const MOST_PARTS: usize = 1_000_000;
@@ -27,15 +34,26 @@ pub(crate) struct Symbol {
 }
 
 impl Symbol {
+    /// The exception of something that formulas cannot do, which is remembered.
+    fn refused(&self, text: String) -> PyErr {
+        let mut recorded = self.parts.lock().unwrap_or_else(PoisonError::into_inner);
+        recorded.refused.get_or_insert_with(|| text.clone());
+        TracingError::new_err(text)
+    }
+
+    fn no_value(&self, asked: &str) -> PyErr {
+        self.refused(format!("{asked} asks for the value of a symbol"))
+    }
+
     /// A new part, and its symbol.
     pub(super) fn of(parts: &Parts, node: Node) -> PyResult<Symbol> {
         let mut list = parts.lock().unwrap_or_else(PoisonError::into_inner);
-        if list.len() >= MOST_PARTS {
+        if list.nodes.len() >= MOST_PARTS {
             let text = format!("the function has more than {MOST_PARTS} parts");
             return Err(TracingError::new_err(text));
         }
-        list.push(node);
-        Ok(Symbol { parts: Arc::clone(parts), place: list.len() - 1 })
+        list.nodes.push(node);
+        Ok(Symbol { parts: Arc::clone(parts), place: list.nodes.len() - 1 })
     }
 
     pub(super) fn unary(&self, function: Unary) -> PyResult<Symbol> {
@@ -49,7 +67,7 @@ impl Symbol {
     pub(super) fn number(&self, value: f64) -> PyResult<Symbol> {
         if !value.is_finite() {
             let text = format!("{value} is no number of a formula: it must be finite");
-            return Err(PyValueError::new_err(text));
+            return Err(InputError::new_err(text));
         }
         Symbol::of(&self.parts, Node::Constant(value.into()))
     }
@@ -88,10 +106,6 @@ impl Symbol {
 
 /// What NumPy adds to the name of a function of each element.
 const VECTORIZED: &str = " (vectorized)";
-
-fn no_value(asked: &str) -> PyErr {
-    TracingError::new_err(format!("{asked} asks for the value of a symbol"))
-}
 
 #[pymethods]
 impl Symbol {
@@ -217,7 +231,7 @@ impl Symbol {
             [left, right] => Symbol::function_of_two(&name, left, right)?,
             _ => None,
         };
-        let found = found.ok_or_else(|| no_function(&name))?;
+        let found = found.ok_or_else(|| self.refused(no_function(&name)))?;
         Ok(Py::new(py, found)?.into_any())
     }
 
@@ -226,7 +240,7 @@ impl Symbol {
         _other: &Bound<'_, PyAny>,
         _how: pyo3::pyclass::CompareOp,
     ) -> PyResult<bool> {
-        Err(TracingError::new_err(format!("a symbol is compared: {GUARD}")))
+        Err(self.refused(format!("a symbol is compared: {GUARD}")))
     }
 
     fn __hash__(&self) -> usize {
@@ -234,31 +248,32 @@ impl Symbol {
     }
 
     fn __bool__(&self) -> PyResult<bool> {
-        Err(no_value("a condition"))
+        Err(self.no_value("a condition"))
     }
 
     fn __float__(&self) -> PyResult<f64> {
-        Err(no_value("float(), a function of the module math, or an array of numbers"))
+        Err(self.no_value("float(), a function of the module math, or an array of numbers"))
     }
 
     fn __int__(&self) -> PyResult<i64> {
-        Err(no_value("int()"))
+        Err(self.no_value("int()"))
     }
 
     fn __index__(&self) -> PyResult<i64> {
-        Err(no_value("an index"))
+        Err(self.no_value("an index"))
     }
 
     fn __complex__(&self) -> PyResult<f64> {
-        Err(no_value("complex()"))
+        Err(self.no_value("complex()"))
     }
 
     fn __mod__(&self, _other: &Bound<'_, PyAny>) -> PyResult<Symbol> {
-        Err(TracingError::new_err("formulas have no %: a value that wraps is a guard with a reset"))
+        Err(self
+            .refused("formulas have no %: a value that wraps is a guard with a reset".to_owned()))
     }
 
     fn __floordiv__(&self, _other: &Bound<'_, PyAny>) -> PyResult<Symbol> {
-        Err(TracingError::new_err("formulas have no //: a step is a guard between two modes"))
+        Err(self.refused("formulas have no //: a step is a guard between two modes".to_owned()))
     }
 
     fn __reduce__(&self) -> PyResult<()> {

@@ -66,8 +66,11 @@ impl Trace {
             }
         };
         let places = outputs.iter().map(place).collect::<PyResult<Vec<_>>>()?;
-        let parts = self.parts.lock().unwrap_or_else(PoisonError::into_inner);
-        let own = equations::Formulas::of_nodes(self.names.clone(), &parts, &places);
+        let recorded = self.parts.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(text) = &recorded.refused {
+            return Err(TracingError::new_err(text.clone()));
+        }
+        let own = equations::Formulas::of_nodes(self.names.clone(), &recorded.nodes, &places);
         Ok(Formulas { own: own.map_err(value_error)? })
     }
 }
@@ -111,14 +114,27 @@ impl Formulas {
         Ok(Formulas { own: self.own.jacobian().map_err(value_error)? })
     }
 
-    /// The values at a time and a state.
+    /// The values at a time and a state; at other values of parameters, given by their names.
+    #[pyo3(signature = (time, state, parameters = None))]
     fn values<'py>(
         &self,
         py: Python<'py>,
         time: f64,
         state: &Bound<'py, PyAny>,
+        parameters: Option<Vec<(String, f64)>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let found = self.own.values(time, &numbers(state)?);
+        let state = numbers(state)?;
+        let found = match parameters {
+            None => self.own.values(time, &state),
+            Some(changed) => {
+                let texts: Vec<String> =
+                    changed.iter().map(|(_, value)| format!("{value:?}")).collect();
+                let names = changed.iter().map(|(name, _)| name.as_str());
+                let pairs: Vec<_> = names.zip(texts.iter().map(String::as_str)).collect();
+                let own = self.own.clone().with_parameters(&pairs);
+                own.and_then(|own| own.values(time, &state))
+            }
+        };
         let found = found.map_err(|error| of_hybrid(&error.into()))?;
         let count = found.len();
         shaped(py, found, &[count])

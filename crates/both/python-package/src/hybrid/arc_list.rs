@@ -6,8 +6,8 @@ use super::names::{ExecutionMode, ExecutionSurface};
 use super::trajectory::trajectory_arrays;
 use super::vectors::numbers;
 use crate::arrays::shaped;
+use crate::errors::InputError;
 use hybrid_system::{Error, Filippov, Solution, StateVector};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -18,7 +18,7 @@ fn seen<T>(
     see: impl FnOnce(&Solution<'_, Filippov<Callables<'_, '_>>>) -> Result<T, Error>,
 ) -> PyResult<T> {
     let Some(first) = arcs.first() else {
-        return Err(PyValueError::new_err("a run has at least one arc"));
+        return Err(InputError::new_err("a run has at least one arc"));
     };
     let system = Callables::with_sliding(py, first.get().model());
     let own: Vec<OwnArc> = arcs.iter().map(|arc| arc.get().own().clone()).collect();
@@ -53,7 +53,7 @@ pub(crate) fn arc_trajectory<'py>(
     let grid = numbers(grid)?;
     let found = seen(py, &arcs, |solution| solution.trajectory(&grid))?;
     let Some(first) = arcs.first() else {
-        return Err(PyValueError::new_err("a run has at least one arc"));
+        return Err(InputError::new_err("a run has at least one arc"));
     };
     let model = first.get().model();
     let mode = |mode: &ExecutionMode| model.mode_object(py, *mode);

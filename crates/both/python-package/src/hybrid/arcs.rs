@@ -7,9 +7,9 @@ use super::quasi_polynomial::name_of;
 use super::sliding::Sliding;
 use super::vectors::{State, copied, numbers};
 use crate::arrays::shaped;
+use crate::errors::InputError;
 use crate::pickling::{Reduced, equal, plain, reduced, refused};
 use hybrid_system::{Arc as LibraryArc, ArcEnd, Certainty, EventKind, StateVector};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -180,12 +180,12 @@ impl HybridArc {
     ) -> PyResult<Bound<'py, PyAny>> {
         let elapsed = numbers(elapsed)?;
         if let Some(&bad) = elapsed.iter().find(|&&time| !(time >= 0.0 && time.is_finite())) {
-            return Err(PyValueError::new_err(format!(
+            return Err(InputError::new_err(format!(
                 "a time after the start of an arc must be finite and not negative, not {bad:?}"
             )));
         }
         if let Some(at) = elapsed.windows(2).position(|pair| pair[1] < pair[0]) {
-            return Err(PyValueError::new_err(format!(
+            return Err(InputError::new_err(format!(
                 "the times after the start of an arc must rise: elapsed[{}]={:?} is before elapsed[{at}]={:?}",
                 at + 1,
                 elapsed[at + 1],
@@ -193,7 +193,7 @@ impl HybridArc {
             )));
         }
         if let Some(&late) = elapsed.iter().find(|&&time| time > self.own.duration) {
-            return Err(PyValueError::new_err(format!(
+            return Err(InputError::new_err(format!(
                 "the arc lasts {:?}, and has no state {late:?} after its start",
                 self.own.duration
             )));

@@ -11,12 +11,12 @@ use super::names::{Mode, Surface};
 use super::quasi_polynomial::QuasiPolynomial;
 use super::sliding::Sliding;
 use super::vectors::{State, array, numbers, vector};
-use crate::errors::{of_callback, of_result};
+use crate::errors::{InputError, of_callback, of_result};
 use hybrid_system::{
     Enclosure, Error, Filippov, FilippovMode, FilippovSurface, Guard, NextEvent, Reset, Search,
     StateVector, default_search, integrated_crossing, integrated_states,
 };
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyTuple};
 use std::cell::RefCell;
@@ -111,7 +111,7 @@ impl<'py, 'a> Callables<'py, 'a> {
         let next = vector(&state, dimension, what)?;
         if next.iter().any(|number| !number.is_finite()) {
             let text = format!("{what} returned the state {state}; its numbers must be finite");
-            return Err(PyValueError::new_err(text));
+            return Err(InputError::new_err(text));
         }
         Ok(Some((mode, next)))
     }
@@ -273,7 +273,7 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
                         found.extract().map_err(|error| of_result(self.py, &what, error))?;
                     match time {
                         Some(time) if time.is_nan() || time <= after => {
-                            Err(PyValueError::new_err(format!(
+                            Err(InputError::new_err(format!(
                                 "{what} returned {found} for the time after {after:?}; give a later time, or None"
                             )))
                         }
@@ -309,7 +309,7 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
                              finite",
                             start.as_slice()
                         );
-                        return Err(PyValueError::new_err(text.replace("NaN", "nan")));
+                        return Err(InputError::new_err(text.replace("NaN", "nan")));
                     }
                     Ok(Some(own.clone()))
                 }
@@ -340,7 +340,7 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
             }
             match numbers(&found).map_err(|error| of_result(self.py, &what, error))?[..] {
                 [low, high] if low <= high => Ok(Some(Enclosure::new(low, high))),
-                [_, _] => Err(PyValueError::new_err(format!(
+                [_, _] => Err(InputError::new_err(format!(
                     "{what} returned {found} for the derivative {order}: the lower bound must not exceed the upper one"
                 ))),
                 _ => Err(PyTypeError::new_err(format!(

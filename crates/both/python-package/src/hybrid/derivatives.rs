@@ -9,13 +9,13 @@ use super::model::Model;
 use super::names::{ExecutionMode, ExecutionSurface, Mode, Surface};
 use super::vectors::State;
 use crate::arrays::shaped;
+use crate::errors::InputError;
 use hybrid_system::{
     Arc as LibraryArc, ArcEnd, Differentiable, Error, Filippov, Guard, HybridSystem, Linearized,
     Reset, StateVector, gradient_by_differences, integrated_jacobian, jacobian_by_differences,
     reset_by_differences,
 };
 use nalgebra::{DVector, SMatrix, SVector};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -124,7 +124,7 @@ fn derivative<D: Derivative>(
         6 => fixed_derivative::<D, 6>(py, model, arcs, of),
         7 => fixed_derivative::<D, 7>(py, model, arcs, of),
         MOST => fixed_derivative::<D, MOST>(py, model, arcs, of),
-        more => Err(PyValueError::new_err(format!(
+        more => Err(InputError::new_err(format!(
             "derivatives are for states of 1 to {MOST} numbers, not {more}"
         ))),
     }
@@ -204,13 +204,13 @@ pub(crate) fn sensitivity<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let all: Vec<&HybridArc> = arcs.iter().map(Py::get).collect();
     let Some(first) = all.first() else {
-        return Err(PyValueError::new_err("sensitivity needs at least one arc"));
+        return Err(InputError::new_err("sensitivity needs at least one arc"));
     };
     for (k, pair) in all.windows(2).enumerate() {
         if !Arc::ptr_eq(pair[0].model(), pair[1].model()) || !follows(pair[0].own(), pair[1].own())
         {
             let text = format!("arc {} does not begin where arc {k} ends", k + 1);
-            return Err(PyValueError::new_err(text));
+            return Err(InputError::new_err(text));
         }
     }
     let own: Vec<&OwnArc> = all.iter().map(|arc| arc.own()).collect();

@@ -2,10 +2,10 @@
 
 use super::quasi_polynomial::direction_of;
 use super::vectors::numbers;
-use crate::errors::value_error;
+use crate::errors::{InputError, value_error};
 use crate::pickling::refused;
 use hybrid_system::{Direction, PeriodicTimes, PresetTimes, Role, Touch};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -81,18 +81,18 @@ impl Guard {
             ("observer", None) => (Role::Crossing, After::Nothing),
             ("terminal", None) => (Role::Switch, After::End),
             ("switch" | "contact" | "crossing", None) => {
-                return Err(PyValueError::new_err(format!(
+                return Err(InputError::new_err(format!(
                     "guard {name:?} is a {role} and needs reset=; a guard without one is role='observer' or \
                      role='terminal'"
                 )));
             }
             ("terminal", Some(_)) => {
-                return Err(PyValueError::new_err(format!(
+                return Err(InputError::new_err(format!(
                     "guard {name:?} is terminal: its reset would never be used"
                 )));
             }
             (other, _) => {
-                return Err(PyValueError::new_err(format!(
+                return Err(InputError::new_err(format!(
                     "a role is 'switch', 'contact', 'crossing', 'observer' or 'terminal', not {other:?}"
                 )));
             }
@@ -103,7 +103,7 @@ impl Guard {
             "ignore" => Touch::Ignore,
             other => {
                 let text = format!("a touch is 'error', 'event' or 'ignore', not {other:?}");
-                return Err(PyValueError::new_err(text));
+                return Err(InputError::new_err(text));
             }
         };
         let direction = direction_of(direction)?;
@@ -199,7 +199,7 @@ impl Clock {
             let text = format!(
                 "clock {name:?} has first={first:?}, which counts with period= alone; begin times= with it"
             );
-            return Err(PyValueError::new_err(text));
+            return Err(InputError::new_err(text));
         }
         let periodic = (period, first);
         let times = match (times, period) {
@@ -214,7 +214,7 @@ impl Clock {
                 let found = if given.is_some() { "both" } else { "neither" };
                 let text =
                     format!("clock {name:?} needs either times= or period=, and has {found}");
-                return Err(PyValueError::new_err(text));
+                return Err(InputError::new_err(text));
             }
         };
         let after = reset.map_or(After::Nothing, After::Reset);

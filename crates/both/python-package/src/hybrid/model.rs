@@ -3,9 +3,9 @@
 use super::guards::{After, Clock, Guard};
 use super::names::{ExecutionMode, ExecutionSurface, Mode, Modes, Surface};
 use super::sliding_mode::SlidingMode;
-use crate::errors::of_hybrid_with;
+use crate::errors::{InputError, of_hybrid_with};
 use hybrid_system::{Error, FilippovMode, FilippovSurface, Tolerances};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
 /// A guard or a clock.
@@ -97,7 +97,7 @@ impl Model {
             if watched.iter().any(|other| other.name() == own.name()) {
                 let text =
                     format!("two guards are named {:?}: an event could not be told", own.name());
-                return Err(PyValueError::new_err(text));
+                return Err(InputError::new_err(text));
             }
             watched.push(own);
         }

@@ -1,9 +1,8 @@
 //! Guards along closed-form flows as functions of time.
 
-use crate::errors::value_error;
+use crate::errors::{InputError, value_error};
 use crate::pickling::{Reduced, restoring};
 use hybrid_system::{Direction, FirstCrossing};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -122,9 +121,7 @@ impl From<hybrid_system::QuasiPolynomial> for QuasiPolynomial {
 pub(crate) fn direction_of(name: &str) -> PyResult<Direction> {
     let all = [Direction::Rising, Direction::Falling, Direction::Either];
     all.into_iter().find(|direction| name_of(*direction) == name).ok_or_else(|| {
-        PyValueError::new_err(format!(
-            "a direction is 'rising', 'falling' or 'either', not {name:?}"
-        ))
+        InputError::new_err(format!("a direction is 'rising', 'falling' or 'either', not {name:?}"))
     })
 }
 

@@ -5,12 +5,11 @@ use super::guards::callable;
 use super::model::{Functions, Model, Watched};
 use super::sliding_mode::SlidingMode;
 use super::vectors::numbers;
-use crate::errors::value_error;
+use crate::errors::{InputError, value_error};
 use crate::pickling::refused;
 use crate::whole::whole;
 use hybrid_system::{Error, Limits, Tolerances};
 use nalgebra::DVector;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -70,7 +69,7 @@ impl HybridSystem {
             Some(Ok(name)) if name == "filippov" => true,
             Some(Ok(other)) => {
                 let text = format!("slide is a function or 'filippov', not {other:?}");
-                return Err(PyValueError::new_err(text));
+                return Err(InputError::new_err(text));
             }
             _ => false,
         };
@@ -81,24 +80,22 @@ impl HybridSystem {
             callable(py, what, object.as_ref())?;
         }
         if follows && field.is_none() {
-            return Err(PyValueError::new_err("slide='filippov' needs field="));
+            return Err(InputError::new_err("slide='filippov' needs field="));
         }
         if flow.is_none() && field.is_none() {
-            return Err(PyValueError::new_err("a hybrid system needs flow= or field="));
+            return Err(InputError::new_err("a hybrid system needs flow= or field="));
         }
         let positive = [("longest_step", longest_step), ("check_interval", check_interval)];
         let sampling = sampled.map(|value| ("sampled", value));
         let finite = [("tolerance", tolerance)].into_iter().chain(sampling);
         for (name, value) in positive.into_iter().chain(finite.clone()) {
             if value.is_nan() || value <= 0.0 {
-                return Err(PyValueError::new_err(format!(
-                    "{name} must be positive, not {value:?}"
-                )));
+                return Err(InputError::new_err(format!("{name} must be positive, not {value:?}")));
             }
         }
         for (name, value) in finite {
             if !value.is_finite() {
-                return Err(PyValueError::new_err(format!("{name} must be finite, not {value:?}")));
+                return Err(InputError::new_err(format!("{name} must be finite, not {value:?}")));
             }
         }
         let tolerances =
@@ -125,7 +122,7 @@ impl HybridSystem {
         };
         let state = DVector::from_vec(numbers(start).map_err(of_start)?);
         if state.is_empty() {
-            return Err(PyValueError::new_err("a state has at least one number"));
+            return Err(InputError::new_err("a state has at least one number"));
         }
         if !start_time.is_finite() {
             return Err(value_error(Error::BadLimit { what: "the start time", value: start_time }));
@@ -137,11 +134,11 @@ impl HybridSystem {
             let text = format!(
                 "time={time:?} is before start_time={start_time:?}: the execution would end before it starts"
             );
-            return Err(PyValueError::new_err(text));
+            return Err(InputError::new_err(text));
         }
         if mode.as_ref().is_some_and(|mode| mode.is_instance_of::<SlidingMode>()) {
             let text = "an execution starts in a mode of the model: on a surface it slides at once";
-            return Err(PyValueError::new_err(text));
+            return Err(InputError::new_err(text));
         }
         let mode = mode.unwrap_or_else(|| py.None().into_bound(py));
         let mode = self.model.modes.number(&mode)?;

@@ -1,10 +1,10 @@
 //! States as arrays of NumPy, and back.
 
 use crate::arrays::Numbers;
-use crate::errors::of_result;
+use crate::errors::{InputError, of_result};
 use nalgebra::DVector;
 use numpy::{PyArray1, PyArrayMethods};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 
@@ -50,7 +50,7 @@ pub(crate) fn vector(
     let found = numbers.len();
     if found != dimension {
         let text = format!("{what} returned {found} numbers, and the state has {dimension}");
-        return Err(PyValueError::new_err(text));
+        return Err(InputError::new_err(text));
     }
     Ok(DVector::from_vec(numbers))
 }

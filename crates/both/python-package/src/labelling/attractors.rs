@@ -1,7 +1,7 @@
 //! The attractors of a map: of a function of Python, or of steps that need none.
 
 use crate::arrays::{Numbers, shaped};
-use crate::errors::{of_callback, value_error};
+use crate::errors::{ComputationError, of_callback, value_error};
 use crate::formulas::Steps;
 use crate::interruptible::{Watch, in_background, with_threads};
 use crate::pickling::refused;
@@ -10,7 +10,6 @@ use basin_of_attraction::{
     Error, Hyperrectangle, Interval, Label, RecurrenceLimits, StateGrid, StateMap, watched_map,
 };
 use numpy::PyArray1;
-use pyo3::exceptions::PyArithmeticError;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -51,7 +50,7 @@ impl PythonMap {
                 let text = format!(
                     "the map returned {found} from {state:?}; return None where it has no value"
                 );
-                return Err(PyArithmeticError::new_err(text));
+                return Err(ComputationError::new_err(text));
             }
             Ok(Some(next.as_slice().to_vec()))
         };

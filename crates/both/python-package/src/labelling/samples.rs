@@ -6,13 +6,12 @@
 //! ones.
 
 use super::interval::Interval;
-use crate::errors::{of_callback, value_error};
+use crate::errors::{InputError, of_callback, value_error};
 use crate::interruptible::{Watch, in_background};
 use crate::pickling::{Reduced, plain, reduced};
 use crate::whole::{room_for, whole};
 use basin_of_attraction::{Error, Hyperrectangle, Label};
 use numpy::{PyArray1, PyReadonlyArray1};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::collections::{BTreeMap, HashMap};
@@ -75,7 +74,7 @@ fn labelled<T: Send + 'static>(
         if codes.len() != run.points.len() {
             let (found, all) = (codes.len(), run.points.len());
             let text = format!("the labelling returned {found} labels for {all} points");
-            return Err(PyValueError::new_err(text));
+            return Err(InputError::new_err(text));
         }
         known = run.known;
         labels = run.points.into_iter().zip(codes.iter().copied()).collect();
