@@ -9,7 +9,6 @@ import numpy as np
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
-    from numpy.typing import ArrayLike
 
     from .returns import Branch, Diagram, ReturnMap
     from .runs import Run

@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .errors import InputError, TracingError
 from . import _native
-from ._native import CFunction, Equations, Event, Steps
-from .c_functions import c_function, is_c_function
+from ._native import Equations, Steps
+from .callbacks import Callbacks
+from .errors import InputError, TracingError
+from .model_functions import Functions
 from .returns import ReturnMap, _names
 from .runs import Fates, Run
 from .surfaces import Clock, FunctionOrFormulas, Guard
 from .tracing import Model
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
 #: The mode of a system whose modes have no names.
 _ONLY = "motion"
@@ -74,12 +74,12 @@ class System:
             raise InputError("a system has at least one mode")
         self.modes = list(fields)
         self._tolerances = _tolerances(tolerance, absolute, longest_step, len(self.states))
-        functions = _Functions(fields, list(guards), dict(rests or {}), args)
+        functions = Functions(fields, list(guards), dict(rests or {}), args)
         self._ends = [guard.name for guard in guards if isinstance(guard, Guard) and guard.terminal]
         self._surfaces = [guard.name for guard in guards if isinstance(guard, (Guard, Clock))]
         self.why_not: str | None = None
         self._equations: Equations | None = None
-        self._callbacks: _Callbacks | None = None
+        self._callbacks: Callbacks | None = None
         if compiled is not False:
             try:
                 self._equations = functions.equations(Model(self.states, self.parameters), self._tolerances)
@@ -90,7 +90,7 @@ class System:
         else:
             self.why_not = "compiled=False"
         if self._equations is None:
-            self._callbacks = _Callbacks(functions, self.states, self._tolerances, self.why_not)
+            self._callbacks = Callbacks(functions, self.states, self._tolerances, self.why_not)
 
     @property
     def compiled(self) -> bool:
@@ -317,218 +317,3 @@ def _tolerances(tolerance: float, absolute: Any, longest_step: float, dimension:
     if not found["longest_step"] > 0.0:
         raise InputError(f"longest_step must be positive, not {longest_step!r}")
     return found
-
-
-class _Functions:
-    """The functions of a system, as the user gave them."""
-
-    def __init__(self, fields: dict[str, Any], guards: list[Any], rests: dict[str, Any], args: tuple[Any, ...]) -> None:
-        for guard in guards:
-            if not isinstance(guard, (Guard, Clock)):
-                raise TypeError(f"guards are of nonsmooth.Guard and Clock, not {type(guard).__name__}")
-        names = [guard.name for guard in guards]
-        twice = {name for name in names if names.count(name) > 1}
-        if twice:
-            raise InputError(f"two guards are named {sorted(twice)[0]!r}: an event could not be told")
-        for guard in guards:
-            for mode in [*(guard.modes or []), *([guard.to] if guard.to is not None else [])]:
-                if mode not in fields:
-                    raise InputError(f"{guard.name!r} names the mode {mode!r}; the modes are: {', '.join(fields)}")
-        self.fields, self.guards, self.args = fields, guards, args
-        self.rests = {mode: (to, None) if isinstance(to, str) else tuple(to) for mode, to in rests.items()}
-        for mode in [*self.rests, *(to for to, _ in self.rests.values())]:
-            if mode not in fields:
-                raise InputError(f"rests= names the mode {mode!r}; the modes are: {', '.join(fields)}")
-
-    def of(self, given: Any) -> Any:
-        """The function f(t, x, p) of a function with further arguments."""
-        args = self.args
-        if is_c_function(given):
-            return c_function(given)
-        if not args or not callable(given):
-            return given
-        return lambda t, x, p: given(t, x, *args) if not len(p) else given(t, x, p, *args)
-
-    def equations(self, model: Model, tolerances: dict[str, Any]) -> Equations:
-        given = [*self.fields.values(), *(guard.function for guard in self.guards if isinstance(guard, Guard))]
-        if any(is_c_function(own) for own in given):
-            raise TracingError("a function of C is called, and has no formulas")
-
-        def value(what: str, given: Any) -> Any:
-            return json.loads(model.formulas(what, self.of(given)).json)
-
-        def part(what: str, given: Any) -> Any:
-            whole = value(what, given)
-            return {"parts": whole["parts"], "outputs": whole["outputs"]}
-
-        def jump(what: str, surface: Any) -> dict[str, Any]:
-            found: dict[str, Any] = {}
-            if surface.to is not None:
-                found["mode"] = surface.to
-            if surface.reset is not None:
-                found["state"] = part(f"the reset of {what}", surface.reset)
-            return found
-
-        def guard(surface: Any) -> dict[str, Any]:
-            what = repr(surface.name)
-            found: dict[str, Any] = {"surface": surface.name, "touch": "error", "direction": "either"}
-            if isinstance(surface, Clock):
-                found["role"] = "clock"
-                if surface.times is not None:
-                    found["times"], times = "listed", [float(time) for time in surface.times]
-                else:
-                    period = float(surface.period)  # type: ignore[arg-type]
-                    times = [period if surface.first is None else float(surface.first), period]
-                found["function"] = part(f"the times of {what}", lambda t, x, p: times)
-            else:
-                found.update(direction=surface.direction, role=surface.role, touch=surface.touch)
-                found["function"] = part(f"the guard {what}", surface.function)
-                if surface.only_where is not None:
-                    found["condition"] = part(f"the condition of {what}", surface.only_where)
-                    found["role"] = "crossing" if surface.role == "switch" else surface.role
-            if not surface.terminal:
-                found["jump"] = jump(what, surface)
-            return found
-
-        modes = []
-        for mode, field in self.fields.items():
-            what = "the field" if len(self.fields) == 1 else f"the field of {mode!r}"
-            own: dict[str, Any] = {"name": mode, "field": part(what, field)}
-            own["guards"] = [guard(surface) for surface in self.guards if surface.modes is None or mode in surface.modes]
-            if mode in self.rests:
-                to, reset = self.rests[mode]
-                own["after_limit"] = {"mode": to}
-                if reset is not None:
-                    own["after_limit"]["state"] = part(f"the rest of {mode!r}", reset)
-            modes.append(own)
-        names = {"states": model.states, "parameters": [[name, repr(value)] for name, value in model.parameters.items()]}
-        whole = {"format": "hybrid equations", "version": 1, **names, "everywhere": [], "modes": modes}
-        return Equations(json.dumps(whole), **tolerances)
-
-
-class _Callbacks:
-    """A system whose functions are called: the time is the last component of its state."""
-
-    def __init__(
-        self, functions: _Functions, states: list[str], tolerances: dict[str, Any], why_not: str | None
-    ) -> None:
-        if "absolute_each" in tolerances or tolerances["absolute"] != tolerances["relative"]:
-            raise InputError("tolerances for each component, and another absolute one, need formulas")
-        for guard in functions.guards:
-            if isinstance(guard, Guard) and guard.only_where is not None:
-                raise InputError(f"only_where of {guard.name!r} needs formulas")
-        for what, given in [
-            *((f"the field of {mode!r}", field) for mode, field in functions.fields.items()),
-            *((f"the guard {guard.name!r}", guard.function) for guard in functions.guards if isinstance(guard, Guard)),
-            *((f"the reset of {guard.name!r}", guard.reset) for guard in functions.guards if guard.reset is not None),
-        ]:
-            if not callable(given) and not is_c_function(given):
-                raise TypeError(f"{what} is no function, and there are no formulas ({why_not}): give functions for all")
-            if is_c_function(given):
-                # Another signature is an error here, not in a run.
-                c_function(given)
-        self.functions, self.states, self.tolerances = functions, states, tolerances
-
-    def run(
-        self, mode: str, start: NDArray[np.float64], times: tuple[float, float], events: int, parameters: dict[str, float]
-    ) -> _CallbackSolution:
-        from .tracing import Parameters
-
-        p = Parameters(list(parameters), list(parameters.values()))
-        dimension = len(start)
-
-        def of(given: Any, results: int = dimension) -> Any:
-            own = self.functions.of(given)
-            if not isinstance(own, CFunction):
-                return own
-            return lambda t, x, p: own(t, x, [*p], results)
-
-        fields = {mode: of(field) for mode, field in self.functions.fields.items()}
-        in_c = [(mode, self.functions.of(field)) for mode, field in self.functions.fields.items()]
-
-        def field(mode: str, x: Any) -> list[Any]:
-            return [*np.ravel(fields[mode](x[-1], x[:-1], p)), 1.0]
-
-        def reset(surface: Any) -> Any:
-            if surface.terminal:
-                return (lambda mode, x: None) if isinstance(surface, Clock) else None
-            own = None if surface.reset is None else of(surface.reset)
-
-            def jump(mode: str, x: Any) -> tuple[str, Any]:
-                state = x if own is None else [*np.ravel(own(x[-1], x[:-1], p)), x[-1]]
-                return (surface.to if surface.to is not None else mode, state)
-
-            return jump
-
-        def native(surface: Any) -> Any:
-            modes = None if surface.modes is None else list(surface.modes)
-            if isinstance(surface, Clock):
-                times = None if surface.times is None else [float(time) for time in surface.times]
-                first = 0.0 if surface.period is None else surface.period if surface.first is None else surface.first
-                return _native.Clock(
-                    surface.name, times=times, period=surface.period, first=first, reset=reset(surface), modes=modes
-                )
-            own, in_c = of(surface.function, 1), self.functions.of(surface.function)
-
-            def plain(x: Any) -> Any:
-                found = own(x[-1], x[:-1], p)
-                # A list of one number is one, as for formulas.
-                return found[0] if isinstance(found, (list, tuple, np.ndarray)) and np.size(found) == 1 else found
-
-            value: Any = plain
-            if isinstance(in_c, CFunction):
-                value = _native.CGuard(in_c, [*p])
-            observes = not surface.terminal and surface.reset is None and surface.to is None
-            role: Any = "terminal" if surface.terminal else "observer" if observes else surface.role
-            return _native.Guard(
-                surface.name,
-                value,
-                surface.direction,
-                reset=None if observes else reset(surface),
-                role=role,
-                touch=surface.touch,
-                modes=modes,
-            )
-
-        def rest(mode: str, x: Any) -> Any:
-            if mode not in self.functions.rests:
-                return None
-            to, own = self.functions.rests[mode]
-            return (to, x if own is None else [*np.ravel(of(own)(x[-1], x[:-1], p)), x[-1]])
-
-        system = _native.HybridSystem(
-            field=_native.CField(in_c, [*p]) if all(isinstance(own, CFunction) for _, own in in_c) else field,
-            guards=[native(surface) for surface in self.functions.guards],
-            rest=rest if self.functions.rests else None,
-            tolerance=self.tolerances["relative"],
-            longest_step=self.tolerances["longest_step"],
-        )
-        execution = system.run([*start, times[0]], time=times[1], mode=mode, events=events, start_time=times[0])
-        return _CallbackSolution(execution, len(self.states))
-
-
-class _CallbackSolution:
-    """A run by callbacks, with what a Solution of formulas has."""
-
-    def __init__(self, execution: Any, dimension: int) -> None:
-        self.arcs: list[Any] = []
-        self.error: Exception | None = None
-        self._dimension = dimension
-        try:
-            self.arcs.extend(execution)
-        except Exception as error:
-            if not self.arcs:
-                raise
-            self.error = error
-        self.stop: str = execution.stop or "failed"
-        self.times = (self.arcs[0].time, execution.time)
-
-    @property
-    def events(self) -> list[Event]:
-        return [arc.event for arc in self.arcs if arc.event is not None]
-
-    def states(self, times: Any, /) -> Any:
-        return _native.arc_states(self.arcs, times)
-
-    def trajectory(self, grid: Any, /) -> Any:
-        return _native.arc_trajectory(self.arcs, grid)
