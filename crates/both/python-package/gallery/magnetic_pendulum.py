@@ -21,7 +21,7 @@ pendulum = ns.System(field, states="x y vx vy", parameters={"friction": 0.2}, to
 magnets = [[np.cos(angle), np.sin(angle), 0, 0] for angle in ANGLES]
 region = {"x": (-2, 2), "y": (-2, 2), "vx": (-3, 3), "vy": (-3, 3)}
 found = ns.attractors_of(pendulum, region, step=1.0, starts=magnets, cells=30, locate=50, tests=50)
-basins = ns.basins_of(pendulum, {"x": (-2, 2), "y": (-2, 2)}, (160, 160), step=1.0, others={"vx": 0, "vy": 0}, attractors=found)
+basins = ns.basins_of(pendulum, {"x": (-2, 2), "y": (-2, 2)}, (120, 120), step=1.0, others={"vx": 0, "vy": 0}, attractors=found)
 figure, axes = plt.subplots(figsize=(5, 4), layout="constrained")
 ns.plots.plot_basins(basins, axes)
 figure.savefig("magnetic_pendulum.png", dpi=80)

@@ -408,13 +408,13 @@ def test_return_maps_have_derivatives_branches_and_diagrams():
     assert np.allclose(bounces.orbit([1.0], 2).ravel(), [1.0, 0.8, 0.7], atol=1e-12)
     fixed = bounces.periodic_point([0.7])
     assert abs(fixed.point[0] - 0.6) < 1e-12 and fixed.is_stable and abs(fixed.multipliers[0] - 0.5) < 1e-9
-    branch = bounces.branch([0.7], (0.1, 0.9))
+    branch = bounces.branch([0.7], (0.1, 0.9), longest_step=0.2)
     assert branch.ends == ("window", "window") and np.allclose(branch.point[:, 0], 0.3 / (1 - branch.parameter), atol=1e-9)
     assert branch.is_stable.all() and not branch.bifurcations
     diagram = bounces.diagram([0.2, 0.5], [[0.1]], keep=3)
     assert diagram.parameter.tolist() == [0.2] * 3 + [0.5] * 3 and not diagram.failed
     assert np.allclose(diagram.point.ravel(), [0.375] * 3 + [0.6] * 3)
-    value, lower, upper = bounces.lyapunov([0.5])[0]
+    value, lower, upper = bounces.lyapunov([0.5], transient=50, images=300)[0]
     assert lower <= np.log(0.5) + 1e-9 and np.log(0.5) - 1e-9 <= upper and abs(value - np.log(0.5)) < 1e-6
     again = pickle.loads(pickle.dumps(bounces))
     assert (again([1.0]) == bounces([1.0])).all()
