@@ -59,42 +59,42 @@ impl LiftOffMap {
         self.map.mass_ratio().value()
     }
 
-    /// f(α), for a number or an array; NaN where the hopper is grounded. `out` is an array of float64 for the results.
-    #[pyo3(signature = (alpha, /, *, out = None, r#where = None))]
+    /// f(α), for a number or an array; NaN where the hopper is grounded.
+    #[pyo3(signature = (alpha, /))]
     fn __call__<'py>(
         &self,
         py: Python<'py>,
         alpha: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-        r#where: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        if r#where.is_some() {
-            let text = "where= is not taken: give the speeds that count, as in m(alpha[mask])";
-            return Err(PyTypeError::new_err(text));
-        }
-        if let Some(out) = out {
-            return self.images_to(py, alpha, out);
-        }
         if let Some(alpha) = scalar(alpha.as_borrowed()) {
             let next =
                 if alpha.is_nan() { None } else { self.map.image(alpha).map_err(map_error)? };
             return Ok(next.unwrap_or(f64::NAN).into_pyobject(py)?.into_any());
         }
-        self.images(py, alpha, false)
+        self.images(py, alpha, false, None, None)
     }
 
     /// f(α) for all speeds at once; NaN where the hopper is grounded.
     ///
     /// With status=True a pair: the images, and an array of uint8 with 0 where the hopper lifts off again, 1 where
     /// it is grounded, 2 where the hop cannot be decided, and 3 where the speed was NaN. Without it an undecided
-    /// hop raises UndecidedError.
-    #[pyo3(signature = (alpha, status = false))]
+    /// hop raises UndecidedError. `out` is an array of float64 for the images, of the shape of the speeds.
+    #[pyo3(signature = (alpha, status = false, *, out = None, r#where = None))]
     fn images<'py>(
         &self,
         py: Python<'py>,
         alpha: &Bound<'py, PyAny>,
         status: bool,
+        out: Option<&Bound<'py, PyAny>>,
+        r#where: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
+        if r#where.is_some() || (status && out.is_some()) {
+            let text = "where=, and status= with out=, are not taken: give the speeds that count, as in m(alpha[mask])";
+            return Err(PyTypeError::new_err(text));
+        }
+        if let Some(out) = out {
+            return self.images_to(py, alpha, out);
+        }
         let speeds = Source::of(alpha)?;
         let shape = speeds.shape();
         let count = shape.iter().product();

@@ -166,17 +166,17 @@ def test_hops_fates_and_slopes_of_arrays_are_records(lift_off_map):
 def test_results_go_into_a_given_array_and_masks_are_refused(lift_off_map):
     speeds = np.linspace(4.5, 20, 20_000).reshape(100, 200)
     out = np.zeros_like(speeds)
-    assert lift_off_map(speeds, out=out) is out
+    assert lift_off_map.images(speeds, out=out) is out
     assert np.array_equal(out, lift_off_map(speeds), equal_nan=True)
-    assert lift_off_map(speeds, out=speeds) is speeds and np.array_equal(speeds, out, equal_nan=True)
+    assert lift_off_map.images(speeds, out=speeds) is speeds and np.array_equal(speeds, out, equal_nan=True)
     for bad in (np.zeros(3), np.zeros((100, 200), dtype=np.float32), np.zeros((200, 100)).T, [0.0]):
         with pytest.raises(ValueError, match="out= is an array of float64 with the shape"):
-            lift_off_map(out, out=bad)
+            lift_off_map.images(out, out=bad)
     out.flags.writeable = False
     with pytest.raises(ValueError, match="written"):
-        lift_off_map(speeds, out=out)
+        lift_off_map.images(speeds, out=out)
     with pytest.raises(TypeError, match="alpha.mask"):
-        lift_off_map([5.0, 7.0], where=[True, False])
+        lift_off_map.images([5.0, 7.0], where=[True, False])
     assert lift_off_map(np.float32([5, 7])).dtype == np.float64
 
 
