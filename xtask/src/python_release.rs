@@ -66,6 +66,10 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
         say(&format!("the tests of the {what}"))?;
         let own = target.join(format!("installed-{what}"));
         let inside = environment_python(&first_python(), &own, &tests)?;
+        // The tests of types take a while: the gate skips them aloud.
+        let types =
+            ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "mypy>=1.15"];
+        call(&inside, Command::new(&inside).args(types))?;
         install(&inside, file, what == "sdist", &target)?;
         // The tests lie beside no sources of the package: they import what is installed.
         let mut run = Command::new(&inside);
