@@ -13,7 +13,7 @@ from ._native import Attractors, Steps
 from .returns import ReturnMap
 from .surfaces import FunctionOrFormulas
 from .systems import System
-from .tracing import Model
+from .tracing import Model, name_list
 
 if TYPE_CHECKING:
     import xarray
@@ -31,8 +31,7 @@ def map_steps(
     >>> henon([0.5, 0.1])
     [0.75, 0.15]
     """
-    names = states.replace(",", " ").split() if isinstance(states, str) else list(states)
-    return Steps.of_formulas(Model(names, parameters or {}).formulas("the map", map))
+    return Steps.of_formulas(Model(name_list(states), parameters or {}).formulas("the map", map))
 
 
 def attractors_of(

@@ -47,11 +47,8 @@ class Functions:
         if any(is_c_function(own) for own in given):
             raise TracingError("a function of C is called, and has no formulas")
 
-        def value(what: str, given: Any) -> Any:
-            return json.loads(model.formulas(what, self.of(given)).json)
-
         def part(what: str, given: Any) -> Any:
-            whole = value(what, given)
+            whole = json.loads(model.formulas(what, self.of(given)).json)
             return {"parts": whole["parts"], "outputs": whole["outputs"]}
 
         def jump(what: str, surface: Any) -> dict[str, Any]:
@@ -83,11 +80,13 @@ class Functions:
                 found["jump"] = jump(what, surface)
             return found
 
+        # Once for all modes: each function is traced, and compared with its formulas.
+        guards = [(surface.modes, guard(surface)) for surface in self.guards]
         modes = []
         for mode, field in self.fields.items():
             what = "the field" if len(self.fields) == 1 else f"the field of {mode!r}"
             own: dict[str, Any] = {"name": mode, "field": part(what, field)}
-            own["guards"] = [guard(surface) for surface in self.guards if surface.modes is None or mode in surface.modes]
+            own["guards"] = [found for named, found in guards if named is None or mode in named]
             if mode in self.rests:
                 to, reset = self.rests[mode]
                 own["after_limit"] = {"mode": to}

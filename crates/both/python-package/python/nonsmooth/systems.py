@@ -15,7 +15,7 @@ from .model_functions import Functions
 from .returns import ReturnMap, _names
 from .runs import Fates, Run
 from .surfaces import Clock, FunctionOrFormulas, Guard
-from .tracing import Model
+from .tracing import Model, name_list
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -67,7 +67,7 @@ class System:
         longest_step: float = float("inf"),
         compiled: bool | None = None,
     ) -> None:
-        self.states = states.replace(",", " ").split() if isinstance(states, str) else list(states)
+        self.states = name_list(states)
         self.parameters = {name: float(value) for name, value in (parameters or {}).items()}
         fields = dict(field) if isinstance(field, Mapping) else {_ONLY: field}
         if not fields:
@@ -229,12 +229,11 @@ class System:
         self._parameters({name: 0.0})
         if to not in self._surfaces:
             raise InputError(f"there is no guard {to!r}; the guards are: {', '.join(self._surfaces) or 'none'}")
-        if isinstance(coordinates, str):
-            coordinates = coordinates.replace(",", " ").split()
+        coordinates = name_list(coordinates)
         section = Model(coordinates, self.parameters)
         begin = None if start is None else section.formulas("the start of a return", start).texts
         after = None if image is None else Model(self.states, self.parameters).formulas("the image", image).texts
-        native = _native.ReturnMap(equations, name, self._first_mode(mode), to, list(coordinates), begin, after)
+        native = _native.ReturnMap(equations, name, self._first_mode(mode), to, coordinates, begin, after)
         return ReturnMap(native, name, self.parameters[name])
 
     def _fates_by_callbacks(

@@ -18,6 +18,11 @@ _COMPARED = (2.0,) * 8 + (0.01,) * 2 + (10.0,) * 8 + (1000.0,) * 8
 _APART = 1e-9
 
 
+def name_list(names: Sequence[str] | str) -> list[str]:
+    """A list of names, of a list or of a text with spaces or commas between them."""
+    return names.replace(",", " ").split() if isinstance(names, str) else list(names)
+
+
 class Parameters:
     """The parameters of a system, as its functions see them: by name, ``p.damping`` or ``p["damping"]``, or in order."""
 

@@ -117,12 +117,6 @@ impl Equations {
         self.equations().content_hash().map_err(|error| of_hybrid(&error))
     }
 
-    /// Whether a formula uses the time: the state of the model has it as its last component then.
-    #[getter]
-    fn is_timed(&self) -> bool {
-        !self.equations().is_autonomous()
-    }
-
     /// The same equations with other values of parameters.
     fn with_parameters(&self, values: Vec<(String, f64)>) -> PyResult<Equations> {
         self.with(&values)
