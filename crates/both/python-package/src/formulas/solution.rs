@@ -1,9 +1,8 @@
 //! A run of a model of formulas.
 
 use super::equations::{Equations, Model, OwnArc};
-use crate::arrays::shaped;
 use crate::errors::{of_hybrid, value_error};
-use crate::hybrid::{Event, numbers, stop_name, trajectory_arrays};
+use crate::hybrid::{Event, numbers, state_rows, stop_name, trajectory_arrays};
 use crate::pickling::Reduced;
 use hybrid_system::{Error, Label, Solution as LibrarySolution, StateVector, Stop};
 use pyo3::exceptions::PyTypeError;
@@ -93,8 +92,7 @@ impl Solution {
         let times = numbers(times)?;
         let states = self.seen(|solution| solution.states(&times))?;
         let dimension = self.arcs.first().map_or(0, |arc| arc.start.dimension());
-        let rows = states.iter().flat_map(|state| state.components().to_vec()).collect();
-        shaped(py, rows, &[states.len(), dimension])
+        state_rows(py, &states, dimension)
     }
 
     /// As Execution.trajectory, of the whole run.

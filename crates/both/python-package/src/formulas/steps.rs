@@ -42,13 +42,13 @@ struct Flow {
     modes: Vec<Name>,
     dimension: usize,
     times: (f64, f64),
-    ends: Vec<String>,
+    ends: Arc<[String]>,
 }
 
 impl Flow {
     /// What `see` finds in the map of the library.
     fn seen<T>(&self, see: impl FnOnce(&dyn StateMap) -> T) -> T {
-        let ends = self.ends.clone();
+        let ends = Arc::clone(&self.ends);
         let run =
             |mode: Name, x: &[f64]| self.model.start_at(mode.as_str(), x.to_vec(), self.times);
         see(&ExecutionSteps::new(self.dimension, &self.modes, run)
@@ -74,12 +74,12 @@ impl StateMap for Flow {
 struct Returns {
     map: Arc<return_map::EquationReturns>,
     parameter: f64,
-    ends: Vec<String>,
+    ends: Arc<[String]>,
 }
 
 impl Returns {
     fn seen<T>(&self, see: impl FnOnce(&dyn StateMap) -> T) -> T {
-        let ends = self.ends.clone();
+        let ends = Arc::clone(&self.ends);
         let map = FamilySteps::new(&*self.map, self.parameter);
         see(&map.label_ends(move |end| label(&ends, end)))
     }
@@ -137,7 +137,7 @@ impl Steps {
                 Arc::new(FlowSteps::new(&field, times, tolerance).map_err(value_error)?)
             }
             None => {
-                let ends = ends.clone();
+                let ends = ends.clone().into();
                 Arc::new(Flow { model, modes: names, dimension, times, ends })
             }
         };
@@ -154,7 +154,7 @@ impl Steps {
         ends: Vec<String>,
     ) -> PyResult<Steps> {
         let map = Arc::clone(&returns.get().map);
-        let own = Returns { map, parameter, ends: ends.clone() };
+        let own = Returns { map, parameter, ends: ends.clone().into() };
         let arguments = (returns, parameter, ends).into_pyobject(py)?.unbind();
         Ok(Steps { map: Arc::new(own), made_by: (Steps::maker(py, "of_returns")?, arguments) })
     }

@@ -4,8 +4,7 @@ use super::arcs::{HybridArc, OwnArc};
 use super::callables::Callables;
 use super::names::{ExecutionMode, ExecutionSurface};
 use super::trajectory::trajectory_arrays;
-use super::vectors::numbers;
-use crate::arrays::shaped;
+use super::vectors::{numbers, state_rows};
 use crate::errors::InputError;
 use hybrid_system::{Error, Filippov, Solution, StateVector};
 use pyo3::prelude::*;
@@ -39,8 +38,7 @@ pub(crate) fn arc_states<'py>(
     let times = numbers(times)?;
     let states = seen(py, &arcs, |solution| solution.states(&times))?;
     let dimension = arcs.first().map_or(0, |arc| arc.get().own().start.dimension());
-    let rows = states.iter().flat_map(|state| state.components().to_vec()).collect();
-    shaped(py, rows, &[states.len(), dimension])
+    state_rows(py, &states, dimension)
 }
 
 /// A run with these arcs as arrays, as Execution.trajectory.

@@ -5,8 +5,7 @@ use super::model::Model;
 use super::names::{ExecutionMode, ExecutionSurface};
 use super::quasi_polynomial::name_of;
 use super::sliding::Sliding;
-use super::vectors::{State, copied, numbers};
-use crate::arrays::shaped;
+use super::vectors::{State, copied, numbers, state_rows};
 use crate::errors::InputError;
 use crate::pickling::{Reduced, equal, plain, reduced, refused};
 use hybrid_system::{Arc as LibraryArc, ArcEnd, Certainty, EventKind, StateVector};
@@ -205,8 +204,7 @@ impl HybridArc {
         }
         let states = found.map_err(|error| system.system().raised(&error))?;
         let dimension = self.own.start.dimension();
-        let rows = states.iter().flat_map(|state| state.components().to_vec()).collect();
-        shaped(py, rows, &[states.len(), dimension])
+        state_rows(py, &states, dimension)
     }
 
     fn __reduce__(&self, py: Python<'_>) -> PyResult<()> {

@@ -38,4 +38,4 @@ pub(crate) use sliding::Sliding;
 pub(crate) use sliding_mode::SlidingMode;
 pub(crate) use system::HybridSystem;
 pub(crate) use trajectory::{stop_name, trajectory_arrays};
-pub(crate) use vectors::{numbers, vector};
+pub(crate) use vectors::{numbers, state_rows, vector};

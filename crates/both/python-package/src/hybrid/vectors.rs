@@ -1,6 +1,6 @@
 //! States as arrays of NumPy, and back.
 
-use crate::arrays::Numbers;
+use crate::arrays::{Numbers, shaped};
 use crate::errors::{InputError, of_result};
 use nalgebra::DVector;
 use numpy::{PyArray1, PyArrayMethods};
@@ -14,6 +14,16 @@ pub(crate) type State = DVector<f64>;
 /// A state as an object of Python.
 pub(crate) fn copied(py: Python<'_>, state: &State) -> Py<PyAny> {
     array(py, state.as_slice()).into_any().unbind()
+}
+
+/// States as an array, one row for each.
+pub(crate) fn state_rows<'py>(
+    py: Python<'py>,
+    states: &[State],
+    dimension: usize,
+) -> PyResult<Bound<'py, PyAny>> {
+    let rows = states.iter().flat_map(|state| state.as_slice()).copied().collect();
+    shaped(py, rows, &[states.len(), dimension])
 }
 
 /// A state as an array of its own.
