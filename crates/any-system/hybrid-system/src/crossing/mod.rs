@@ -64,6 +64,10 @@ pub(crate) use guard_rounding::{
 pub(crate) use guarded_flow::GuardedFlow;
 pub use next_event::{Crossing, EventKind, NextEvent};
 pub use quasi_polynomial::{QuasiPolynomial, QuasiPolynomialPart};
+#[cfg(feature = "ode")]
+pub(crate) use quasi_term::{Coefficients, Term};
+#[cfg(feature = "ode")]
+pub(crate) use rounded::Rounded;
 pub(crate) use search_request::LeavingGuards;
 pub(crate) use search_request::MOST_INTERVALS;
 pub use search_request::{Leaving, Search};

@@ -1,6 +1,6 @@
 //! Guards along closed-form flows as functions of time: quasi-polynomials.
 
-use super::quasi_term::Term;
+use super::quasi_term::{Coefficients, Term};
 use super::rounded::Rounded;
 use crate::error::Error;
 
@@ -35,7 +35,7 @@ pub struct QuasiPolynomial {
     terms: Vec<Term>,
 }
 
-fn exact(coefficients: &[f64]) -> Vec<Rounded> {
+fn exact(coefficients: &[f64]) -> Coefficients {
     coefficients.iter().copied().map(Rounded::exact).collect()
 }
 
@@ -58,7 +58,8 @@ impl QuasiPolynomial {
     /// The function with the parts that [`to_parts`](Self::to_parts) gave.
     pub fn from_parts(parts: Vec<QuasiPolynomialPart>) -> Self {
         let number = |(value, error): WithError| Rounded { value, error };
-        let all = |pairs: Vec<WithError>| pairs.into_iter().map(number).collect();
+        let all =
+            |pairs: Vec<WithError>| -> Coefficients { pairs.into_iter().map(number).collect() };
         let term = |(sigma, omega, cos, sin): QuasiPolynomialPart| Term {
             sigma: number(sigma),
             omega: number(omega),
@@ -110,7 +111,13 @@ impl QuasiPolynomial {
         }
     }
 
-    pub(super) fn terms(&self) -> &[Term] {
+    /// The function with these terms.
+    #[cfg(feature = "ode")]
+    pub(crate) fn from_terms(terms: Vec<Term>) -> Self {
+        QuasiPolynomial { terms }
+    }
+
+    pub(crate) fn terms(&self) -> &[Term] {
         &self.terms
     }
 

@@ -1,6 +1,10 @@
 //! One term of a quasi-polynomial.
 
 use super::rounded::Rounded;
+use smallvec::SmallVec;
+
+/// The coefficients of a polynomial. Those of an oscillation and of a fall are kept without allocating.
+pub(crate) type Coefficients = SmallVec<[Rounded; 3]>;
 
 /// The rounding of a term by its evaluation, in ulps of its coefficient.
 #[cfg(feature = "ode")]
@@ -14,9 +18,9 @@ pub(crate) struct Term {
     /// ω, the frequency.
     pub(crate) omega: Rounded,
     /// p.
-    pub(crate) cos: Vec<Rounded>,
+    pub(crate) cos: Coefficients,
     /// q.
-    pub(crate) sin: Vec<Rounded>,
+    pub(crate) sin: Coefficients,
 }
 
 impl Term {
@@ -109,7 +113,7 @@ impl Term {
         let (cs, sc) = (product(&self.cos, &other.sin), product(&self.sin, &other.cos));
         // ½(x ± y)
         let half = |x: &[Rounded], y: &[Rounded], sign: f64| {
-            let mut sum: Vec<_> = x.iter().map(|c| c.shifted(0.5)).collect();
+            let mut sum: Coefficients = x.iter().map(|c| c.shifted(0.5)).collect();
             add_to(
                 &mut sum,
                 y.iter().map(|c| if sign < 0.0 { -c.shifted(0.5) } else { c.shifted(0.5) }),
@@ -153,7 +157,7 @@ pub(crate) fn slope_coefficient(
 }
 
 /// Adds coefficients to those of `sum`.
-fn add_to(sum: &mut Vec<Rounded>, other: impl ExactSizeIterator<Item = Rounded>) {
+fn add_to(sum: &mut Coefficients, other: impl ExactSizeIterator<Item = Rounded>) {
     sum.resize(sum.len().max(other.len()), Rounded::default());
     for (own, term) in sum.iter_mut().zip(other) {
         *own = *own + term;
@@ -161,11 +165,11 @@ fn add_to(sum: &mut Vec<Rounded>, other: impl ExactSizeIterator<Item = Rounded>)
 }
 
 /// The coefficients of a product of polynomials.
-fn product(a: &[Rounded], b: &[Rounded]) -> Vec<Rounded> {
+fn product(a: &[Rounded], b: &[Rounded]) -> Coefficients {
     if a.is_empty() || b.is_empty() {
-        return Vec::new();
+        return Coefficients::new();
     }
-    let mut product = vec![Rounded::default(); a.len() + b.len() - 1];
+    let mut product = Coefficients::from_elem(Rounded::default(), a.len() + b.len() - 1);
     for (i, x) in a.iter().enumerate() {
         for (j, y) in b.iter().enumerate() {
             product[i + j] = product[i + j] + *x * *y;

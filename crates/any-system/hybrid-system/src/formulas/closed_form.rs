@@ -14,9 +14,10 @@
 
 use super::exact::{difference, product, quotient, sum};
 use super::quasi_values::{enclosed, needed, quasi_value, term};
-use crate::crossing::{QuasiPolynomial, QuasiPolynomialPart};
+use crate::crossing::{QuasiPolynomial, Rounded, Term};
 use equations::{Binary, Formulas, Node, Unary};
 use interval_arithmetic::Enclosure;
+use smallvec::{SmallVec, smallvec};
 
 /// The most components of a state that are looked at: the order of the blocks takes the cube of it.
 const MOST_COMPONENTS: usize = 32;
@@ -146,10 +147,9 @@ const SHARP: f64 = 1e-10;
 
 /// True if the coefficients are known well beside the largest one: else the signs of the motion at its start are hidden.
 fn is_known(function: &QuasiPolynomial) -> bool {
-    let parts = function.to_parts();
-    let numbers = || parts.iter().flat_map(|(_, _, cos, sin)| cos.iter().chain(sin));
-    let largest = numbers().map(|(value, _)| value.abs()).fold(0.0, f64::max);
-    numbers().all(|(_, error)| *error <= KNOWN * largest)
+    let numbers = || function.terms().iter().flat_map(|term| term.cos.iter().chain(&term.sin));
+    let largest = numbers().map(|number| number.value.abs()).fold(0.0, f64::max);
+    numbers().all(|number| number.error <= KNOWN * largest)
 }
 
 /// Parts of a motion at which its size is looked at: its ends, and some that no periodic motion passes at zero.
@@ -203,19 +203,22 @@ impl Complex {
     }
 }
 
+/// Few coefficients, without allocating.
+type Few<T> = SmallVec<[T; 3]>;
+
 /// μ and the coefficients G of the real part of e^(μt) Σ G_k t^k.
-fn exponential_form((sigma, omega, cos, sin): &QuasiPolynomialPart) -> (Complex, Vec<Complex>) {
+fn exponential_form(Term { sigma, omega, cos, sin }: &Term) -> (Complex, Few<Complex>) {
     let mu = Complex { re: enclosed(*sigma), im: enclosed(*omega) };
-    let at = |list: &[(f64, f64)], k: usize| list.get(k).map_or(Enclosure::ZERO, |c| enclosed(*c));
+    let at = |list: &[Rounded], k: usize| list.get(k).map_or(Enclosure::ZERO, |c| enclosed(*c));
     let length = cos.len().max(sin.len());
     let coefficient = |k| Complex { re: at(cos, k), im: -at(sin, k) };
     (mu, (0..length).map(coefficient).collect())
 }
 
-fn real_form(mu: Complex, coefficients: &[Complex]) -> QuasiPolynomialPart {
-    let cos = coefficients.iter().map(|y| y.re).collect();
-    let sin = coefficients.iter().map(|y| -y.im).collect();
-    term(mu.re, mu.im, (cos, sin))
+fn real_form(mu: Complex, coefficients: &[Complex]) -> QuasiPolynomial {
+    let cos: Few<Enclosure> = coefficients.iter().map(|y| y.re).collect();
+    let sin: Few<Enclosure> = coefficients.iter().map(|y| -y.im).collect();
+    QuasiPolynomial::from_terms(vec![term(mu.re, mu.im, (&cos, &sin))])
 }
 
 fn whole(k: usize) -> Complex {
@@ -226,10 +229,10 @@ fn whole(k: usize) -> Complex {
 fn single(a: Enclosure, forcing: &QuasiPolynomial, start: f64) -> Option<QuasiPolynomial> {
     let mut found = QuasiPolynomial::default();
     let mut at_start = Enclosure::ZERO;
-    for part in forcing.to_parts() {
-        let (mu, g) = exponential_form(&part);
+    for part in forcing.terms() {
+        let (mu, g) = exponential_form(part);
         let distance = mu.minus(Complex::real(a));
-        let mut y = vec![Complex::ZERO; g.len() + 1];
+        let mut y: Few<Complex> = smallvec![Complex::ZERO; g.len() + 1];
         if distance.is_zero() {
             // y = Σ G_k t^(k+1)/(k + 1).
             for (k, g) in g.iter().enumerate() {
@@ -242,10 +245,10 @@ fn single(a: Enclosure, forcing: &QuasiPolynomial, start: f64) -> Option<QuasiPo
             y.pop();
         }
         at_start = sum(at_start, y.first().map_or(Enclosure::ZERO, |y| y.re));
-        found = found + QuasiPolynomial::from_parts(vec![real_form(mu, &y)]);
+        found = found + real_form(mu, &y);
     }
     let own = Complex::real(difference(Enclosure::from(start), at_start));
-    Some(found + QuasiPolynomial::from_parts(vec![real_form(Complex::real(a), &[own])]))
+    Some(found + real_form(Complex::real(a), &[own]))
 }
 
 /// Two components with a constant matrix.
@@ -258,12 +261,12 @@ fn pair(
     let mut found = [QuasiPolynomial::default(), QuasiPolynomial::default()];
     let mut left = [start[0], start[1]].map(Enclosure::from);
     for (row, forcing) in forcing.iter().enumerate() {
-        for part in forcing.to_parts() {
-            let (mu, g) = exponential_form(&part);
+        for part in forcing.terms() {
+            let (mu, g) = exponential_form(part);
             // The inverse of [[μ − a, −b], [−c, μ − d]].
             let (first, last) = (mu.minus(Complex::real(a)), mu.minus(Complex::real(d)));
             let determinant = first.times(last).minus(Complex::real(product(b, c)));
-            let mut y = vec![[Complex::ZERO; 2]; g.len() + 1];
+            let mut y: Few<[Complex; 2]> = smallvec![[Complex::ZERO; 2]; g.len() + 1];
             for k in (0..g.len()).rev() {
                 let mut right = y[k + 1].map(|y| Complex::ZERO.minus(whole(k + 1).times(y)));
                 right[row] = right[row].plus(g[k]);
@@ -275,9 +278,9 @@ fn pair(
             }
             y.pop();
             for (axis, found) in found.iter_mut().enumerate() {
-                let own: Vec<Complex> = y.iter().map(|y| y[axis]).collect();
+                let own: Few<Complex> = y.iter().map(|y| y[axis]).collect();
                 left[axis] = difference(left[axis], own.first().map_or(Enclosure::ZERO, |y| y.re));
-                *found = found.clone() + QuasiPolynomial::from_parts(vec![real_form(mu, &own)]);
+                *found = std::mem::take(found) + real_form(mu, &own);
             }
         }
     }
@@ -320,25 +323,25 @@ fn free(matrix: &[Enclosure], u: [Enclosure; 2]) -> Option<[QuasiPolynomial; 2]>
     ];
     let square = sum(product(radius, radius), product(b, c));
     let zero = Enclosure::ZERO;
-    let of = |axis: usize| -> Option<Vec<QuasiPolynomialPart>> {
+    let of = |axis: usize| -> Option<Vec<Term>> {
         let (u, bent) = (u[axis], bent[axis]);
         if square == zero {
-            return Some(vec![term(middle, zero, (vec![u, bent], vec![]))]);
+            return Some(vec![term(middle, zero, (&[u, bent], &[]))]);
         }
         if square.is_negative() {
             let omega = root(-square)?;
-            return Some(vec![term(middle, omega, (vec![u], vec![quotient(bent, omega)]))]);
+            return Some(vec![term(middle, omega, (&[u], &[quotient(bent, omega)]))]);
         }
         if square.is_positive() {
             let root = root(square)?;
             let other = quotient(bent, root);
             let [upper, lower] = real_roots(matrix, middle, root);
             return Some(vec![
-                term(upper, zero, (vec![half(sum(u, other))], vec![])),
-                term(lower, zero, (vec![half(difference(u, other))], vec![])),
+                term(upper, zero, (&[half(sum(u, other))], &[])),
+                term(lower, zero, (&[half(difference(u, other))], &[])),
             ]);
         }
         None
     };
-    Some([QuasiPolynomial::from_parts(of(0)?), QuasiPolynomial::from_parts(of(1)?)])
+    Some([QuasiPolynomial::from_terms(of(0)?), QuasiPolynomial::from_terms(of(1)?)])
 }

@@ -10,7 +10,9 @@ use crate::error::Error;
 use crate::guard::Role;
 use crate::ode::Tolerances;
 use equations::{Binary, Constant, Formulas, JetSeries, Node, Series};
-use std::sync::{Arc, Mutex, OnceLock};
+use std::cell::RefCell;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 /// All that is evaluated of some equations.
 #[derive(Debug)]
@@ -34,15 +36,26 @@ pub(super) struct ModeProgram {
     pub(super) after_limit: Option<Jump>,
     /// The closed form of the motion, if it has one.
     closed_form: Option<ClosedForm>,
-    /// The last start, and what it gave.
-    last_closed: Mutex<Option<LastClosed>>,
+    /// No other program of this process has this number.
+    number: u64,
     /// The guards as watched formulas.
     watched: Option<Formulas>,
     /// The same series with derivatives, made at its first use.
     jets: Jets,
 }
 
-type LastClosed = (Vec<f64>, Option<Arc<ClosedMotion>>);
+/// The number of the next program.
+static NEXT: AtomicU64 = AtomicU64::new(0);
+
+/// The number of a program, a start, and the motion from there.
+type KnownMotion = (u64, Vec<f64>, Option<Arc<ClosedMotion>>);
+
+thread_local! {
+    /// The last two motions in closed form on this thread, the last one first. The rules at the start of an arc ask for that of the
+    /// arc before, too. Of threads that shared them, each would find those of the other.
+    static LAST_MOTIONS: RefCell<[KnownMotion; 2]> =
+        const { RefCell::new([(u64::MAX, Vec::new(), None), (u64::MAX, Vec::new(), None)]) };
+}
 
 /// A motion from a start, in closed form.
 #[derive(Debug)]
@@ -74,19 +87,21 @@ impl ClosedMotion {
 
 impl ModeProgram {
     /// The components along the motion from a start, and the guards along them, if all of them have a closed form.
-    ///
-    /// An arc asks for it several times. The last one is kept; another thread that uses the model computes its own.
     pub(super) fn closed_form(&self, start: &[f64]) -> Option<Arc<ClosedMotion>> {
         let form = self.closed_form.as_ref()?;
-        let Ok(mut last) = self.last_closed.try_lock() else { return self.new_closed(form, start) };
-        if let Some((known, motion)) = last.as_ref()
-            && known.iter().map(|x| x.to_bits()).eq(start.iter().map(|x| x.to_bits()))
-        {
-            return motion.clone();
-        }
-        let motion = self.new_closed(form, start);
-        *last = Some((start.to_vec(), motion.clone()));
-        motion
+        let bits = |x: &f64| x.to_bits();
+        LAST_MOTIONS.with_borrow_mut(|last| {
+            let is_known = |(number, known, _): &KnownMotion| {
+                *number == self.number && known.iter().map(bits).eq(start.iter().map(bits))
+            };
+            if !is_known(&last[0]) {
+                last.swap(0, 1);
+            }
+            if !is_known(&last[0]) {
+                last[0] = (self.number, start.to_vec(), self.new_closed(form, start));
+            }
+            last[0].2.clone()
+        })
     }
 
     fn new_closed(&self, form: &ClosedForm, start: &[f64]) -> Option<Arc<ClosedMotion>> {
@@ -243,7 +258,7 @@ impl ModeEquations {
             clocks,
             after_limit,
             closed_form,
-            last_closed: Mutex::new(None),
+            number: NEXT.fetch_add(1, Ordering::Relaxed),
             watched,
             jets,
         })

@@ -3,7 +3,7 @@
 //! Where the components of a state are quasi-polynomials in time, so are sums and products of them, and sines, cosines and
 //! exponentials of straight lines. Every number has a bound on its error.
 
-use crate::crossing::{QuasiPolynomial, QuasiPolynomialPart};
+use crate::crossing::{Coefficients, QuasiPolynomial, Rounded, Term};
 use equations::{Algebra, Arithmetic, Binary, Formulas, Node, Unary};
 use interval_arithmetic::Enclosure;
 
@@ -18,39 +18,40 @@ fn is_short(function: &QuasiPolynomial) -> bool {
 }
 
 /// A number with the bound on its error that holds an enclosure.
-pub(super) fn with_error(number: Enclosure) -> (f64, f64) {
-    let middle = number.middle();
-    let error = (number.high - middle).max(middle - number.low);
-    (middle, if error == 0.0 { 0.0 } else { error.next_up() })
+pub(super) fn with_error(number: Enclosure) -> Rounded {
+    let value = number.middle();
+    let error = (number.high - value).max(value - number.low);
+    Rounded { value, error: if error == 0.0 { 0.0 } else { error.next_up() } }
 }
 
 /// The enclosure that a number with a bound on its error stands for.
-pub(super) fn enclosed((value, error): (f64, f64)) -> Enclosure {
+pub(super) fn enclosed(Rounded { value, error }: Rounded) -> Enclosure {
     if error == 0.0 { Enclosure::from(value) } else { Enclosure::around(value, error) }
 }
 
-/// exp(σt)(cos·cos ωt + sin·sin ωt), with one coefficient each.
+/// exp(σt)(p(t) cos ωt + q(t) sin ωt), with the coefficients of p and q.
 pub(super) fn term(
     sigma: Enclosure,
     omega: Enclosure,
-    (cos, sin): (Vec<Enclosure>, Vec<Enclosure>),
-) -> QuasiPolynomialPart {
-    let all = |numbers: Vec<Enclosure>| numbers.into_iter().map(with_error).collect();
-    (with_error(sigma), with_error(omega), all(cos), all(sin))
+    (cos, sin): (&[Enclosure], &[Enclosure]),
+) -> Term {
+    let all = |numbers: &[Enclosure]| -> Coefficients {
+        numbers.iter().map(|number| with_error(*number)).collect()
+    };
+    Term { sigma: with_error(sigma), omega: with_error(omega), cos: all(cos), sin: all(sin) }
 }
 
 fn constant(value: Enclosure) -> QuasiPolynomial {
     let zero = Enclosure::ZERO;
-    QuasiPolynomial::from_parts(vec![term(zero, zero, (vec![value], vec![]))])
+    QuasiPolynomial::from_terms(vec![term(zero, zero, (&[value], &[]))])
 }
 
 /// The coefficients α and β of a straight line α + βt.
 fn line(function: &QuasiPolynomial) -> Option<(Enclosure, Enclosure)> {
-    let zero = (0.0, 0.0);
-    let parts = function.to_parts();
-    let (sigma, omega, cos, _) = match parts.as_slice() {
+    let zero = Rounded::default();
+    let Term { sigma, omega, cos, .. } = match function.terms() {
         [] => return Some((Enclosure::ZERO, Enclosure::ZERO)),
-        [part] => part,
+        [term] => term,
         _ => return None,
     };
     let is_line =
@@ -76,15 +77,15 @@ fn unary(function: Unary, x: &QuasiPolynomial) -> Option<QuasiPolynomial> {
     }
     let zero = Enclosure::ZERO;
     let (sine, cosine) = value.sin_cos();
-    let part = match function {
+    let found = match function {
         // e^(α + βt) = e^α e^(βt).
-        Unary::Exponential => term(slope, zero, (vec![value.exp()], vec![])),
+        Unary::Exponential => term(slope, zero, (&[value.exp()], &[])),
         // sin(α + βt) = sin α cos βt + cos α sin βt.
-        Unary::Sine => term(zero, slope, (vec![sine], vec![cosine])),
-        Unary::Cosine => term(zero, slope, (vec![cosine], vec![-sine])),
+        Unary::Sine => term(zero, slope, (&[sine], &[cosine])),
+        Unary::Cosine => term(zero, slope, (&[cosine], &[-sine])),
         _ => return None,
     };
-    Some(QuasiPolynomial::from_parts(vec![part]).normalized())
+    Some(QuasiPolynomial::from_terms(vec![found]).normalized())
 }
 
 fn binary(function: Binary, x: &QuasiPolynomial, y: &QuasiPolynomial) -> Option<QuasiPolynomial> {
