@@ -2,6 +2,7 @@
 //! itself.
 
 mod arrays;
+mod attractors;
 mod basins;
 mod errors;
 mod fates;
@@ -45,7 +46,13 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<labelling::BoxCount>()?;
     module.add_class::<labelling::Interval>()?;
     module.add_class::<labelling::UncertaintyExponent>()?;
-    module.add_class::<labelling::Attractors>()?;
+    module.add_class::<attractors::Attractors>()?;
+    module.add_function(wrap_pyfunction!(attractors::_boundary_between, module)?)?;
+    module.add_function(wrap_pyfunction!(attractors::_track_edge, module)?)?;
+    module.add_function(wrap_pyfunction!(attractors::_minimal_fatal_shock, module)?)?;
+    module.add_function(wrap_pyfunction!(attractors::_stability, module)?)?;
+    module.add_function(wrap_pyfunction!(attractors::_tipping, module)?)?;
+    module.add_function(wrap_pyfunction!(attractors::_attractors_along, module)?)?;
     module.add_function(wrap_pyfunction!(labelling::label_codes, module)?)?;
     module.add_function(wrap_pyfunction!(labelling::region_fractions, module)?)?;
     module.add_function(wrap_pyfunction!(labelling::uncertainty_exponent, module)?)?;

@@ -15,11 +15,14 @@ import os as _os
 
 from . import _native, hybrid, labelling, plots
 from ._native import Equations, Event, Formulas, Steps, Zeno, __version__
-from .basins import attractors_of, basins_of, map_steps
+from .along import AttractorsAlong, attractors_along
+from .basins import attractors_by_features, attractors_of, basins_of, known_attractors, map_steps
+from .boundaries import Boundary, EdgeTrack, FatalShock, boundary_between, minimal_fatal_shock, track_edge
 from .c_functions import c_function
 from .errors import ComputationError, InputError, NonsmoothError, TracingError, UndecidedError
 from .returns import Bifurcation, Branch, Diagram, PeriodicPoint, ReturnMap
 from .runs import Fates, Run
+from .stability import Stability, Tipping, stability_of, tipping
 from .surfaces import Clock, Guard
 from .systems import System
 from .tracing import Parameters
@@ -29,13 +32,17 @@ if hasattr(_os, "register_at_fork"):
     _os.register_at_fork(after_in_child=_native.after_fork)
 
 __all__ = [
+    "AttractorsAlong",
     "Bifurcation",
+    "Boundary",
     "Branch",
     "Clock",
     "ComputationError",
     "Diagram",
+    "EdgeTrack",
     "Equations",
     "Event",
+    "FatalShock",
     "Fates",
     "Formulas",
     "Guard",
@@ -45,16 +52,26 @@ __all__ = [
     "PeriodicPoint",
     "ReturnMap",
     "Run",
+    "Stability",
     "Steps",
     "System",
+    "Tipping",
     "TracingError",
     "UndecidedError",
     "Zeno",
+    "attractors_along",
+    "attractors_by_features",
     "attractors_of",
     "basins_of",
+    "boundary_between",
     "c_function",
     "hybrid",
+    "known_attractors",
     "labelling",
     "map_steps",
+    "minimal_fatal_shock",
     "plots",
+    "stability_of",
+    "tipping",
+    "track_edge",
 ]

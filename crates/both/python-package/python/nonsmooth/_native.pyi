@@ -1,4 +1,4 @@
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, NoReturn, final, overload
 
 import numpy as np
@@ -353,6 +353,35 @@ class Attractors:
         escape: float | None = None,
         periodic: Sequence[int] = ...,
     ) -> Self: ...
+    @staticmethod
+    def of_points(
+        map: Callable[[NDArray[np.float64]], Sequence[float] | NDArray[np.float64] | None] | Steps,
+        points: Mapping[int, Sequence[Sequence[float]]],
+        distance: float | None = None,
+        *,
+        budget: int = 100_000,
+        stretch: int = 1000,
+        tests: int = 200,
+    ) -> Attractors: ...
+    @staticmethod
+    def of_features(
+        map: Callable[[NDArray[np.float64]], Sequence[float] | NDArray[np.float64] | None] | Steps,
+        features: Callable[[NDArray[np.float64]], Sequence[float] | NDArray[np.float64] | float],
+        starts: Sequence[Sequence[float]],
+        *,
+        radius: float,
+        beside: float,
+        transient: int = 1000,
+        stretch: int = 1000,
+        agree: int = 3,
+        budget: int = 30,
+        fewest: int = 4,
+        tests: int = 100,
+    ) -> Attractors: ...
+    @property
+    def kind(self) -> str: ...
+    @property
+    def distance(self) -> float | None: ...
     @property
     def points(self) -> dict[int, NDArray[np.float64]]: ...
     @property
@@ -366,6 +395,20 @@ class Attractors:
         self, starts: ArrayLike, threads: int | None = None
     ) -> tuple[NDArray[np.uint16], NDArray[np.uint64]]: ...
 
+def _boundary_between(attractors: Attractors, first: list[float], second: list[float], precision: float) -> Any: ...
+def _track_edge(attractors: Attractors, first: list[float], second: list[float], settings: Mapping[str, Any]) -> Any: ...
+def _minimal_fatal_shock(
+    attractors: Attractors, state: list[float], settings: Mapping[str, Any], threads: int | None
+) -> Any: ...
+def _stability(
+    attractors: Attractors, sample: Mapping[str, Any], precision: float | None, threads: int | None
+) -> dict[int, Any]: ...
+def _tipping(
+    before: Attractors, after: Attractors, sample: Mapping[str, Any], threads: int | None
+) -> list[tuple[int, int, Interval, int]]: ...
+def _attractors_along(
+    steps_at: Callable[[float], Steps], settings: Mapping[str, Any], threads: int | None, progress: Any
+) -> dict[str, Any]: ...
 def region_fractions(
     label: Callable[..., NDArray[np.uint16]], window: Sequence[tuple[float, float]], count: int, seed: int
 ) -> dict[int, Interval]: ...

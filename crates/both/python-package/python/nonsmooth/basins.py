@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .errors import InputError
 from . import labelling
 from ._native import Attractors, Steps
+from ._progress import function_of
+from .errors import InputError
 from .returns import ReturnMap
 from .surfaces import FunctionOrFormulas
 from .systems import System
 from .tracing import Model, name_list
 
 if TYPE_CHECKING:
+    import distributed
     import xarray
     from numpy.typing import ArrayLike
 
@@ -71,6 +74,56 @@ def attractors_of(
     return Attractors(steps, region=sides, starts=rows.tolist(), **limits)
 
 
+def known_attractors(
+    of: System | Steps,
+    points: Mapping[int, ArrayLike],
+    distance: float | None = None,
+    *,
+    step: float | tuple[float, float] | None = None,
+    parameters: Mapping[str, float] | None = None,
+    **limits: Any,
+) -> Attractors:
+    """The attractors of a system that are known by some of their points: ``points`` has them by label, one a row. An orbit has come to one as soon as it is
+    within ``distance``, by default the largest one that tests find right. ``limits`` are ``budget``, ``stretch`` and ``tests`` of
+    :meth:`labelling.Attractors.of_points`.
+
+    >>> import nonsmooth as ns
+    >>> pendulum = ns.System(["v", "-sin(x) - 0.3*v"], states="x v")
+    >>> rest = ns.known_attractors(pendulum, {1: [[0, 0]], 2: [[2 * 3.141592653589793, 0]]}, step=1.0, tests=20)
+    >>> rest.labels([[1.0, 0.0], [5.0, 0.0]]).tolist()
+    [1, 2]
+    """
+    own = {int(label): np.atleast_2d(np.asarray(rows, dtype=float)).tolist() for label, rows in points.items()}
+    return Attractors.of_points(_steps(of, step, parameters), own, distance, **limits)
+
+
+def attractors_by_features(
+    of: System | Steps,
+    features: Callable[[Any], Any],
+    starts: ArrayLike,
+    *,
+    radius: float,
+    beside: float,
+    step: float | tuple[float, float] | None = None,
+    parameters: Mapping[str, float] | None = None,
+    **limits: Any,
+) -> Attractors:
+    """The attractors of a system by features of orbits: ``features`` makes some numbers of an array with the points of a stretch of an orbit, one a row.
+    ``starts`` has one start a row, ``radius`` the largest distance of features of one attractor, ``beside`` how far from an attractor orbits start that test it.
+    ``limits`` are ``transient``, ``stretch``, ``agree``, ``budget``, ``fewest`` and ``tests`` of :meth:`labelling.Attractors.of_features`.
+
+    >>> import nonsmooth as ns
+    >>> well = ns.System(["v", "x - x^3 - 0.3*v"], states="x v")
+    >>> starts = [[0.1 * k, 0.0] for k in range(-12, 13) if k]
+    >>> found = ns.attractors_by_features(well, lambda points: points.mean(axis=0)[:1], starts, step=1.0, radius=0.2, beside=0.05,
+    ...                                   transient=60, stretch=10, tests=20)
+    >>> {label: round(float(points[0, 0]), 3) for label, points in found.points.items()}
+    {1: -1.0, 2: 1.0}
+    """
+    rows = np.atleast_2d(np.asarray(starts, dtype=float)).tolist()
+    return Attractors.of_features(_steps(of, step, parameters), features, rows, radius=radius, beside=beside, **limits)
+
+
 def basins_of(
     of: System | Steps | Callable[..., Any],
     window: Mapping[str, tuple[float, float]],
@@ -84,6 +137,7 @@ def basins_of(
     names: Mapping[int, str] | None = None,
     threads: int | None = None,
     progress: Callable[[int, int], Any] | bool | None = None,
+    client: distributed.Client | None = None,
     **search: Any,
 ) -> xarray.Dataset:
     """The basins in a window of the plane, as an ``xarray.Dataset`` with the label of each pixel's middle.
@@ -92,7 +146,8 @@ def basins_of(
     returns labels. ``window`` names two components of the state with their ends, ``others`` has the values of all other ones. The attractors are those
     given, or are searched by :func:`attractors_of` in ``region``, by default the window, with the settings ``search``.
 
-    The Dataset of a system also has the steps until each start is at its attractor. Codes of labels are those of :mod:`nonsmooth.labelling`.
+    The Dataset of a system also has the steps until each start is at its attractor. Codes of labels are those of :mod:`nonsmooth.labelling`. With ``client``, a
+    ``dask.distributed.Client``, the workers of its cluster compute strips of columns; those of a lost worker are computed again.
 
     >>> import numpy as np, nonsmooth as ns
     >>> duffing = ns.System(["v", "x - x^3 - 0.15*v + 0.2*cos(t)"], states="x v")
@@ -104,6 +159,8 @@ def basins_of(
     if not isinstance(of, (System, Steps)):
         if isinstance(of, ReturnMap):
             raise TypeError("give the steps of a return map, of.steps(value): its parameter has a value there")
+        if client is not None:
+            raise InputError("the workers of a client compute the basins of a System or of Steps, not those of a labelling")
         return labelling.basins_of(of, window, shape, names, progress)
     steps = _steps(of, step, parameters)
     known = of.states if isinstance(of, System) else list(window)
@@ -124,18 +181,69 @@ def basins_of(
         attractors = attractors_of(steps, {name: whole[name] for name in known}, **search)
     elif search:
         raise TypeError(f"attractors= are given, so that there is no search with {', '.join(search)}")
-    times = []
-
-    def label(x: Any, y: Any) -> Any:
-        columns = {**{name: float(value) for name, value in (others or {}).items()}, **dict(zip(window, (x, y)))}
-        starts = np.stack([np.broadcast_to(columns[name], x.shape).ravel() for name in known], axis=1)
-        labels, steps = attractors.convergences(starts, threads)
-        times.append(steps.reshape(x.shape))
-        return labels.reshape(x.shape)
-
-    found = labelling.basins_of(label, window, shape, names, progress)
+    labelling.check_window(window, names)
+    start = Starts(known, list(window), {name: float(value) for name, value in (others or {}).items()})
+    xs, ys = labelling.pixels(window, shape)
+    parts = [(attractors, start, xs[begin:end], ys) for begin, end in labelling.strips(len(xs), len(ys), _LEAST_STRIPS)]
+    told = function_of(progress)
+    found = []
+    for part in _computed(parts, threads, client):
+        found.append(part)
+        if told is not None:
+            told(sum(len(labels) for labels, _ in found), len(xs))
+    dataset = labelling.dataset_of(np.concatenate([labels for labels, _ in found]), window, names)
+    if attractors.kind == "features":
+        return dataset
     about = {"long_name": "steps until the start is at its attractor", "units": "1"}
-    return found.assign(steps=(tuple(window), np.concatenate(times), about))
+    return dataset.assign(steps=(tuple(window), np.concatenate([steps for _, steps in found]), about))
+
+
+#: Strips of a window at least: progress is told, and workers are given work, by strips. More would leave processors without work at the end of each.
+_LEAST_STRIPS = 16
+
+#: How often a strip is given to the cluster again after its worker was lost. One that kills every worker is an error in the end.
+_TRIALS = 20
+
+
+@dataclass(frozen=True)
+class Starts:
+    """The starts of a window: the names of the components of a state, those of the window, and the values of the others."""
+
+    known: list[str]
+    window: list[str]
+    others: dict[str, float]
+
+    def rows(self, x: Any, y: Any) -> Any:
+        """The starts with these values in the window, one a row."""
+        across, up = np.meshgrid(x, y, indexing="ij")
+        columns = {**self.others, **dict(zip(self.window, (across, up)))}
+        return np.stack([np.broadcast_to(columns[name], across.shape).ravel() for name in self.known], axis=1)
+
+
+def _strip(attractors: Attractors, starts: Starts, x: Any, y: Any, threads: int | None) -> tuple[Any, Any]:
+    """The labels of a strip, and the steps of its starts. Features tell no steps."""
+    rows, shape = starts.rows(x, y), (len(x), len(y))
+    if attractors.kind == "features":
+        return attractors.labels(rows, threads).reshape(shape), None
+    labels, steps = attractors.convergences(rows, threads)
+    return labels.reshape(shape), steps.reshape(shape)
+
+
+def _computed(parts: Sequence[Any], threads: int | None, client: Any) -> Iterator[tuple[Any, Any]]:
+    """The strips, one after the other: by this process, or by the workers of a cluster."""
+    if client is None:
+        yield from (_strip(*part, threads) for part in parts)
+        return
+    if not callable(getattr(client, "submit", None)):
+        raise TypeError(f"client is a dask.distributed.Client, not {client!r}")
+    # Sent once to each worker: it makes the attractors again when it gets them.
+    shared = client.scatter(parts[0][0], broadcast=True)
+    futures = [client.submit(_strip, shared, *part[1:], 1, pure=False, retries=_TRIALS) for part in parts]
+    try:
+        for future in futures:
+            yield future.result()
+    finally:
+        client.cancel(futures)
 
 
 def _steps(of: Any, step: Any, parameters: Any) -> Steps:

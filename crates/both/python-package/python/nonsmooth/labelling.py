@@ -112,15 +112,29 @@ def basins_of(
     >>> found.label.dims, found.label.attrs["flag_meanings"]
     (('x', 'y'), 'basin_0 above')
     """
+    import numpy
+
+    check_window(window, names)
+    xs, ys = pixels(window, shape)
+    progress = function_of(progress)
+    labels = numpy.empty((len(xs), len(ys)), dtype=numpy.uint16)
+    for begin, end in strips(len(xs), len(ys)):
+        x, y = numpy.meshgrid(xs[begin:end], ys, indexing="ij")
+        labels[begin:end] = _labels(_called(label, x, y), x.shape)
+        if progress is not None:
+            progress(end, len(xs))
+    return dataset_of(labels, window, names)
+
+
+def check_window(window, names):
+    """Refuses what is no window, and tells what to install for a Dataset."""
     try:
-        import xarray
+        import xarray  # noqa: F401
     except ImportError as error:
         raise ImportError(
             "basins_of needs xarray: pip install 'passive-hopper[xarray]'. A labelling of arrays needs label_image"
             " alone."
         ) from error
-    import numpy
-
     if not isinstance(window, Mapping):
         raise TypeError(f"a window names its coordinates, as {{'x': (-2, 2), 'y': (-2, 2)}}, and is not {window!r}")
     if len(window) != 2:
@@ -132,17 +146,27 @@ def basins_of(
             )
     if names is not None and not isinstance(names, Mapping):
         raise TypeError(f"names maps labels to their names, as {{1: 'above'}}, and is not {names!r}")
-    (first, across), (second, up) = window.items()
-    xs, ys = _native.pixel_middles((across, up), shape)
-    progress = function_of(progress)
-    labels = numpy.empty((len(xs), len(ys)), dtype=numpy.uint16)
-    width = max(1, _PIXELS_AT_A_TIME // len(ys))
-    for begin in range(0, len(xs), width):
-        end = min(begin + width, len(xs))
-        x, y = numpy.meshgrid(xs[begin:end], ys, indexing="ij")
-        labels[begin:end] = _labels(_called(label, x, y), x.shape)
-        if progress is not None:
-            progress(end, len(xs))
+
+
+def pixels(window, shape):
+    """The middles of the pixels of a window along both coordinates."""
+    across, up = window.values()
+    return _native.pixel_middles((across, up), shape)
+
+
+def strips(columns, rows, parts=1):
+    """The first column and the one behind the last of each strip: of as many pixels as are computed at a time, and at least so many parts."""
+    width = max(1, min(_PIXELS_AT_A_TIME // rows, -(-columns // parts)))
+    return [(begin, min(begin + width, columns)) for begin in range(0, columns, width)]
+
+
+def dataset_of(labels, window, names):
+    """An array of labels of a window as a Dataset."""
+    import numpy
+    import xarray
+
+    first, second = window
+    xs, ys = pixels(window, labels.shape)
     codes = numpy.unique(labels)
     names = {code: name.lower() for name, code in _CODES.items()} | (names or {})
     meanings = [str(names.get(int(code), f"basin {code}")) for code in codes]

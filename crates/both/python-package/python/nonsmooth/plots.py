@@ -6,10 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .labelling import ESCAPED
+
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
+    from ._native import Attractors
+    from .along import AttractorsAlong
     from .returns import Branch, Diagram, ReturnMap
     from .runs import Run
 
@@ -27,8 +31,11 @@ def _axes(ax: Axes | None) -> Axes:
     return pyplot.subplots()[1]
 
 
-def plot_basins(dataset: xarray.Dataset, ax: Axes | None = None) -> Axes:
-    """The labels of a Dataset of :func:`basins_of`, with a legend. Undecided pixels are white, those of orbits that escape grey."""
+def plot_basins(
+    dataset: xarray.Dataset, ax: Axes | None = None, *, attractors: Attractors | None = None, coordinates: tuple[int, int] = (0, 1)
+) -> Axes:
+    """The labels of a Dataset of :func:`basins_of`, with a legend. Undecided pixels are white, those of orbits that escape grey. Points of ``attractors`` are
+    dots, at the two ``coordinates`` of a state that the window has."""
     axes = _axes(ax)
     from matplotlib.colors import to_rgb
     from matplotlib.patches import Patch
@@ -53,8 +60,25 @@ def plot_basins(dataset: xarray.Dataset, ax: Axes | None = None) -> Axes:
         Patch(facecolor=colours.get(int(code), (1.0, 1.0, 1.0)), edgecolor="0.3", linewidth=0.5, label=known.get(int(code), str(code)).replace("_", " "))
         for code in codes
     ]
+    for label, points in (attractors.points if attractors is not None else {}).items():
+        dots = points[:, list(coordinates)]
+        axes.plot(*dots.T, "o", markersize=4, markerfacecolor=colours.get(label, "white"), markeredgecolor="black", markeredgewidth=0.8)
     axes.legend(handles=entries, loc="upper left", bbox_to_anchor=(1.02, 1.0), frameon=False)
-    axes.set(xlabel=str(first), ylabel=str(second))
+    axes.set(xlabel=str(first), ylabel=str(second), xlim=extent[:2], ylim=extent[2:])
+    return axes
+
+
+def plot_fractions(along: AttractorsAlong, ax: Axes | None = None, name: str = "parameter") -> Axes:
+    """The fractions of the basins along a parameter, with their 95 % intervals, and a dotted line where an attractor appears or vanishes."""
+    axes = _axes(ax)
+    for k, (label, (value, lower, upper)) in enumerate(along.fractions.items()):
+        colour = _COLOURS[k % len(_COLOURS)]
+        axes.fill_between(along.parameter, lower, upper, color=colour, alpha=0.25, linewidth=0)
+        axes.plot(along.parameter, value, color=colour, label="escaped" if label == ESCAPED else f"basin {label}")
+    for change in along.changes:
+        axes.axvline(0.5 * (change.start + change.end), color="0.4", linestyle=":", linewidth=0.8)
+    axes.set(xlabel=name, ylabel="fraction", ylim=(0, 1))
+    axes.legend(frameon=False)
     return axes
 
 

@@ -93,7 +93,7 @@ fn bits(point: &[f64]) -> Vec<u64> {
 }
 
 /// The region of a window: one pair of ends for each coordinate.
-fn region_of(window: &[[f64; 2]]) -> PyResult<Hyperrectangle> {
+pub(crate) fn region_of(window: &[[f64; 2]]) -> PyResult<Hyperrectangle> {
     let side = |&[left, right]: &[f64; 2]| basin_of_attraction::Interval::new(left, right);
     let sides = window.iter().map(side).collect::<Result<_, Error>>().map_err(value_error)?;
     Hyperrectangle::new(sides).map_err(value_error)
