@@ -2,6 +2,7 @@
 
 import re
 
+import nonsmooth as ns
 import numpy as np
 import passive_hopper as hopper
 import pytest
@@ -17,7 +18,22 @@ def in_a_store(tmp_path):
     return hopper.basins(M=(0.2, 1.0), shape=(8, 8), store=tmp_path / "basins.zarr")
 
 
+BALL = ns.System(
+    ["speed", "-1"], states="height speed", guards=[ns.Guard("floor", "height", "falling", reset=["height", "-0.8*speed"])]
+)
+WELL = ns.System(["v", "x - x^3 - 0.3*v"], states="x v")
+
+
+def along_a_parameter(path):
+    at = lambda c: ns.map_steps([f"x + 0.4*x*(1 - x^2) + {c}"], states="x")
+    return ns.attractors_along(at, (0.0, 0.1), {"x": (-1.7, 1.7)}, steps=2, difference=0.5, points=50).to_xarray("c")
+
+
 DATASETS = {
+    "run": lambda path: BALL.run([1, 0], time=4).to_xarray(),
+    "run at times": lambda path: BALL.run([1, 0], time=4, t=[0, 1, 2, 4]).to_xarray(),
+    "basins of a system": lambda path: ns.basins_of(WELL, {"x": (-2, 2), "v": (-2, 2)}, (4, 4), step=1.0, starts=5, locate=50, tests=5),
+    "along a parameter": along_a_parameter,
     "basins": lambda path: hopper.basins(M=(0.2, 1.0), shape=(8, 8)),
     "store": in_a_store,
     "motion": lambda path: hopper.motion(7.0, hops=3),

@@ -45,6 +45,39 @@ def test_a_store_gives_the_same_dataset(tmp_path):
     assert sum(name.startswith("label/c/") for name in before) == 3
 
 
+def test_a_finished_store_is_read_and_verified_from_anywhere(tmp_path):
+    fsspec = pytest.importorskip("fsspec", reason="SKIPPED URLs: fsspec is not installed")
+    store = tmp_path / "basins.zarr"
+    stored = hopper.basins(**JOB, store=store)
+    xarray.testing.assert_identical(hopper.open_basins(store).load(), stored.load())
+    place = "memory://somewhere/basins.zarr"
+    fsspec.filesystem("memory").put(str(store), "somewhere/basins.zarr", recursive=True)
+    found = hopper.open_basins(place)
+    xarray.testing.assert_identical(found.load(), stored.load())
+    assert found.label.attrs["flag_values"].dtype == stored.label.dtype
+    # A label that was changed, in a chunk that can be decoded.
+    zarr.open_group(str(store), mode="r+")["label"][70, 3] = 7
+    with pytest.raises(ValueError, match="not those that were computed"):
+        hopper.open_basins(store)
+    with pytest.raises(FileNotFoundError):
+        hopper.open_basins(tmp_path / "nothing.zarr")
+
+
+def test_a_store_that_is_not_finished_is_refused(tmp_path):
+    store = tmp_path / "basins.zarr"
+    hopper.basins(**JOB, store=store)
+    del zarr.open_group(str(store), mode="r+").attrs["sha256"]
+    with pytest.raises(ValueError, match="no finished store"):
+        hopper.open_basins(store)
+
+
+def test_writing_to_a_url_is_refused_and_makes_no_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ValueError, match="is written to a folder"):
+        hopper.basins(**JOB, store="memory://basins.zarr")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_the_labels_are_those_of_the_arrays(tmp_path):
     stored = hopper.basins(**JOB, store=tmp_path / "basins.zarr")
     ratios, speeds, labels = hopper.basin_labels(**JOB)

@@ -2,9 +2,16 @@
 
 import re
 
+from . import _native
 from .errors import InputError
 
 CONVENTIONS = "CF-1.11"
+
+
+def about(title):
+    """The attributes of a Dataset as a whole."""
+    own = f"nonsmooth {_native.__version__}"
+    return {"Conventions": CONVENTIONS, "title": title, "source": own, "history": f"computed by {own}"}
 
 
 def word(name):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
-from ._conventions import CONVENTIONS
+from ._conventions import about, complete
 from .errors import InputError
 
 if TYPE_CHECKING:
@@ -62,12 +62,16 @@ class AttractorsAlong:
         import xarray
 
         labels = list(self.fractions)
-        about = {"fraction": "fraction of the basin", "lower": "lower end of the 95 % interval", "upper": "upper end of the 95 % interval"}
+        texts = {"fraction": "fraction of the basin", "lower": "lower end of the 95 % interval", "upper": "upper end of the 95 % interval"}
         columns = {
             key: ((name, "basin"), np.stack([self.fractions[label][k] for label in labels], axis=1), {"long_name": text, "units": "1"})
-            for k, (key, text) in enumerate(about.items())
+            for k, (key, text) in enumerate(texts.items())
         }
-        return xarray.Dataset(columns, {name: self.parameter, "basin": labels}, {"Conventions": CONVENTIONS})
+        coordinates = {
+            name: (name, self.parameter, {"long_name": name}),
+            "basin": ("basin", labels, {"long_name": "label of the basin"}),
+        }
+        return complete(xarray.Dataset(columns, coordinates, about("basin fractions along a parameter")))
 
 
 def attractors_along(

@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any
 
 from .errors import InputError
 from . import _native
-from ._conventions import CONVENTIONS, complete, flag_attributes
+from ._conventions import about, complete, flag_attributes
 from ._native import Attractors, BoxCount, Interval, LabelImage, UncertaintyExponent
 from ._progress import function_of
 
@@ -174,12 +174,7 @@ def dataset_of(labels, window, names):
         xarray.Dataset(
             {"label": ((first, second), labels, flag_attributes(codes, meanings, "basin"))},
             coords={first: (first, xs, {"long_name": first}), second: (second, ys, {"long_name": second})},
-            attrs={
-                "Conventions": CONVENTIONS,
-                "title": "basins of attraction",
-                "source": f"nonsmooth {_native.__version__}",
-                "history": f"computed by nonsmooth {_native.__version__}",
-            },
+            attrs=about("basins of attraction"),
         )
     )
 

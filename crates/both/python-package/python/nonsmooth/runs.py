@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from ._conventions import about, complete
+
 if TYPE_CHECKING:
     import pandas
     import xarray
@@ -127,19 +129,24 @@ class Run:
         return table if self._asked is None else table[rows["on_grid"]].reset_index(drop=True)
 
     def to_xarray(self) -> xarray.Dataset:
-        """A Dataset with the components, the mode and the number of events along ``t``, and the events along ``event``."""
+        """A Dataset with the components, the mode and the number of events, and the events along ``event``. The rows are along ``t``, if the run was asked for times;
+        else along ``row`` with the coordinate ``t``, as an event has two rows at its time: ``found.x.plot(x="t")`` draws both."""
         try:
             import xarray
         except ImportError as error:
             raise ImportError("to_xarray needs xarray: pip install 'passive-hopper[xarray]'") from error
         rows = self.trajectory
-        on = slice(None) if self._asked is None else rows["on_grid"]
-        data = {name: ("t", rows["states"][on][:, k]) for k, name in enumerate(self.names)}
-        data["mode"] = ("t", np.array([str(mode) for mode in rows["modes"]])[on])
-        data["jump"] = ("t", rows["jumps"][on])
-        data["event_time"] = ("event", rows["event_times"])
-        data["event_surface"] = ("event", np.array(rows["event_surfaces"], dtype=str))
-        return xarray.Dataset(data, coords={"t": rows["times"][on]}, attrs={"reason": self.reason})
+        on, along = (slice(None), "row") if self._asked is None else (rows["on_grid"], "t")
+        columns = {
+            **{name: (along, rows["states"][on][:, k], name) for k, name in enumerate(self.names)},
+            "mode": (along, np.array([str(mode) for mode in rows["modes"]])[on], "mode"),
+            "jump": (along, rows["jumps"][on], "number of events before"),
+            "event_time": ("event", rows["event_times"], "time of the event"),
+            "event_surface": ("event", np.array(rows["event_surfaces"], dtype=str), "surface of the event"),
+        }
+        data = {name: (axis, values, {"long_name": text}) for name, (axis, values, text) in columns.items()}
+        times = (along, rows["times"][on], {"long_name": "time"})
+        return complete(xarray.Dataset(data, {"t": times}, {**about("a run of a hybrid system"), "reason": self.reason}))
 
     def __repr__(self) -> str:
         begin, end = self._solution.times

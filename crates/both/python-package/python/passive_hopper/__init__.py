@@ -44,6 +44,7 @@ from nonsmooth._native import (
 from .datasets import basins
 from .motions import animate, motion
 from .plots import cobweb, plot_basins
+from .stores import open_basins
 
 
 def __getattr__(name):
@@ -79,6 +80,7 @@ __all__ = [
     "layers",
     "motion",
     "motion_arrays",
+    "open_basins",
     "plot_basins",
     "trap",
 ]

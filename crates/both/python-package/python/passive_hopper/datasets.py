@@ -40,7 +40,8 @@ def basins(
 
     With ``store``, a folder such as ``"basins.zarr"``, the labels are written to it region by region, in the format
     Zarr 3, and the Dataset reads them from there. A call that was interrupted, or killed, goes on where it was. A store
-    of another job is refused. A store without the attribute ``sha256`` is not finished.
+    of another job is refused. A store without the attribute ``sha256`` is not finished. ``open_basins`` reads a finished one from anywhere, and compares it with
+    its digest.
 
     With ``client``, a ``dask.distributed.Client``, the workers of its cluster compute and write the regions. They need
     the folder at the same path. Workers may be lost: their regions are computed again.

@@ -12,6 +12,7 @@ arrays: they are compared with those of a new store of the same job. The digest 
 labels, read back.
 """
 
+import errno
 import hashlib
 import json
 import os
@@ -45,6 +46,11 @@ def write_basins(store, job, client=None, progress=None):
     xarray = import_xarray("basins", "basin_labels gives the same as arrays.")
     _import_zarr()
     progress = function_of(progress)
+    if is_url(store):
+        raise InputError(
+            f"a store is written to a folder, whose files are renamed when they are whole, not to {store}: give a folder, copy it there when it is"
+            " finished, as by fsspec's put(folder, url, recursive=True), and read it by open_basins(url)"
+        )
     path = Path(os.path.abspath(os.fspath(store)))
     _open_or_make(path, job)
     columns = job[2][0]
@@ -66,6 +72,38 @@ def write_basins(store, job, client=None, progress=None):
         _by_cluster(client, path, job, missing, count)
     _finish(path, job, regions)
     return _opened(xarray.open_zarr(path, chunks=None if client is None else {}, consolidated=False), job[3])
+
+
+def is_url(store):
+    """Whether this names a place by the protocol of fsspec, such as s3://bucket/basins.zarr."""
+    return isinstance(store, str) and "://" in store
+
+
+def open_basins(store, storage_options=None):
+    """The Dataset of a finished store, whose labels are read once and compared with its digest.
+
+    ``store`` is a folder, or a URL of fsspec such as ``"s3://bucket/basins.zarr"`` or ``"memory://basins.zarr"``, with ``storage_options`` for its file system. A store that is
+    not finished, or whose labels are not those that were computed, raises InputError. The labels are loaded lazily afterwards.
+    """
+    xarray = import_xarray("open_basins", "basin_labels gives the same as arrays.")
+    _import_zarr()
+    place = store if is_url(store) else os.fspath(store)
+    if not is_url(store) and not os.path.isdir(place):
+        raise FileNotFoundError(errno.ENOENT, "there is no store of this name", place)
+    found = xarray.open_zarr(place, chunks=None, consolidated=False, storage_options=storage_options)
+    layer = next((name for name in found.data_vars if found[name].dims == ("M", "alpha")), None)
+    digest = found.attrs.get("sha256")
+    if layer is None or digest is None:
+        raise InputError(f"{place} is no finished store of basins: it has no digest; basins(…, store=…) of its job finishes it")
+    own = hashlib.sha256()
+    for begin in range(0, found.sizes["M"], REGION):
+        own.update(found[layer][begin : begin + REGION].values.tobytes())
+    if own.hexdigest() != digest:
+        raise InputError(
+            f"the labels of {place} are not those that were computed: their SHA-256 is {own.hexdigest()}, not {digest}; basins(…, store=…) of its job"
+            " computes what is damaged again"
+        )
+    return _opened(found, layer)
 
 
 def _stored(attributes):
