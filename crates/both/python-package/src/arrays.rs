@@ -25,6 +25,22 @@ pub(crate) fn scalar(object: Borrowed<'_, '_, PyAny>) -> Option<f64> {
     None
 }
 
+/// Refuses a masked array with masked numbers: NumPy would hand them on as if they were numbers.
+///
+/// # Errors
+/// TypeError, which says what to do.
+fn refuse_masked(object: &Bound<'_, PyAny>) -> PyResult<()> {
+    if object.is_exact_instance_of::<PyArrayDyn<f64>>() || !object.hasattr("mask")? {
+        return Ok(());
+    }
+    let masked = object.py().import("numpy")?.getattr("ma")?.getattr("is_masked")?;
+    if masked.call1((object,))?.extract()? {
+        let text = "the array has masked numbers: give those that count, as by array.compressed(), or array.filled(nan)";
+        return Err(PyTypeError::new_err(text));
+    }
+    Ok(())
+}
+
 impl<'a, 'py> FromPyObject<'a, 'py> for Numbers {
     type Error = PyErr;
 
@@ -34,6 +50,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Numbers {
         if let Some(value) = scalar(object) {
             return Ok(Numbers { values: vec![value], shape: Vec::new() });
         }
+        refuse_masked(&object)?;
         let array = object.py().import("numpy")?.call_method1("asarray", (object,))?;
         let dtype = array.getattr("dtype")?;
         let kind: String = dtype.getattr("kind")?.extract()?;
@@ -91,6 +108,7 @@ pub(crate) enum Source<'py> {
 
 impl<'py> Source<'py> {
     pub(crate) fn of(object: &Bound<'py, PyAny>) -> PyResult<Self> {
+        refuse_masked(object)?;
         if let Ok(array) = object.cast::<PyArrayDyn<f64>>()
             && array.is_c_contiguous()
             && let Ok(array) = array.try_readonly()

@@ -71,6 +71,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<hybrid::CFunction>()?;
     module.add_class::<hybrid::CField>()?;
     module.add_class::<hybrid::CGuard>()?;
+    module.add_class::<hybrid::CSystem>()?;
     module.add_class::<hybrid::Clock>()?;
     module.add_class::<hybrid::Execution>()?;
     module.add_class::<hybrid::HybridArc>()?;

@@ -114,3 +114,81 @@ def test_a_function_is_kept_as_long_as_it_may_be_called():
         import pickle
 
         pickle.dumps(system)
+
+
+def test_fates_of_c_are_those_of_single_runs_with_any_number_of_threads(library):
+    system = oscillator(library.field, library.stop, library.bounce)
+    starts = np.random.default_rng(3).uniform(-1, 0.4, (40, 2))
+    restitution = np.linspace(0.5, 0.9, 40)
+    told = []
+    all = system.fates(starts, 30, parameters={"restitution": restitution}, progress=lambda done, count: told.append((done, count)))
+    one = system.fates(starts, 30, parameters={"restitution": restitution}, threads=1)
+    assert np.array_equal(all.state, one.state) and np.array_equal(all.events, one.events) and told[-1] == (40, 40)
+    for k in (0, 7, 39):
+        run = system.run(starts[k], 30, parameters={"restitution": restitution[k]})
+        assert np.array_equal(run.end, all.state[k]) and len(run.events) == all.events[k] and all.reason[k] == run.reason
+    assert (all.time == 30).all() and set(all.mode) == {system.modes[0]}
+    assert len(system.fates(np.empty((0, 2)), 1)) == 0
+
+
+def test_other_threads_of_python_run_beside_functions_of_c(library):
+    import threading
+
+    system = oscillator(library.field, library.stop, library.bounce)
+    counted, ended = [0], threading.Event()
+
+    def count():
+        while not ended.is_set():
+            counted[0] += 1
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    try:
+        before = counted[0]
+        system.run([0, 1], time=3000)
+        assert counted[0] - before > 10_000
+    finally:
+        ended.set()
+        thread.join()
+
+
+def test_ctrl_c_ends_a_run_of_c(library, ctrl_c):
+    with ctrl_c():
+        oscillator(library.field, library.stop, library.bounce).run([0, 1], time=1e7)
+
+
+def test_clocks_modes_and_terminal_events_of_c(library):
+    """Against the same model in formulas."""
+    surfaces = lambda stop, bounce: [
+        ns.Guard("stop", stop, "rising", reset=bounce),
+        ns.Clock("tick", period=2.5),
+        ns.Clock("switch", times=[3.0], to="other"),
+        ns.Clock("end", times=[20.0], terminal=True),
+    ]
+    parts = {"c": (library.field, library.stop, library.bounce), "formulas": FORMULAS}
+    runs = {}
+    for name, (field, stop, bounce) in parts.items():
+        system = ns.System(
+            {"one": field, "other": field}, states="x v", parameters={"restitution": 0.8}, guards=surfaces(stop, bounce)
+        )
+        runs[name] = system.run([0, 1], time=40, mode="one")
+    one, other = runs.values()
+    assert [event.surface for event in one.events] == [event.surface for event in other.events]
+    assert one.reason == other.reason == "terminal"
+    assert np.allclose(one.end, other.end, atol=1e-8)
+    assert np.allclose(one.sol([1.0, 10.0]), other.sol([1.0, 10.0]), atol=1e-8)
+
+
+def test_an_error_of_a_field_of_c_has_the_run_up_to_it(tmp_path):
+    compiler = shutil.which("cc")
+    if compiler is None:
+        pytest.skip("SKIPPED functions of C: there is no C compiler")
+    (tmp_path / "m.c").write_text("void f(double t, const double *x, const double *p, double *out) { out[0] = x[0] * x[0]; }")
+    subprocess.run([compiler, "-O2", "-shared", "-fPIC", "m.c", "-o", "m.so"], cwd=tmp_path, check=True)
+    field = ctypes.CDLL(str(tmp_path / "m.so")).f
+    field.restype, field.argtypes = None, [ctypes.c_double, NUMBERS, NUMBERS, NUMBERS]
+    system = ns.System(field, states="x")
+    with pytest.raises(ns.NonsmoothError):
+        system.run([1.0], time=2)
+    fates = system.fates([[1.0], [0.1]], time=2)
+    assert fates.reason[0].startswith("failed: ") and fates.reason[1] == "time limit"

@@ -228,3 +228,12 @@ def test_numpy_is_loaded_with_the_package():
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
     broken = "import sys; sys.modules['numpy'] = None\ntry:\n    import passive_hopper\nexcept ImportError: sys.exit(7)"
     assert subprocess.run([sys.executable, "-c", broken], check=False).returncode == 7
+
+
+def test_masked_speeds_are_refused():
+    m = hopper.LiftOffMap(0.2)
+    masked = np.ma.array([5.0, 6.0], mask=[False, True])
+    for call in (m, m.images, m.fates):
+        with pytest.raises(TypeError, match="masked"):
+            call(masked)
+    assert m(np.ma.array([5.0, 6.0])).tolist() == m([5.0, 6.0]).tolist()

@@ -549,3 +549,18 @@ def test_what_an_attack_made_false():
     ]:
         with pytest.raises((ValueError, TypeError), match=words):
             call()
+
+
+def test_masked_numbers_and_times_outside_of_the_run_are_refused():
+    well = ns.System(["v", "x - x^3 - 0.3*v"], states="x v")
+    masked = np.ma.array([0.5, 0.0], mask=[False, True])
+    with pytest.raises(TypeError, match="masked"):
+        well.run(masked, 1)
+    with pytest.raises(TypeError, match="masked"):
+        well.fates(np.ma.array([[0.5, 0.0]], mask=[[True, False]]), 1)
+    # A masked array without masked numbers is an array.
+    assert well.run(np.ma.array([0.5, 0.0]), 1).reason == "time limit"
+    with pytest.raises(ns.InputError, match="the time 2.0"):
+        well.run([0.5, 0], 1, t=[0.5, 2.0])
+    with pytest.raises(ns.InputError, match="the time nan"):
+        well.run([0.5, 0], 1, t=[0.5, np.nan])

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _native
 from ._native import CFunction, Event
+from ._progress import function_of
 from .c_functions import c_function, is_c_function
 from .errors import InputError
 from .model_functions import Functions
@@ -44,8 +45,64 @@ class Callbacks:
     def run(
         self, mode: str, start: NDArray[np.float64], times: tuple[float, float], events: int, parameters: dict[str, float]
     ) -> CallbackSolution:
-        p = Parameters(list(parameters), list(parameters.values()))
-        dimension = len(start)
+        system = self._system(Parameters(list(parameters), list(parameters.values())))
+        begin = [*start, times[0]]
+        if self._is_in_c():
+            arcs, stop, end, error = self._in_c(system).arcs((mode, begin, list(parameters.values())), times, events)
+            return CallbackSolution(arcs, stop, end, error)
+        execution = system.run(begin, time=times[1], mode=mode, events=events, start_time=times[0])
+        arcs, error = [], None
+        try:
+            arcs.extend(execution)
+        except Exception as raised:
+            error = raised
+        return CallbackSolution(arcs, execution.stop, execution.time, error)
+
+    def fates(
+        self,
+        starts: list[tuple[str, NDArray[np.float64], dict[str, float]]],
+        times: tuple[float, float],
+        events: int,
+        threads: int | None,
+        progress: Any,
+    ) -> list[Any]:
+        """How runs end, each with its mode, start and parameters: lists or arrays of the reasons, surfaces, modes, times, numbers of events and states."""
+        if starts and self._is_in_c():
+            system = self._system(Parameters([*starts[0][2]], [*starts[0][2].values()]))
+            runs = [(mode, [*start, times[0]], [*own.values()]) for mode, start, own in starts]
+            found = self._in_c(system).fates(runs, times, events, threads, progress)
+            return [*found.values()]
+        told, ends = function_of(progress), []
+        for k, (mode, start, own) in enumerate(starts):
+            try:
+                ends.append(self.run(mode, start, times, events, own).fate())
+            except ArithmeticError as error:
+                ends.append((f"failed: {error}", "", "", np.nan, 0, np.full(len(self.states), np.nan)))
+            if told is not None:
+                told(k + 1, len(starts))
+        return [list(column) for column in zip(*ends)] if ends else [[]] * 6
+
+    def _is_in_c(self) -> bool:
+        """Whether no function is one of Python: then runs need no interpreter."""
+        surfaces = self.functions.guards
+        given = [*self.functions.fields.values(), *(own.function for own in surfaces if isinstance(own, Guard))]
+        resets = [own.reset for own in surfaces if own.reset is not None]
+        return not self.functions.rests and all(is_c_function(own) for own in [*given, *resets])
+
+    def _in_c(self, system: Any) -> Any:
+        """The same system without Python."""
+
+        def surface(own: Any) -> Any:
+            value = self.functions.of(own.function) if isinstance(own, Guard) else None
+            reset = None if own.reset is None else self.functions.of(own.reset)
+            observes = not own.terminal and own.reset is None and own.to is None
+            return value, reset, own.to, own.terminal, observes
+
+        fields = [(mode, self.functions.of(field)) for mode, field in self.functions.fields.items()]
+        return _native.CSystem(system, fields, [surface(own) for own in self.functions.guards])
+
+    def _system(self, p: Parameters) -> Any:
+        dimension = len(self.states)
 
         def of(given: Any, results: int = dimension) -> Any:
             own = self.functions.of(given)
@@ -106,32 +163,24 @@ class Callbacks:
             to, own = self.functions.rests[mode]
             return (to, x if own is None else [*np.ravel(of(own)(x[-1], x[:-1], p)), x[-1]])
 
-        system = _native.HybridSystem(
+        return _native.HybridSystem(
             field=_native.CField(in_c, [*p]) if all(isinstance(own, CFunction) for _, own in in_c) else field,
             guards=[native(surface) for surface in self.functions.guards],
             rest=rest if self.functions.rests else None,
             tolerance=self.tolerances["relative"],
             longest_step=self.tolerances["longest_step"],
         )
-        execution = system.run([*start, times[0]], time=times[1], mode=mode, events=events, start_time=times[0])
-        return CallbackSolution(execution, len(self.states))
 
 
 class CallbackSolution:
     """A run by callbacks, with what a Solution of formulas has."""
 
-    def __init__(self, execution: Any, dimension: int) -> None:
-        self.arcs: list[Any] = []
-        self.error: Exception | None = None
-        self._dimension = dimension
-        try:
-            self.arcs.extend(execution)
-        except Exception as error:
-            if not self.arcs:
-                raise
-            self.error = error
-        self.stop: str = execution.stop or "failed"
-        self.times = (self.arcs[0].time, execution.time)
+    def __init__(self, arcs: list[Any], stop: str | None, end: float, error: Exception | None) -> None:
+        if error is not None and not arcs:
+            raise error
+        self.arcs, self.error = arcs, error
+        self.stop: str = stop or "failed"
+        self.times = (arcs[0].time, end)
 
     @property
     def events(self) -> list[Event]:
@@ -142,3 +191,15 @@ class CallbackSolution:
 
     def trajectory(self, grid: Any, /) -> Any:
         return _native.arc_trajectory(self.arcs, grid)
+
+    def fate(self) -> tuple[Any, ...]:
+        """How it ended: the reason, the surface, the mode, the time, the number of events and the state.
+
+        An exception of a function of the user passes through; a run that cannot go on has failed.
+        """
+        if self.error is not None and not isinstance(self.error, ArithmeticError):
+            raise self.error
+        reason = self.stop if self.error is None else f"failed: {self.error}"
+        surface = self.events[-1].surface if self.stop == "terminal" else ""
+        rows = self.trajectory([self.times[0]])
+        return reason, surface, str(rows["modes"][-1]), rows["times"][-1], len(self.events), rows["states"][-1]

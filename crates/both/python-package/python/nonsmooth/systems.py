@@ -131,7 +131,7 @@ class System:
         if parameters:
             return self.with_parameters(**parameters).run(start, time, mode=mode, t=t, events=events)
         begin, end = _span(time)
-        state = np.array(start, dtype=float).ravel()
+        state = numbers(start).ravel()
         if len(state) != len(self.states):
             raise InputError(f"the state has {len(self.states)} components ({', '.join(self.states)}), not {len(state)}")
         mode = self._first_mode(mode)
@@ -140,7 +140,7 @@ class System:
         else:
             assert self._callbacks is not None
             solution = self._callbacks.run(mode, state, (begin, end), events, self.parameters)
-        run = Run(self.states, solution, t)
+        run = Run(self.states, solution, _asked(t, begin, end))
         error = solution.error
         if error is not None:
             error.run = run
@@ -165,8 +165,8 @@ class System:
         """
         begin, end = _span(time)
         _check_threads(threads)
-        rows = np.atleast_2d(np.asarray(starts, dtype=float))
-        changed = {name: np.asarray(value, dtype=float) for name, value in (parameters or {}).items()}
+        rows = np.atleast_2d(numbers(starts))
+        changed = {name: numbers(value) for name, value in (parameters or {}).items()}
         self._parameters({name: 0.0 for name in changed})
         try:
             shape = np.broadcast_shapes((rows.shape[0],), *(value.shape for value in changed.values()))
@@ -179,14 +179,14 @@ class System:
         modes = [mode] * shape[0] if mode is None or isinstance(mode, str) else list(mode)
         modes = [self._first_mode(own) for own in modes]
         values = [list(row) for row in zip(*(np.broadcast_to(value, shape).tolist() for value in changed.values()))]
-        if self._equations is None:
-            return self._fates_by_callbacks(rows, (begin, end), modes, events, list(changed), values, progress)
+        if self._callbacks is not None:
+            given = [dict(zip(changed, own)) for own in values] if changed else [{}] * len(rows)
+            runs = [(mode, row, self._parameters(own)) for mode, row, own in zip(modes, rows, given)]
+            return _fates(self._callbacks.fates(runs, (begin, end), events, threads, progress), len(self.states))
         found = self._equations.fates(
             modes, rows.tolist(), (begin, end), events, list(changed), values, threads, progress
         )
-        states = found.states.reshape(len(rows), -1)[:, : len(self.states)] if len(rows) else np.empty(rows.shape)
-        reason, surface, last = (np.array(part, dtype=str) for part in (found.reasons, found.surfaces, found.modes))
-        return Fates(reason, surface, last, found.times, found.events, states)
+        return _fates([found.reasons, found.surfaces, found.modes, found.times, found.events, found.states], len(self.states))
 
     def steps(
         self,
@@ -235,27 +235,6 @@ class System:
         after = None if image is None else Model(self.states, self.parameters).formulas("the image", image).texts
         native = _native.ReturnMap(equations, name, self._first_mode(mode), to, coordinates, begin, after)
         return ReturnMap(native, name, self.parameters[name])
-
-    def _fates_by_callbacks(
-        self, rows: Any, time: Any, modes: Any, events: int, names: Any, values: Any, progress: Any
-    ) -> Fates:
-        from ._progress import function_of
-
-        told, ends = function_of(progress), []
-        for k, row in enumerate(rows):
-            own = dict(zip(names, values[k])) if names else None
-            try:
-                run = self.run(row, time, mode=modes[k], events=events, parameters=own, t=[time[0]])
-                last = run.events[-1].surface if run.reason == "terminal" else ""
-                ends.append((run.reason, last, str(run.trajectory["modes"][-1]), run.trajectory["times"][-1], len(run.events), run.end))
-            except ArithmeticError as error:
-                ends.append((f"failed: {error}", "", "", np.nan, 0, np.full(len(self.states), np.nan)))
-            if told is not None:
-                told(k + 1, len(rows))
-        columns = [list(column) for column in zip(*ends)] if ends else [[]] * 6
-        reason, surface, last_mode = (np.array(column, dtype=str) for column in columns[:3])
-        when, count, state = np.array(columns[3]), np.array(columns[4], dtype=np.uint64), np.array(columns[5])
-        return Fates(reason, surface, last_mode, when, count, state.reshape(len(ends), len(self.states)))
 
     def _first_mode(self, mode: str | None) -> str:
         if mode is None:
@@ -316,3 +295,29 @@ def _tolerances(tolerance: float, absolute: Any, longest_step: float, dimension:
     if not found["longest_step"] > 0.0:
         raise InputError(f"longest_step must be positive, not {longest_step!r}")
     return found
+
+
+def numbers(given: ArrayLike) -> Any:
+    """An array of floats. Masked numbers would pass as numbers: they are refused."""
+    if np.ma.is_masked(given):
+        raise TypeError("the array has masked numbers: give those that count, as by array.compressed()")
+    return np.array(given, dtype=float)
+
+
+def _asked(t: ArrayLike | None, begin: float, end: float) -> Any:
+    """The times at which states are wanted, within those of the run."""
+    if t is None:
+        return None
+    times = numbers(t).ravel()
+    low, high = min(begin, end), max(begin, end)
+    outside = times[~((low <= times) & (times <= high))]
+    if len(outside):
+        raise InputError(f"t= has the time {float(outside[0])!r}, and the run goes from {begin!r} to {end!r}")
+    return times
+
+
+def _fates(columns: list[Any], dimension: int) -> Fates:
+    """The fates of these columns, whose states may have the time behind their components."""
+    reason, surface, mode = (np.array(column, dtype=str) for column in columns[:3])
+    time, events, states = np.array(columns[3], dtype=float), np.array(columns[4], dtype=np.uint64), np.array(columns[5], dtype=float)
+    return Fates(reason, surface, mode, time, events, states.reshape(len(reason), -1)[:, :dimension] if len(reason) else np.empty((0, dimension)))

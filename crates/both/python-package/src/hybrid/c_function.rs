@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 /// void f(double t, const double *x, const double *p, double *out)
-type Function = unsafe extern "C" fn(f64, *const f64, *const f64, *mut f64);
+pub(super) type Function = unsafe extern "C" fn(f64, *const f64, *const f64, *mut f64);
 
 /// A function of C with the signature `void (double, double *, double *, double *)`: of the time, the components of the state, the parameters, and the
 /// results that it writes.
@@ -20,18 +20,29 @@ type Function = unsafe extern "C" fn(f64, *const f64, *const f64, *mut f64);
 /// front checks the signature where the object tells it, and demands it of a bare address.
 #[pyclass(frozen, module = "nonsmooth._native")]
 pub(crate) struct CFunction {
-    function: Function,
+    pub(super) function: Function,
     /// What keeps the function alive: it is not called after this is gone.
     owner: Py<PyAny>,
 }
 
 impl CFunction {
-    /// The results at a time and a state.
-    fn write(&self, time: f64, state: &[f64], parameters: &[f64], results: &mut [f64]) {
-        // Safety: the contract of this class. The slices live during the call, and `self` keeps the owner.
+    /// The results at a time and a state, of the function of a `CFunction` that the caller keeps.
+    pub(super) fn call(
+        function: Function,
+        time: f64,
+        state: &[f64],
+        parameters: &[f64],
+        results: &mut [f64],
+    ) {
+        // Safety: the contract of this class, which alone makes functions of addresses. The slices live during the call, and the caller keeps the
+        // `CFunction` with its owner.
         unsafe {
-            (self.function)(time, state.as_ptr(), parameters.as_ptr(), results.as_mut_ptr());
+            function(time, state.as_ptr(), parameters.as_ptr(), results.as_mut_ptr());
         }
+    }
+
+    fn write(&self, time: f64, state: &[f64], parameters: &[f64], results: &mut [f64]) {
+        CFunction::call(self.function, time, state, parameters, results);
     }
 }
 

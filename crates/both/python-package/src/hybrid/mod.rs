@@ -6,7 +6,8 @@
 //!
 //! A `model` is what a user has given to a `system`, with the `names` of its modes and its `guards`. During one
 //! call a `callables` object is the hybrid system of the library: it calls the functions, turns `vectors` to arrays
-//! of NumPy and back, calls a `c_function` without the interpreter, and keeps the first exception. An `execution` is an iterator over `arcs`; a `trajectory` has them as arrays, also of an
+//! of NumPy and back, calls a `c_function` without the interpreter, and keeps the first exception. A `c_system`, all of whose functions are of C, is a hybrid system
+//! without Python. An `execution` is an iterator over `arcs`; a `trajectory` has them as arrays, also of an
 //! `arc_list`. `derivatives` go
 //! through arcs and events. A `sliding` point is one of a surface at which the fields on both sides point, and a
 //! `sliding_mode` the motion along it.
@@ -14,6 +15,7 @@
 mod arc_list;
 mod arcs;
 mod c_function;
+mod c_system;
 mod callables;
 mod derivatives;
 mod execution;
@@ -30,6 +32,7 @@ mod vectors;
 pub(crate) use arc_list::{arc_states, arc_trajectory};
 pub(crate) use arcs::{Event, HybridArc, Zeno, certainty};
 pub(crate) use c_function::{CField, CFunction, CGuard};
+pub(crate) use c_system::CSystem;
 pub(crate) use derivatives::{event_sensitivity, sensitivity};
 pub(crate) use execution::Execution;
 pub(crate) use guards::{Clock, Guard};

@@ -46,6 +46,12 @@ pub(crate) struct HybridSystem {
     sampled: Option<f64>,
 }
 
+impl HybridSystem {
+    pub(super) fn model(&self) -> &Arc<Model> {
+        &self.model
+    }
+}
+
 #[pymethods]
 impl HybridSystem {
     #[new]
