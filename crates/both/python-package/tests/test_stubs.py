@@ -2,6 +2,7 @@
 
 import ast
 import doctest
+import importlib.util
 import inspect
 from pathlib import Path
 
@@ -66,6 +67,15 @@ def test_arguments_have_the_names_of_the_module(name, stub, function):
     assert arguments(stub) == found
 
 
+def test_docstrings_of_the_stub_are_those_of_the_module():
+    place = Path(__file__).resolve().parents[4] / "xtask/generators/stub_docs.py"
+    spec = importlib.util.spec_from_file_location("stub_docs", place)
+    generator = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(generator)
+    text = generator.STUB.read_text()
+    assert generator.documented(text, _native) == text, "python xtask/generators/stub_docs.py renews them"
+
+
 @pytest.mark.parametrize("module", [passive_hopper, nonsmooth, hybrid, labelling])
 def test_every_public_name_is_documented(module):
     for name in module.__all__:
@@ -74,7 +84,7 @@ def test_every_public_name_is_documented(module):
             assert own.__doc__, name
 
 
-@pytest.mark.parametrize("place", [passive_hopper, nonsmooth, nonsmooth.systems, nonsmooth.runs, nonsmooth.returns, nonsmooth.basins, datasets, hybrid, labelling, motions, *(getattr(_native, name) for name in sorted(public(vars(_native))) if getattr(_native, name).__doc__)], ids=lambda place: place.__name__ if hasattr(place, "__name__") else "constant")  # fmt: skip
+@pytest.mark.parametrize("place", [passive_hopper, nonsmooth, nonsmooth.systems, nonsmooth.runs, nonsmooth.returns, nonsmooth.basins, nonsmooth.boundaries, nonsmooth.stability, nonsmooth.along, datasets, hybrid, labelling, motions, *(getattr(_native, name) for name in sorted(public(vars(_native))) if getattr(_native, name).__doc__)], ids=lambda place: place.__name__ if hasattr(place, "__name__") else "constant")  # fmt: skip
 def test_examples_run(place):
     pytest.importorskip("xarray")
     if isinstance(place, int):

@@ -1,4 +1,4 @@
-"""Users who check types have no complaint: the gallery and the lines of the pages under mypy --strict, and the stub of the native module."""
+"""Users who check types have no complaint: the gallery and the lines of the pages under mypy --strict and pyright, and the stub of the native module."""
 
 import re
 import subprocess
@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 pytest.importorskip("mypy", reason="SKIPPED types: mypy is not installed")
+pytest.importorskip("pyright", reason="SKIPPED types: pyright is not installed")
 ROOT = Path(__file__).resolve().parents[4]
 GALLERY = ROOT / "crates/both/python-package/gallery"
 
@@ -29,6 +30,7 @@ def test_gallery_pages_and_the_stub_of_the_native_module(tmp_path):
     # Side by side: each takes some ten seconds. Dask has no types.
     both = [
         started("mypy", "--strict", "--allow-untyped-calls", "--ignore-missing-imports", "--cache-dir", str(tmp_path / "cache"), *files, folder=tmp_path),
+        started("pyright", "--pythonpath", sys.executable, *files, folder=tmp_path),
         started("mypy.stubtest", "nonsmooth._native", "--ignore-disjoint-bases", "--allowlist", str(allowed), folder=tmp_path),
     ]
     for own in both:
