@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::peers::{
     Python, array_times, arrays_markdown, basin_times, basins_markdown, csv, markdown, measure,
-    peers_figure,
+    peers_figure, system_times, systems_markdown,
 };
 use crate::repository::{Folder, Progress, read, repository, results_folder, say};
 use crate::text::replace_block;
@@ -35,13 +35,14 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
         .with_own_package(&package, &folder.path().join("build"))?;
     let peers = measure(&python, folder.path(), &Progress)?;
     let arrays = arrays_markdown(&array_times(&python, folder.path(), &Progress)?);
+    let systems = systems_markdown(&system_times(&python, folder.path(), &Progress)?);
     let basins = basins_markdown(&basin_times(&python, folder.path(), &Progress)?);
     let rendered = render("peers", &peers_figure(&peers), 2.0)?;
     folder.write("peers.csv", &csv(&peers)?.bytes)?;
     folder.write("peers.svg", rendered.svg.as_bytes())?;
     folder.write("peers.png", &rendered.png)?;
     let table = markdown(&peers);
-    say(format_args!("{table}\n{arrays}\n{basins}\n{}", folder.path().display()))?;
+    say(format_args!("{table}\n{arrays}\n{systems}\n{basins}\n{}", folder.path().display()))?;
     if !options.bless {
         return Ok(());
     }
@@ -49,6 +50,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let text = read(&docs.path().join("performance.md"))?;
     let text = replace_block(&text, "peers", &table)?;
     let text = replace_block(&text, "arrays", &arrays)?;
+    let text = replace_block(&text, "systems", &systems)?;
     docs.write("performance.md", replace_block(&text, "basins", &basins)?.as_bytes())?;
     docs.write("figures/peers.svg", rendered.svg.as_bytes())?;
     Ok(())

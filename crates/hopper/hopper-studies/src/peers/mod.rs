@@ -6,6 +6,7 @@ mod compare;
 mod figure;
 mod peer;
 mod python;
+mod systems;
 mod table;
 
 pub(crate) use arrays::{array_times, arrays_markdown};
@@ -13,4 +14,5 @@ pub(crate) use basins::{basin_times, basins_markdown};
 pub(crate) use compare::measure;
 pub(crate) use figure::peers_figure;
 pub(crate) use python::{Python, call, results};
+pub(crate) use systems::{system_times, systems_markdown};
 pub(crate) use table::{csv, markdown};
