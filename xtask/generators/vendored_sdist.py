@@ -25,9 +25,7 @@ def add_crates(archive):
         with tarfile.open(archive) as packed:
             packed.extractall(place, filter="data")
         (root,) = Path(place).iterdir()
-        manifest = root / "crates/both/python-package/Cargo.toml"
-        if not manifest.exists():
-            manifest = root / "Cargo.toml"
+        (manifest,) = root.glob("**/python-package/Cargo.toml")
         cargo = os.environ.get("CARGO", "cargo")
         subprocess.run([cargo, "vendor", "--quiet", "--locked", "--versioned-dirs", "--manifest-path", manifest, root / FOLDER], check=True, stdout=subprocess.DEVNULL)
         (root / ".cargo").mkdir(exist_ok=True)
