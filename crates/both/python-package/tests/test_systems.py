@@ -564,3 +564,11 @@ def test_masked_numbers_and_times_outside_of_the_run_are_refused():
         well.run([0.5, 0], 1, t=[0.5, 2.0])
     with pytest.raises(ns.InputError, match="the time nan"):
         well.run([0.5, 0], 1, t=[0.5, np.nan])
+
+
+def test_steps_take_the_tolerances_of_the_system():
+    """A flow over a time has the bits of a run of the same tolerances."""
+    for settings in ({}, {"tolerance": 1e-6}, {"tolerance": 1e-6, "absolute": 1e-3}, {"absolute": [1e-2, 1e-9]}, {"longest_step": 0.05}):
+        well = ns.System(["v", "x - x^3 - 0.3*v + 0.2*cos(t)"], states="x v", **settings)
+        # Without guards the steps are those of many states at a time; with one they are runs.
+        assert well.steps(2.0)([0.3, 0.1]) == well.run([0.3, 0.1], 2.0).end.tolist(), settings

@@ -171,6 +171,11 @@ impl<X, P> Model<Label, Label, X, TaylorMotion, P> {
         &self.motion.programs.equations
     }
 
+    /// The number of components of a state, with the time if formulas use it.
+    pub fn dimension(&self) -> usize {
+        self.motion.programs.dimension
+    }
+
     /// The series of a mode, with its guards as watched formulas; `None` if the equations have no such mode.
     pub fn series(&self, mode: &str) -> Option<&Series> {
         Some(&self.motion.programs.mode(Label::new(mode).ok()?)?.series)

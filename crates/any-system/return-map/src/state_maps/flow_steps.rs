@@ -30,11 +30,14 @@ pub struct FlowSteps {
     from: f64,
     to: f64,
     tolerance: f64,
+    /// Absolute and relative, of each component.
+    each: Vec<(f64, f64)>,
+    longest_step: f64,
 }
 
 impl FlowSteps {
     /// The motion of a field with one formula for each component, from the first of these times to the second. `tolerance` is the relative and
-    /// the absolute error of a Taylor step.
+    /// the absolute error of a Taylor step; [`tolerances`](Self::tolerances) tells others.
     ///
     /// # Errors
     /// Those of [`equations`]: another number of formulas than components; [`equations::Error::Tolerance`] unless 10⁻¹⁷ ≤ `tolerance` ≤ 0.1;
@@ -48,12 +51,31 @@ impl FlowSteps {
             return Err(equations::Error::Time { time: from, end: to }.into());
         }
         let series = Series::new(field, None)?;
-        TaylorFlow::new(&series, tolerance, tolerance)?;
-        Ok(FlowSteps { series, from, to, tolerance })
+        let (each, longest_step) =
+            (vec![(tolerance, tolerance); series.dimension()], f64::INFINITY);
+        let steps = FlowSteps { series, from, to, tolerance, each, longest_step };
+        steps.flow()?;
+        Ok(steps)
+    }
+
+    /// The same with an absolute and a relative tolerance of each component, and no Taylor step longer than a time. The order of the steps stays.
+    ///
+    /// # Errors
+    /// Those of [`TaylorFlow::tolerances`] and [`TaylorFlow::longest_step`].
+    pub fn tolerances(
+        mut self,
+        each: Vec<(f64, f64)>,
+        longest_step: f64,
+    ) -> Result<FlowSteps, Error> {
+        (self.each, self.longest_step) = (each, longest_step);
+        self.flow()?;
+        Ok(self)
     }
 
     fn flow(&self) -> Result<TaylorFlow<'_>, equations::Error> {
-        TaylorFlow::new(&self.series, self.tolerance, self.tolerance)
+        TaylorFlow::new(&self.series, self.tolerance, 0.0)?
+            .tolerances(self.each.clone())?
+            .longest_step(self.longest_step)
     }
 }
 

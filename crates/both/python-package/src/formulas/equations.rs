@@ -36,15 +36,22 @@ fn kept(values: Vec<f64>) -> &'static [f64] {
     kept.entry(bits).or_insert_with(|| Vec::leak(values))
 }
 
+/// Lists of tolerances of the components, with one for the time if it is the last component of the state: any one, as the time is exact.
+fn with_time(mut tolerances: Tolerances, dimension: usize) -> Tolerances {
+    let longer = |list: &'static [f64]| match list.len() + 1 == dimension {
+        true => kept([list, &[list.iter().copied().fold(0.0, f64::max)]].concat()),
+        false => list,
+    };
+    tolerances.absolute_each = tolerances.absolute_each.map(longer);
+    tolerances.relative_each = tolerances.relative_each.map(longer);
+    tolerances
+}
+
 impl Equations {
     fn of(equations: &hybrid_system::Equations, tolerances: Tolerances) -> PyResult<Self> {
         let model = equations.model::<DVector<f64>>().map_err(|error| of_hybrid(&error))?;
+        let tolerances = with_time(tolerances, model.dimension());
         Ok(Equations { model: Arc::new(model.tolerances(tolerances)), tolerances })
-    }
-
-    /// The relative tolerance.
-    pub(super) fn relative(&self) -> f64 {
-        self.tolerances.relative
     }
 
     pub(super) fn tolerances(&self) -> Tolerances {
@@ -80,8 +87,7 @@ pub(super) fn begin<'m>(
 
 #[pymethods]
 impl Equations {
-    /// relative and absolute are the tolerances of a step: one number, or one for each component of the state (and of the time, if the
-    /// formulas use it).
+    /// relative and absolute are the tolerances of a step: one number, or one for each component of the state.
     #[new]
     #[pyo3(signature = (json, *, relative = 1e-12, absolute = 1e-12, relative_each = None, absolute_each = None,
                         longest_step = f64::INFINITY, steps = 1_000_000),

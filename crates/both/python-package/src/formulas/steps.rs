@@ -133,8 +133,21 @@ impl Steps {
         let dimension = model.equations().names().states.len();
         let map: Arc<dyn StateMap + Send + Sync> = match smooth_field(&model, &names) {
             Some(field) => {
-                let tolerance = equations.get().relative();
-                Arc::new(FlowSteps::new(&field, times, tolerance).map_err(value_error)?)
+                let own = equations.get().tolerances();
+                let of = |list: Option<&[f64]>, axis: usize, all: f64| {
+                    list.and_then(|list| list.get(axis)).copied().unwrap_or(all)
+                };
+                let each = |axis| {
+                    (
+                        of(own.absolute_each, axis, own.absolute),
+                        of(own.relative_each, axis, own.relative),
+                    )
+                };
+                // As a run takes it.
+                let relative = own.relative.clamp(1e-17, 0.1);
+                let steps = FlowSteps::new(&field, times, relative).map_err(value_error)?;
+                let steps = steps.tolerances((0..dimension).map(each).collect(), own.longest_step);
+                Arc::new(steps.map_err(value_error)?)
             }
             None => {
                 let ends = ends.clone().into();
