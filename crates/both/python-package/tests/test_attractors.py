@@ -172,3 +172,32 @@ def test_fractions_and_attractors_are_drawn(well):
     assert axes.get_xlabel() == "c" and len(axes.lines) == 2 + len(along.changes)
     basins = ns.basins_of(WELL, {"x": (-2, 2), "v": (-2, 2)}, (8, 8), step=1.0, attractors=well)
     assert len(ns.plots.plot_basins(basins, attractors=well).lines) == 2
+
+
+@pytest.mark.parametrize(
+    "call, message",
+    [
+        (lambda: ns.attractors_along(cubic, (0.0, 0.2), {"x": (-1.7, 1.7)}, points=10**15), "memory|more than"),
+        (lambda: ns.attractors_along(cubic, (0.0, 0.2), {"x": (-1.7, 1.7)}, starts=10**15), "memory|more than"),
+        (lambda: ns.attractors_along(cubic, (0.0, 0.2), {"x": (-1.7, 1.7)}, starts=-1), "starts= is a whole number"),
+        (lambda: ns.attractors_along(cubic, (0.0, 0.2), {"x": (-1.7, 1.7)}, threads=0), "threads="),
+        (lambda: ns.attractors_along(cubic, (0.2, 0.0), {"x": (-1.7, 1.7)}), "not an interval"),
+        (lambda: ns.stability_of(line(), {"x": (-1, 1), "y": (0, 1)}), "2 coordinates where 1"),
+        (lambda: ns.stability_of(line(), [(-1, 1)], threads=-2), "threads="),
+        (lambda: ns.tipping(line(), line(), [(-1, 1), (0, 1)]), "2 coordinates where 1"),
+        (lambda: ns.minimal_fatal_shock(line(), [1.0, 2.0], 2.0), "2 coordinates where 1"),
+        (lambda: ns.minimal_fatal_shock(line(), [1.0], 2.0, directions=-5), "directions= is a whole number"),
+        (lambda: ns.minimal_fatal_shock(line(), [1.0], 2.0, along=1.5), "along= is a whole number"),
+        (lambda: ns.boundary_between(line(), [1.0, 3.0], [-1.0, 3.0]), "2 coordinates where 1"),
+        (lambda: ns.known_attractors(cubic(), {70000: [[1]]}), "up to 65000"),
+        (lambda: line().labels([1.0, 2.0]), "one start a row"),
+        (lambda: ns.basins_of(WELL, {"x": (-2, 2), "v": (-2, 2)}, (4, 4), step=1.0, starts=5, locate=50, tests=5, threads=0), "threads="),
+    ],
+)
+def test_wrong_arguments_are_told_with_their_names_and_numbers(call, message):
+    with pytest.raises((ns.InputError, TypeError, MemoryError), match=message):
+        call()
+
+
+def line():
+    return ns.attractors_of(cubic(), {"x": (-1.6, 1.6)}, starts=[[1.0], [-1.0]], tests=20)

@@ -10,6 +10,7 @@ use crate::parameters::fractions_along::{CurveLimits, FractionsAlong, fractions_
 use crate::parameters::matching::Matching;
 use crate::shares::fractions::Fractions;
 use crate::shares::region_fractions::LabelCounts;
+use crate::shares::sampling::check_count;
 use crate::space::hyperrectangle::Hyperrectangle;
 use crate::space::interval::Interval;
 use crate::space::label::Label;
@@ -84,7 +85,7 @@ const SEEDS: usize = 3;
 ///
 /// # Errors
 /// As [`fractions_along_matched`] and [`Attractors::search`]; [`Error::WrongDimension`] for a region of another dimension than the states;
-/// [`Error::NothingInside`] without points.
+/// [`Error::NothingInside`] without points; [`Error::TooManySamples`] for more than a billion points or starts.
 pub fn attractors_along<M: StateMap>(
     range: Interval,
     known: &[f64],
@@ -119,6 +120,8 @@ pub fn attractors_along_watched<M: StateMap>(
     progress: impl Fn(f64, AlongProgress<'_>) -> ControlFlow<()> + Sync,
 ) -> Result<AttractorsAlong, Error> {
     check_dimension(search.region.dimension(), search.grid.dimension())?;
+    check_count(search.points)?;
+    check_count(search.starts)?;
     // By the bits of the parameters.
     let found: Mutex<BTreeMap<u64, Attractors>> = Mutex::new(BTreeMap::new());
     let all = || found.lock().unwrap_or_else(PoisonError::into_inner);

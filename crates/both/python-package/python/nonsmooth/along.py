@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
+from ._arguments import threads_of, whole, wholes
 from ._conventions import about, complete
 from .errors import InputError
 
@@ -128,25 +129,17 @@ def attractors_along(
         "known": [float(value) for value in known],
         "region": list(sides.values()),
         "basins": list(inside.values()),
-        "first_steps": steps,
-        "difference": difference,
-        "shortest": shortest,
-        "parameters": parameters,
+        "difference": float(difference),
+        "shortest": float(shortest),
         "within": within,
         "overlap": overlap,
-        "starts": starts,
-        "points": points,
-        "seed": seed,
-        "cells": cells,
-        "recurrences": recurrences,
-        "locate": locate,
-        "budget": budget,
-        "lost": lost,
-        "tests": tests,
         "escape": escape,
-        "periodic": list(periodic),
+        "periodic": [whole("periodic", coordinate) for coordinate in periodic],
+        "first_steps": whole("steps", steps),
+        **wholes(parameters=parameters, starts=starts, points=points, seed=seed, cells=cells),
+        **wholes(recurrences=recurrences, locate=locate, budget=budget, lost=lost, tests=tests),
     }
-    found = _native._attractors_along(steps_at, settings, threads, progress)
+    found = _native._attractors_along(steps_at, settings, threads_of(threads), progress)
     return AttractorsAlong(
         found["parameter"],
         found["fractions"],

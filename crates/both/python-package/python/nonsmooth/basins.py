@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import labelling
+from ._arguments import numbers, threads_of, whole
 from ._native import Attractors, Steps
 from ._progress import function_of
 from .errors import InputError
@@ -68,7 +69,7 @@ def attractors_of(
         low, high = np.array(sides).T
         rows = np.random.default_rng(seed).uniform(low, high, (int(starts), len(sides)))
     else:
-        rows = np.atleast_2d(np.asarray(starts, dtype=float))
+        rows = np.atleast_2d(numbers(starts))
         if not np.isfinite(rows).all():
             raise InputError("starts= has numbers that are not finite")
     return Attractors(steps, region=sides, starts=rows.tolist(), **limits)
@@ -93,7 +94,7 @@ def known_attractors(
     >>> rest.labels([[1.0, 0.0], [5.0, 0.0]]).tolist()
     [1, 2]
     """
-    own = {int(label): np.atleast_2d(np.asarray(rows, dtype=float)).tolist() for label, rows in points.items()}
+    own = {_label(label): np.atleast_2d(numbers(rows)).tolist() for label, rows in points.items()}
     return Attractors.of_points(_steps(of, step, parameters), own, distance, **limits)
 
 
@@ -120,7 +121,7 @@ def attractors_by_features(
     >>> {label: round(float(points[0, 0]), 3) for label, points in found.points.items()}
     {1: -1.0, 2: 1.0}
     """
-    rows = np.atleast_2d(np.asarray(starts, dtype=float)).tolist()
+    rows = np.atleast_2d(numbers(starts)).tolist()
     return Attractors.of_features(_steps(of, step, parameters), features, rows, radius=radius, beside=beside, **limits)
 
 
@@ -187,7 +188,7 @@ def basins_of(
     parts = [(attractors, start, xs[begin:end], ys) for begin, end in labelling.strips(len(xs), len(ys), _LEAST_STRIPS)]
     told = function_of(progress)
     found = []
-    for part in _computed(parts, threads, client):
+    for part in _computed(parts, threads_of(threads), client):
         found.append(part)
         if told is not None:
             told(sum(len(labels) for labels, _ in found), len(xs))
@@ -244,6 +245,14 @@ def _computed(parts: Sequence[Any], threads: int | None, client: Any) -> Iterato
             yield future.result()
     finally:
         client.cancel(futures)
+
+
+def _label(label: Any) -> int:
+    """The label of a basin, as a user gives it."""
+    found = whole("the label of points", label)
+    if found > 65_000:
+        raise InputError(f"attractors have labels up to 65000, not {found}: the others mean ends and what is undecided")
+    return found
 
 
 def _steps(of: Any, step: Any, parameters: Any) -> Steps:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
+from ._arguments import state_of, threads_of, wholes
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -75,7 +76,7 @@ def boundary_between(attractors: Attractors, first: ArrayLike, second: ArrayLike
     >>> bool(abs(ns.boundary_between(found, [-0.5], [0.7]).middle[0]) < 1e-9)
     True
     """
-    return _boundary(_native._boundary_between(attractors, _state(first), _state(second), float(precision)))
+    return _boundary(_native._boundary_between(attractors, state_of(first), state_of(second), float(precision)))
 
 
 def track_edge(
@@ -100,8 +101,8 @@ def track_edge(
     >>> ns.track_edge(found, [-0.5, 1.0], [1.0, 0.7]).end
     'settled'
     """
-    settings = {"bisect": bisect, "separate": separate, "still": still, "steps": steps, "rounds": rounds}
-    points, last, end = _native._track_edge(attractors, _state(first), _state(second), settings)
+    settings = {"bisect": bisect, "separate": separate, "still": still, **wholes(steps=steps, rounds=rounds)}
+    points, last, end = _native._track_edge(attractors, state_of(first), state_of(second), settings)
     return EdgeTrack(np.array(points), _boundary(last), end)
 
 
@@ -124,24 +125,13 @@ def minimal_fatal_shock(
     ``changes`` changes of their direction. All of it takes some directions · along + improved · changes labels. Between the rays, and in basins thinner
     than the spacing, a smaller shock may be missed.
     """
-    settings = {
-        "farthest": farthest,
-        "precision": precision,
-        "directions": directions,
-        "along": along,
-        "improved": improved,
-        "changes": changes,
-        "seed": seed,
-    }
-    found = _native._minimal_fatal_shock(attractors, _state(state), settings, threads)
+    counts = wholes(directions=directions, along=along, improved=improved, changes=changes, seed=seed)
+    settings = {"farthest": float(farthest), "precision": float(precision), **counts}
+    found = _native._minimal_fatal_shock(attractors, state_of(state), settings, threads_of(threads))
     if found is None:
         return None
     shock, size, label, undecided = found
     return FatalShock(np.array(shock), size, label, undecided)
-
-
-def _state(state: ArrayLike) -> list[float]:
-    return [float(number) for number in np.atleast_1d(np.asarray(state, dtype=float))]
 
 
 def _boundary(found: Any) -> Boundary:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
+from ._arguments import threads_of, whole
 from ._native import Interval
 
 if TYPE_CHECKING:
@@ -87,8 +88,8 @@ def stability_of(
     >>> 0.5 in stable[1].fraction, round(stable[1].fatal.size, 5)
     (True, 1.0)
     """
-    sample = {"region": _sides(region), "count": starts, "seed": seed}
-    found = _native._stability(attractors, sample, precision, threads)
+    sample = {"region": _sides(region), "count": whole("starts", starts), "seed": whole("seed", seed)}
+    found = _native._stability(attractors, sample, precision, threads_of(threads))
     return {label: _stability(row) for label, row in found.items()}
 
 
@@ -111,8 +112,8 @@ def tipping(
     >>> [(own.before, own.after) for own in ns.tipping(at(0), at(0.1), {"x": (-1, 1)}) if own.probability.value > 0]
     [(1, 1), (1, 2), (2, 2)]
     """
-    sample = {"region": _sides(region), "count": points, "seed": seed}
-    return [Tipping(*row) for row in _native._tipping(before, after, sample, threads)]
+    sample = {"region": _sides(region), "count": whole("points", points), "seed": whole("seed", seed)}
+    return [Tipping(*row) for row in _native._tipping(before, after, sample, threads_of(threads))]
 
 
 def _sides(region: Region) -> list[tuple[float, float]]:

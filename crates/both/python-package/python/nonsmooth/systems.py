@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
+from ._arguments import numbers, threads_of
 from ._native import Equations, Steps
 from .callbacks import Callbacks
 from .errors import InputError, TracingError
@@ -164,7 +165,7 @@ class System:
         them. ``progress`` is a function of (done, all), or True for a bar of tqdm.
         """
         begin, end = _span(time)
-        _check_threads(threads)
+        threads = threads_of(threads)
         rows = np.atleast_2d(numbers(starts))
         changed = {name: numbers(value) for name, value in (parameters or {}).items()}
         self._parameters({name: 0.0 for name in changed})
@@ -275,11 +276,6 @@ def _span(time: float | tuple[float, float]) -> tuple[float, float]:
     return float(ends[0]), float(ends[1])
 
 
-def _check_threads(threads: int | None) -> None:
-    if threads is not None and threads < 1:
-        raise InputError(f"threads= is a number from 1 on, not {threads!r}")
-
-
 def _tolerances(tolerance: float, absolute: Any, longest_step: float, dimension: int) -> dict[str, Any]:
     found: dict[str, Any] = {"relative": float(tolerance), "absolute": float(tolerance), "longest_step": float(longest_step)}
     if np.ndim(absolute) == 1:
@@ -295,13 +291,6 @@ def _tolerances(tolerance: float, absolute: Any, longest_step: float, dimension:
     if not found["longest_step"] > 0.0:
         raise InputError(f"longest_step must be positive, not {longest_step!r}")
     return found
-
-
-def numbers(given: ArrayLike) -> Any:
-    """An array of floats. Masked numbers would pass as numbers: they are refused."""
-    if np.ma.is_masked(given):
-        raise TypeError("the array has masked numbers: give those that count, as by array.compressed()")
-    return np.array(given, dtype=float)
 
 
 def _asked(t: ArrayLike | None, begin: float, end: float) -> Any:

@@ -6,7 +6,7 @@ use crate::errors::{of_callback, value_error};
 use crate::formulas::Steps;
 use crate::interruptible::{Watch, in_background, progress_function, with_threads};
 use crate::labelling::region_of;
-use crate::whole::whole;
+use crate::whole::{room_for, whole};
 use basin_of_attraction::{
     AlongProgress, AlongSearch, AttractorsAlong, CurveLimits, Label, Matching, RecurrenceLimits,
     StateMap, UnresolvedReason, attractors_along_watched,
@@ -120,6 +120,10 @@ pub(crate) struct Settings {
 
 impl Settings {
     fn search(&self) -> PyResult<AlongSearch> {
+        // A point, its label and its steps; all starts are made before the first one is followed.
+        let coordinates = size_of::<f64>() * self.basins.len();
+        room_for(self.points, size_of::<(Label, usize)>() + size_of::<Label>())?;
+        room_for(self.starts, size_of::<Vec<f64>>() + coordinates)?;
         let grid = grid(&self.region, self.cells, self.periodic.clone())?;
         let limits = RecurrenceLimits {
             recurrences: self.recurrences,

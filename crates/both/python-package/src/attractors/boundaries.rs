@@ -48,6 +48,7 @@ pub(crate) fn _boundary_between(
     second: Vec<f64>,
     precision: f64,
 ) -> PyResult<Bracket> {
+    attractors.check_dimension(first.len())?;
     let found = attractors.with_labels(py, None, move |_, label| {
         basin_of_attraction::boundary_between(&first, &second, precision, label)
     })?;
@@ -76,6 +77,7 @@ pub(crate) fn _track_edge(
     second: Vec<f64>,
     settings: EdgeSettings,
 ) -> PyResult<(Vec<Vec<f64>>, Bracket, String)> {
+    attractors.check_dimension(first.len())?;
     let EdgeSettings { bisect, separate, still, steps, rounds } = settings;
     let limits = EdgeLimits { bisect, separate, steps, rounds, still };
     let found = attractors.with_labels(py, None, move |map, label| {
@@ -122,6 +124,7 @@ pub(crate) fn _minimal_fatal_shock(
     settings: ShockSettings,
     threads: Option<usize>,
 ) -> PyResult<Option<ShockRow>> {
+    attractors.check_dimension(state.len())?;
     let ShockSettings { farthest, precision, directions, along, improved, changes, seed } =
         settings;
     let search = ShockSearch { farthest, directions, along, improved, changes, precision, seed };

@@ -316,6 +316,17 @@ impl Attractors {
 }
 
 impl Attractors {
+    /// Refuses a state or a region of another dimension.
+    pub(super) fn check_dimension(&self, dimension: usize) -> PyResult<()> {
+        match dimension == self.dimension {
+            true => Ok(()),
+            false => {
+                let expected = self.dimension;
+                Err(value_error(Error::WrongDimension { dimension, expected }))
+            }
+        }
+    }
+
     fn all_convergences(
         &self,
         py: Python<'_>,
@@ -325,11 +336,11 @@ impl Attractors {
         let Numbers { values, shape } = starts.extract()?;
         let (count, expected) = (shape.first().copied().unwrap_or(0), self.dimension);
         match shape[..] {
-            [_, dimension] if dimension == expected => {}
             [0] => {}
+            [_, dimension] => self.check_dimension(dimension)?,
             _ => {
-                let dimension = shape.last().copied().unwrap_or(0);
-                return Err(value_error(Error::WrongDimension { dimension, expected }));
+                let text = format!("starts have one start a row; these have the shape {shape:?}");
+                return Err(value_error(text));
             }
         }
         let kind = Arc::clone(&self.kind);

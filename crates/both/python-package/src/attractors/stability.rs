@@ -73,6 +73,7 @@ pub(crate) fn _stability(
     precision: Option<f64>,
     threads: Option<usize>,
 ) -> PyResult<BTreeMap<u16, StabilityRow>> {
+    attractors.check_dimension(sample.region.len())?;
     let starts = sample.points()?;
     let kind = Arc::clone(&attractors.kind);
     let found = attractors.with_labels(py, threads, move |map, label| {
@@ -104,6 +105,8 @@ pub(crate) fn _tipping(
     sample: Sample,
     threads: Option<usize>,
 ) -> PyResult<Vec<TippingRow>> {
+    before.check_dimension(sample.region.len())?;
+    after.check_dimension(sample.region.len())?;
     let (points, dimension) = (sample.points()?, sample.region.len());
     let labels = |of: &Attractors| {
         let (points, kind) = (points.clone(), Arc::clone(&of.kind));
