@@ -29,14 +29,14 @@ def state_of(given: ArrayLike) -> list[float]:
     return [float(number) for number in np.atleast_1d(numbers(given))]
 
 
-def whole(name: str, value: Any) -> int:
+def whole(name: str, value: Any, least: int = 0) -> int:
     """A count."""
     try:
         found = operator.index(value)
     except TypeError:
         raise TypeError(f"{name}= is a whole number, not {value!r}") from None
-    if not 0 <= found < _LARGEST:
-        raise InputError(f"{name}= is a whole number from 0 on, and below 2**63, not {value!r}")
+    if not least <= found < _LARGEST:
+        raise InputError(f"{name}= is a whole number from {least} on, not {value!r}")
     return found
 
 
@@ -47,8 +47,4 @@ def wholes(**counts: Any) -> Mapping[str, int]:
 
 def threads_of(threads: int | None) -> int | None:
     """A number of threads; None for all processors."""
-    if threads is None:
-        return None
-    if not whole("threads", threads):
-        raise InputError("threads= is a number from 1 on, not 0")
-    return int(threads)
+    return None if threads is None else whole("threads", threads, 1)
