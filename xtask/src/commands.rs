@@ -70,8 +70,8 @@ const TASKS: [Task; 10] = [
     ),
     task(
         "python-release",
-        Alone(python_release::run),
-        "Build the wheel and the source archive of the Python package, look at them, and test each installed: needs package indices",
+        WithArguments(python_release::run),
+        "Build the wheels and the source archive of the Python package, and look at them; with --check, test each installed: needs package indices",
     ),
     task(
         "check-certificates",

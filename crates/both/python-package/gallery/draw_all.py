@@ -59,7 +59,7 @@ def pages():
         )
     index = [
         "# Gallery\n",
-        "Each picture links to the script that made it, of at most 30 lines. `python crates/both/python-package/gallery/draw_all.py` draws all of them again.",
+        "Each picture links to its page with the script that made it, of at most 30 lines. `python crates/both/python-package/gallery/draw_all.py` draws all of them again.",
     ]
     for heading, names in SCRIPTS.items():
         index += [f"\n## {heading}\n", "| | |", "|---|---|"]

@@ -10,6 +10,13 @@ import_exception!(nonsmooth.errors, ComputationError);
 import_exception!(nonsmooth.errors, UndecidedError);
 import_exception!(nonsmooth.errors, TracingError);
 
+/// The reason of an integration that has taken all its steps.
+const NO_STEPS: &str = "no steps are left";
+
+/// What a user may do then.
+const STIFF: &str = "a million steps are the most of an arc: end the run before, or take a method for stiff systems, such as Radau or BDF of SciPy's \
+                     solve_ivp";
+
 /// The exception of an error of a hybrid system: UndecidedError where rounding hides what happens, ComputationError where a
 /// computation cannot go on, InputError for wrong input.
 pub(crate) fn of_hybrid(error: &HybridError) -> PyErr {
@@ -19,6 +26,9 @@ pub(crate) fn of_hybrid(error: &HybridError) -> PyErr {
 /// The same with another text.
 pub(crate) fn of_hybrid_with(error: &HybridError, text: String) -> PyErr {
     match error {
+        HybridError::Integration { reason: NO_STEPS, .. } => {
+            ComputationError::new_err(format!("{text}; {STIFF}"))
+        }
         HybridError::Grazing { .. }
         | HybridError::UndecidedStart { .. }
         | HybridError::UndecidedSign { .. } => UndecidedError::new_err(text),

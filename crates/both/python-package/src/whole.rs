@@ -22,6 +22,20 @@ pub(crate) fn whole<T: TryFrom<u64>>(object: &Bound<'_, PyAny>) -> PyResult<T> {
     }
 }
 
+/// A number of threads, at least one; `None` for all.
+///
+/// # Errors
+/// As [`whole`], and ValueError for none.
+pub(crate) fn threads_of(object: &Bound<'_, PyAny>) -> PyResult<Option<usize>> {
+    if object.is_none() {
+        return Ok(None);
+    }
+    match whole(object)? {
+        0 => Err(value_error("threads= is a number from 1 on, not 0")),
+        threads => Ok(Some(threads)),
+    }
+}
+
 /// Two whole numbers: a tuple, a list or an array.
 ///
 /// # Errors

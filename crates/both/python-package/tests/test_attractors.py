@@ -110,6 +110,9 @@ def test_a_fold_is_bracketed_along_the_parameter_by_each_matching():
         assert value[along.parameter > fold].max() == 0
         total = sum(own[0] for own in along.fractions.values())
         assert np.allclose(total, 1, atol=0.01)
+    told = []
+    ns.attractors_along(cubic, (0.0, 0.1), {"x": (-1.7, 1.7)}, steps=2, difference=0.9, points=20, progress=lambda *own: told.append(own))
+    assert told[-1][0] == told[-1][1] == 3
     data = along.to_xarray("c")
     assert data.fraction.dims == ("c", "basin") and data.fraction.attrs["units"] == "1"
 
@@ -172,6 +175,10 @@ def test_fractions_and_attractors_are_drawn(well):
     assert axes.get_xlabel() == "c" and len(axes.lines) == 2 + len(along.changes)
     basins = ns.basins_of(WELL, {"x": (-2, 2), "v": (-2, 2)}, (8, 8), step=1.0, attractors=well)
     assert len(ns.plots.plot_basins(basins, attractors=well).lines) == 2
+    # The window in the other order: dots stand at (v, x).
+    turned = ns.basins_of(WELL, {"v": (-2, 2), "x": (-2, 2)}, (8, 8), step=1.0, attractors=well)
+    for line in ns.plots.plot_basins(turned, attractors=well).lines:
+        assert abs(line.get_xdata()[0]) < 0.01 and abs(abs(line.get_ydata()[0]) - 1) < 0.01
 
 
 @pytest.mark.parametrize(

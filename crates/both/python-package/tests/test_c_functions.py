@@ -2,6 +2,7 @@
 
 import ctypes
 import gc
+import math
 import shutil
 import subprocess
 
@@ -78,8 +79,13 @@ def test_every_kind_of_object_is_taken(library):
         import numba
 
         own = numba.cfunc("void(float64, CPointer(float64), CPointer(float64), CPointer(float64))")
-        kinds.append(ns.c_function(own(lambda t, x, p, out: None)))
-        kinds.pop()
+
+        @own
+        def field(t, x, p, out):
+            out[0] = x[1]
+            out[1] = -x[0] - 0.1 * x[1] + math.cos(1.3 * t)
+
+        kinds.append(ns.c_function(field))
     except ImportError:
         pass
     for kind in kinds:
@@ -192,3 +198,21 @@ def test_an_error_of_a_field_of_c_has_the_run_up_to_it(tmp_path):
         system.run([1.0], time=2)
     fates = system.fates([[1.0], [0.1]], time=2)
     assert fates.reason[0].startswith("failed: ") and fates.reason[1] == "time limit"
+
+
+def test_a_reset_of_c_beside_functions_of_python(library):
+    system = oscillator(*FORMULAS[:2], library.bounce)
+    assert not system.compiled and "function of C" in system.why_not
+    expected = oscillator(*FORMULAS).run([0, 1], time=20)
+    assert np.allclose(system.run([0, 1], time=20).end, expected.end, atol=1e-8)
+
+
+def test_further_arguments_of_a_function_of_c_are_refused(library):
+    with pytest.raises(ns.InputError, match="parameters="):
+        ns.System(library.field, states="x v", args=(2.0,)).run([0, 1], 1)
+
+
+def test_counts_are_told_by_their_numbers(library):
+    system = oscillator(library.field, library.stop, library.bounce)
+    with pytest.raises(ValueError, match="-1"):
+        system.run([0, 1], 1, events=-1)

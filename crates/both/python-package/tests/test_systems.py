@@ -572,3 +572,85 @@ def test_steps_take_the_tolerances_of_the_system():
         well = ns.System(["v", "x - x^3 - 0.3*v + 0.2*cos(t)"], states="x v", **settings)
         # Without guards the steps are those of many states at a time; with one they are runs.
         assert well.steps(2.0)([0.3, 0.1]) == well.run([0.3, 0.1], 2.0).end.tolist(), settings
+
+
+def branching(t, x, p):
+    """A function without formulas."""
+    return [x[0] * x[0]] if x[0] < 1e9 else [x[0]]
+
+
+def test_a_batch_by_callbacks_has_a_row_for_each_start():
+    system = ns.System(branching, states="x", compiled=False)
+    # 1/(1 − t) ends at 1, beside one that does not.
+    fates = system.fates([[1.0], [0.1]], 2)
+    assert fates.reason[0].startswith("failed: ") and fates.reason[1] == "time limit"
+    assert fates.state.shape == (2, 1) and fates.state[1, 0] == pytest.approx(0.125)
+    for own in (system, ns.System(["-x"], states="x")):
+        with pytest.raises(ns.InputError, match="1 modes are given for 3 starts"):
+            own.fates([[1.0], [2.0], [3.0]], 1, mode=[own.modes[0]])
+
+
+def test_an_arithmetic_error_of_a_user_is_no_fate():
+    def field(t, x, p):
+        return [1 / 0] if x[0] > 0 else [0.0]
+
+    system = ns.System(field, states="x", compiled=False)
+    for call in (system.run, lambda start, time: system.fates([start], time)):
+        with pytest.raises(ZeroDivisionError):
+            call([1.0], 1)
+
+
+def test_attractors_of_a_system_with_modes_have_the_mode_as_a_coordinate():
+    room = ns.System(
+        {"on": lambda t, x, p: [30 - x[0]], "off": lambda t, x, p: [10 - x[0]]},
+        states="room",
+        guards=[
+            ns.Guard("warm", lambda t, x, p: x[0] - 21, "rising", modes=["on"], to="off"),
+            ns.Guard("cold", lambda t, x, p: x[0] - 19, "falling", modes=["off"], to="on"),
+        ],
+    )
+    found = ns.attractors_of(room, {"room": (15.0, 25.0)}, step=0.01, starts=[[18.0, 0], [22.0, 1]], locate=200, tests=20)
+    assert found.points and all(rows.shape[1] == 2 for rows in found.points.values())
+    for rows in found.points.values():
+        assert 18.9 < rows[:, 0].min() and rows[:, 0].max() < 21.1 and set(rows[:, 1]) <= {0.0, 1.0}
+    pytest.importorskip("xarray")
+    basins = ns.basins_of(room, {"room": (15, 25), "mode": (-0.4, 1.4)}, (6, 2), step=0.01, attractors=found)
+    assert basins.label.shape == (6, 2)
+    with pytest.raises(ns.InputError, match="mode"):
+        ns.basins_of(room, {"room": (15, 25), "nothing": (0, 1)}, (2, 2), step=0.01, attractors=found)
+
+
+def test_basins_of_steps_with_more_coordinates_than_the_window():
+    pytest.importorskip("xarray")
+    steps = ns.map_steps(["x/2", "y/2", "z/2"], states="x y z")
+    found = ns.basins_of(steps, {"x": (-1, 1), "y": (-1, 1)}, (3, 2), others={"z": 0.5}, region={"x": (-1, 1), "y": (-1, 1), "z": (-1, 1)}, starts=5, tests=5)
+    assert (found.label == 1).all()
+
+
+def test_components_with_the_names_of_other_columns_are_refused_in_tables():
+    run = ns.System(["-mode"], states="mode").run([1.0], 1)
+    with pytest.raises(ns.InputError, match="name it otherwise"):
+        run.to_pandas()
+    pytest.importorskip("xarray")
+    with pytest.raises(ns.InputError, match="'mode'"):
+        run.to_xarray()
+
+
+def test_tolerances_may_be_lists():
+    fine = ns.System(["v", "-x"], states="x v", tolerance=[1e-12, 1e-12])
+    assert np.array_equal(fine.run([1, 0], 3).end, ns.System(["v", "-x"], states="x v", tolerance=1e-12).run([1, 0], 3).end)
+    for wrong in ([1e-8], [1e-8, 0.0], [1e-8, -1.0]):
+        with pytest.raises(ns.InputError, match="tolerance="):
+            ns.System(["v", "-x"], states="x v", tolerance=wrong)
+
+
+def test_a_stiff_system_is_told_a_method():
+    stiff = ns.System(["v", "1e6*((1 - x^2)*v - x)"], states="x v", tolerance=1e-4)
+    with pytest.raises(ns.ComputationError, match="Radau or BDF"):
+        stiff.run([2, 0], 30)
+
+
+def test_a_long_step_lets_other_threads_run_and_ctrl_c_through(ctrl_c):
+    slow = ns.System(["v", "-x + 0.1*(1 - x^2)*v"], states="x v", tolerance=1e-14).steps(1e7)
+    with ctrl_c():
+        slow([1.0, 0.0])

@@ -107,3 +107,34 @@ impl StateMap for FlowSteps {
         32
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use equations::Names;
+
+    #[test]
+    fn tolerances_of_components_change_the_steps_and_wrong_ones_are_refused() {
+        let names = Names::new(&["x", "v"], &[]).unwrap();
+        let field = Formulas::from_text(names, &["v", "x - x^3 - v/10"]).unwrap();
+        let steps = || FlowSteps::new(&field, (0.0, 3.0), 1e-12).unwrap();
+        let image = |steps: &FlowSteps| {
+            let mut image = [0.0; 2];
+            assert!(steps.image(&[0.3, 0.1], &mut image));
+            image
+        };
+        let fine = image(&steps());
+        let same = steps().tolerances(vec![(1e-12, 1e-12); 2], f64::INFINITY).unwrap();
+        assert_eq!(image(&same), fine);
+        let coarse = steps().tolerances(vec![(1e-3, 1e-3); 2], f64::INFINITY).unwrap();
+        let error = (image(&coarse)[0] - fine[0]).abs();
+        assert!(0.0 < error && error < 1e-2, "{error}");
+        // Many at once have the same bits.
+        let (mut columns, mut has_image) = (vec![vec![0.3; 9], vec![0.1; 9]], [true; 9]);
+        coarse.images(&mut columns, &mut has_image);
+        assert!(has_image.iter().all(|has| *has) && columns[0][8] == image(&coarse)[0]);
+        assert!(steps().tolerances(vec![(1e-3, 1e-3)], f64::INFINITY).is_err());
+        assert!(steps().tolerances(vec![(0.0, 0.0); 2], f64::INFINITY).is_err());
+        assert!(steps().tolerances(vec![(1e-3, 1e-3); 2], 0.0).is_err());
+    }
+}

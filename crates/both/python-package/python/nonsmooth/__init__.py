@@ -15,14 +15,14 @@ import os as _os
 
 from . import _native, hybrid, labelling, plots
 from ._native import Equations, Event, Formulas, Steps, Zeno, __version__
-from .along import AttractorsAlong, attractors_along
+from .along import AttractorsAlong, Change, Unresolved, attractors_along
 from .basins import attractors_by_features, attractors_of, basins_of, known_attractors, map_steps
 from .boundaries import Boundary, EdgeTrack, FatalShock, boundary_between, minimal_fatal_shock, track_edge
 from .c_functions import c_function
 from .errors import ComputationError, InputError, NonsmoothError, TracingError, UndecidedError
-from .returns import Bifurcation, Branch, Diagram, PeriodicPoint, ReturnMap
+from .returns import Bifurcation, Branch, Diagram, Image, Linearized, PeriodicPoint, ReturnMap
 from .runs import Fates, Run
-from .stability import Stability, Tipping, stability_of, tipping
+from .stability import Shock, Stability, Tipping, stability_of, tipping
 from .surfaces import Clock, Guard
 from .systems import System
 from .tracing import Parameters
@@ -36,6 +36,7 @@ __all__ = [
     "Bifurcation",
     "Boundary",
     "Branch",
+    "Change",
     "Clock",
     "ComputationError",
     "Diagram",
@@ -46,18 +47,22 @@ __all__ = [
     "Fates",
     "Formulas",
     "Guard",
+    "Image",
     "InputError",
+    "Linearized",
     "NonsmoothError",
     "Parameters",
     "PeriodicPoint",
     "ReturnMap",
     "Run",
+    "Shock",
     "Stability",
     "Steps",
     "System",
     "Tipping",
     "TracingError",
     "UndecidedError",
+    "Unresolved",
     "Zeno",
     "attractors_along",
     "attractors_by_features",

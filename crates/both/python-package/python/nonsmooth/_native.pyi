@@ -560,6 +560,7 @@ class Attractors:
         tests: int = 200,
         escape: float | None = None,
         periodic: Sequence[int] = ...,
+        threads: int | None = None,
     ) -> Self: ...
     @staticmethod
     def of_points(
@@ -570,6 +571,7 @@ class Attractors:
         budget: int = 100_000,
         stretch: int = 1000,
         tests: int = 200,
+        threads: int | None = None,
     ) -> Attractors:
         """Attractors that are known by some of their points: fixed points, cycles, clouds of points. `points` has them by label, one a row.
 
@@ -597,6 +599,7 @@ class Attractors:
         budget: int = 30,
         fewest: int = 4,
         tests: int = 100,
+        threads: int | None = None,
     ) -> Attractors:
         """Attractors by features of their orbits. `features` makes some numbers of an array with the points of a stretch of an orbit, one a row, such as their mean.
         Orbits whose features are within `radius` of each other are of one attractor, if `agree` successive stretches are, and if orbits that start within `beside` of its states
@@ -991,7 +994,7 @@ class CSystem:
         threads: int | None,
         progress: Any,
     ) -> dict[str, Any]:
-        """How many runs end: a dictionary of lists and arrays."""
+        """How each of many runs ends: a dictionary of lists and arrays."""
 
 @final
 class CGuard:

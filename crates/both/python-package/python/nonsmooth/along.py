@@ -60,8 +60,10 @@ class AttractorsAlong:
 
     def to_xarray(self, name: str = "parameter") -> xarray.Dataset:
         """The fractions with the ends of their intervals, as a Dataset over the parameter and the label."""
-        import xarray
-
+        try:
+            import xarray
+        except ImportError as error:
+            raise ImportError("to_xarray needs xarray: pip install 'passive-hopper[xarray]'") from error
         labels = list(self.fractions)
         texts = {"fraction": "fraction of the basin", "lower": "lower end of the 95 % interval", "upper": "upper end of the 95 % interval"}
         columns = {

@@ -46,11 +46,13 @@ def attractors_of(
     parameters: Mapping[str, float] | None = None,
     starts: int | ArrayLike = 100,
     seed: int = 0,
+    threads: int | None = None,
     **limits: Any,
 ) -> Attractors:
     """The attractors of a system in a region, found by recurrences from random starts, and tested as traps.
 
-    ``region`` has for each component of the state its ends, as ``{"x": (-2, 2), "v": (-2, 2)}``. ``step`` is the time of a step of a :class:`System`: a period
+    ``region`` has for each component of the state its ends, as ``{"x": (-2, 2), "v": (-2, 2)}``. Of a system with several modes the number of the mode is the last
+    component, "mode", which the region need not name. ``step`` is the time of a step of a :class:`System`: a period
     of its forcing, if it has one; else shorter than its shortest cycle. Steps of a :class:`ReturnMap` are their own. ``starts`` is the number of random
     starts, or the starts, one a row. ``limits`` are those of :class:`labelling.Attractors`: ``cells``, ``recurrences``, ``locate``, ``budget``,
     ``tests``, ``escape``, ``lost``, ``periodic``.
@@ -62,8 +64,13 @@ def attractors_of(
     {1: 1, 2: 1}
     """
     steps = _steps(of, step, parameters)
-    if isinstance(of, System) and list(region) != of.states:
-        raise InputError(f"region has the ends of each component, in this order: {', '.join(of.states)}; not {list(region)}")
+    if isinstance(of, System):
+        wanted = _coordinates(of)
+        if "mode" in wanted[len(of.states) :]:
+            # Each mode is a whole number within.
+            region = {**region, "mode": region.get("mode", (-0.5, len(of.modes) - 0.5))}
+        if list(region) != wanted:
+            raise InputError(f"region has the ends of each component, in this order: {', '.join(wanted)}; not {list(region)}")
     sides = [(float(left), float(right)) for left, right in region.values()]
     if isinstance(starts, (int, np.integer)):
         low, high = np.array(sides).T
@@ -72,7 +79,7 @@ def attractors_of(
         rows = np.atleast_2d(numbers(starts))
         if not np.isfinite(rows).all():
             raise InputError("starts= has numbers that are not finite")
-    return Attractors(steps, region=sides, starts=rows.tolist(), **limits)
+    return Attractors(steps, region=sides, starts=rows.tolist(), threads=threads_of(threads), **limits)
 
 
 def known_attractors(
@@ -82,6 +89,7 @@ def known_attractors(
     *,
     step: float | tuple[float, float] | None = None,
     parameters: Mapping[str, float] | None = None,
+    threads: int | None = None,
     **limits: Any,
 ) -> Attractors:
     """The attractors of a system that are known by some of their points: ``points`` has them by label, one a row. An orbit has come to one as soon as it is
@@ -95,7 +103,7 @@ def known_attractors(
     [1, 2]
     """
     own = {_label(label): np.atleast_2d(numbers(rows)).tolist() for label, rows in points.items()}
-    return Attractors.of_points(_steps(of, step, parameters), own, distance, **limits)
+    return Attractors.of_points(_steps(of, step, parameters), own, distance, threads=threads_of(threads), **limits)
 
 
 def attractors_by_features(
@@ -107,6 +115,7 @@ def attractors_by_features(
     beside: float,
     step: float | tuple[float, float] | None = None,
     parameters: Mapping[str, float] | None = None,
+    threads: int | None = None,
     **limits: Any,
 ) -> Attractors:
     """The attractors of a system by features of orbits: ``features`` makes some numbers of an array with the points of a stretch of an orbit, one a row.
@@ -122,7 +131,7 @@ def attractors_by_features(
     {1: -1.0, 2: 1.0}
     """
     rows = np.atleast_2d(numbers(starts)).tolist()
-    return Attractors.of_features(_steps(of, step, parameters), features, rows, radius=radius, beside=beside, **limits)
+    return Attractors.of_features(_steps(of, step, parameters), features, rows, radius=radius, beside=beside, threads=threads_of(threads), **limits)
 
 
 def basins_of(
@@ -143,8 +152,9 @@ def basins_of(
 ) -> xarray.Dataset:
     """The basins in a window of the plane, as an ``xarray.Dataset`` with the label of each pixel's middle.
 
-    ``of`` is a :class:`System`, which is followed in steps of the time ``step``; or Steps of a return map; or any labelling: a function of two arrays that
-    returns labels. ``window`` names two components of the state with their ends, ``others`` has the values of all other ones. The attractors are those
+    ``of`` is a :class:`System`, which is followed in steps of the time ``step``; or Steps of a return map or a map; or any labelling: a function of two arrays that
+    returns labels. ``window`` names two components of the state with their ends, ``others`` has the values of all other ones, of a
+    system with several modes also the number of the "mode". The attractors are those
     given, or are searched by :func:`attractors_of` in ``region``, by default the window, with the settings ``search``.
 
     The Dataset of a system also has the steps until each start is at its attractor. Codes of labels are those of :mod:`nonsmooth.labelling`. With ``client``, a
@@ -163,8 +173,11 @@ def basins_of(
         if client is not None:
             raise InputError("the workers of a client compute the basins of a System or of Steps, not those of a labelling")
         return labelling.basins_of(of, window, shape, names, progress)
+    labelling.check_window(window, names)
+    threads = threads_of(threads)
     steps = _steps(of, step, parameters)
-    known = of.states if isinstance(of, System) else list(window)
+    # The components of a state: those of Steps have no names, and come in the order of the region, or of the window and the others.
+    known = _coordinates(of) if isinstance(of, System) else list(region) if region is not None else [*window, *(others or {})]
     if not set(window) <= set(known):
         raise InputError(f"the window names {list(window)}; the components of the state are: {', '.join(known)}")
     unknown = [name for name in others or {} if name not in known or name in window]
@@ -176,23 +189,26 @@ def basins_of(
         raise InputError(f"others= needs a value of each component that is not in the window: {', '.join(missing)}")
     if attractors is None:
         whole = dict(window) if region is None else dict(region)
+        if isinstance(of, System) and known != of.states:
+            whole.setdefault("mode", (-0.5, len(of.modes) - 0.5))
         absent = [name for name in known if name not in whole]
         if absent:
             raise InputError(f"region= needs the ends of each component; there are none of: {', '.join(absent)}")
-        attractors = attractors_of(steps, {name: whole[name] for name in known}, **search)
+        attractors = attractors_of(steps, {name: whole[name] for name in known}, threads=threads, **search)
     elif search:
         raise TypeError(f"attractors= are given, so that there is no search with {', '.join(search)}")
-    labelling.check_window(window, names)
     start = Starts(known, list(window), {name: float(value) for name, value in (others or {}).items()})
     xs, ys = labelling.pixels(window, shape)
     parts = [(attractors, start, xs[begin:end], ys) for begin, end in labelling.strips(len(xs), len(ys), _LEAST_STRIPS)]
     told = function_of(progress)
     found = []
-    for part in _computed(parts, threads_of(threads), client):
+    for part in _computed(parts, threads, client):
         found.append(part)
         if told is not None:
             told(sum(len(labels) for labels, _ in found), len(xs))
     dataset = labelling.dataset_of(np.concatenate([labels for labels, _ in found]), window, names)
+    # Where the window is in a state, for pictures with attractors.
+    dataset.attrs["components"] = [known.index(name) for name in window]
     if attractors.kind == "features":
         return dataset
     about = {"long_name": "steps until the start is at its attractor", "units": "1"}
@@ -245,6 +261,11 @@ def _computed(parts: Sequence[Any], threads: int | None, client: Any) -> Iterato
             yield future.result()
     finally:
         client.cancel(futures)
+
+
+def _coordinates(system: System) -> list[str]:
+    """The coordinates of the steps of a system: its components, and the number of the mode, if it has several."""
+    return [*system.states, "mode"] if len(system.modes) > 1 else system.states
 
 
 def _label(label: Any) -> int:

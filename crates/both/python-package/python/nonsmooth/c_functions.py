@@ -34,7 +34,7 @@ def c_function(function: Any, signature: str | None = None) -> CFunction:
     if told is None:
         raise TypeError(f"an address does not tell what is there: give signature={SIGNATURE!r}")
     if _plain(told) not in (_plain(SIGNATURE), _plain(_NUMBA)):
-        raise TypeError(f"the function has the signature {told!r}, and {SIGNATURE!r} is needed")
+        raise TypeError(f"the function has the signature {told!r}, and {SIGNATURE!r} is needed; one of ctypes tells it by restype and argtypes")
     return CFunction(address, function)
 
 

@@ -10,7 +10,7 @@ from . import _native
 from ._native import CFunction, Event
 from ._progress import function_of
 from .c_functions import c_function, is_c_function
-from .errors import InputError
+from .errors import ComputationError, InputError
 from .model_functions import Functions
 from .surfaces import Clock, Guard
 from .tracing import Parameters
@@ -25,7 +25,7 @@ class Callbacks:
     def __init__(
         self, functions: Functions, states: list[str], tolerances: dict[str, Any], why_not: str | None
     ) -> None:
-        if "absolute_each" in tolerances or tolerances["absolute"] != tolerances["relative"]:
+        if "absolute_each" in tolerances or "relative_each" in tolerances or tolerances["absolute"] != tolerances["relative"]:
             raise InputError("tolerances for each component, and another absolute one, need formulas")
         for guard in functions.guards:
             if isinstance(guard, Guard) and guard.only_where is not None:
@@ -36,7 +36,7 @@ class Callbacks:
             *((f"the reset of {guard.name!r}", guard.reset) for guard in functions.guards if guard.reset is not None),
         ]:
             if not callable(given) and not is_c_function(given):
-                raise TypeError(f"{what} is no function, and there are no formulas ({why_not}): give functions for all")
+                raise TypeError(f"{what} is no function, and there are no formulas ({why_not}): give functions of Python or C for all")
             if is_c_function(given):
                 # Another signature is an error here, not in a run.
                 c_function(given)
@@ -76,8 +76,9 @@ class Callbacks:
         for k, (mode, start, own) in enumerate(starts):
             try:
                 ends.append(self.run(mode, start, times, events, own).fate())
-            except ArithmeticError as error:
-                ends.append((f"failed: {error}", "", "", np.nan, 0, np.full(len(self.states), np.nan)))
+            except ComputationError as error:
+                # It has not moved: the state is its start, with the time behind it.
+                ends.append((f"failed: {error}", "", mode, times[0], 0, np.append(start, times[0])))
             if told is not None:
                 told(k + 1, len(starts))
         return [list(column) for column in zip(*ends)] if ends else [[]] * 6
@@ -197,7 +198,7 @@ class CallbackSolution:
 
         An exception of a function of the user passes through; a run that cannot go on has failed.
         """
-        if self.error is not None and not isinstance(self.error, ArithmeticError):
+        if self.error is not None and not isinstance(self.error, ComputationError):
             raise self.error
         reason = self.stop if self.error is None else f"failed: {self.error}"
         surface = self.events[-1].surface if self.stop == "terminal" else ""

@@ -37,13 +37,17 @@ class Functions:
         """The function f(t, x, p) of a function with further arguments."""
         args = self.args
         if is_c_function(given):
+            if args:
+                raise InputError("args= are further arguments of functions of Python: a function of C has its numbers in parameters=")
             return c_function(given)
         if not args or not callable(given):
             return given
         return lambda t, x, p: given(t, x, *args) if not len(p) else given(t, x, p, *args)
 
     def equations(self, model: Model, tolerances: dict[str, Any]) -> Equations:
-        given = [*self.fields.values(), *(guard.function for guard in self.guards if isinstance(guard, Guard))]
+        guards = [guard for guard in self.guards if isinstance(guard, Guard)]
+        given = [*self.fields.values(), *(guard.function for guard in guards), *(guard.only_where for guard in guards)]
+        given += [*(surface.reset for surface in self.guards), *(reset for _, reset in self.rests.values())]
         if any(is_c_function(own) for own in given):
             raise TracingError("a function of C is called, and has no formulas")
 

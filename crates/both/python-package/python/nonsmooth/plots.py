@@ -32,10 +32,10 @@ def _axes(ax: Axes | None) -> Axes:
 
 
 def plot_basins(
-    dataset: xarray.Dataset, ax: Axes | None = None, *, attractors: Attractors | None = None, coordinates: tuple[int, int] = (0, 1)
+    dataset: xarray.Dataset, ax: Axes | None = None, *, attractors: Attractors | None = None, coordinates: tuple[int, int] | None = None
 ) -> Axes:
     """The labels of a Dataset of :func:`basins_of`, with a legend. Undecided pixels are white, those of orbits that escape grey. Points of ``attractors`` are
-    dots, at the two ``coordinates`` of a state that the window has."""
+    dots, at the two ``coordinates`` of a state that the window has: by default those that the Dataset names."""
     axes = _axes(ax)
     from matplotlib.colors import to_rgb
     from matplotlib.patches import Patch
@@ -61,7 +61,7 @@ def plot_basins(
         for code in codes
     ]
     for label, points in (attractors.points if attractors is not None else {}).items():
-        dots = points[:, list(coordinates)]
+        dots = points[:, list(coordinates if coordinates is not None else dataset.attrs.get("components", (0, 1)))]
         axes.plot(*dots.T, "o", markersize=4, markerfacecolor=colours.get(label, "white"), markeredgecolor="black", markeredgewidth=0.8)
     axes.legend(handles=entries, loc="upper left", bbox_to_anchor=(1.02, 1.0), frameon=False)
     axes.set(xlabel=str(first), ylabel=str(second), xlim=extent[:2], ylim=extent[2:])

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
+from ._arguments import numbers
 from .errors import InputError
 
 if TYPE_CHECKING:
@@ -235,7 +236,7 @@ def _names(ends: Sequence[str]) -> list[str]:
 
 
 def _vector(point: ArrayLike) -> Any:
-    return np.atleast_1d(np.asarray(point, dtype=float))
+    return np.atleast_1d(numbers(point))
 
 
 def _point(found: dict[str, Any]) -> dict[str, Any]:

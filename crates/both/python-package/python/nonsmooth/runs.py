@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from ._conventions import about, complete
+from .errors import InputError
 
 if TYPE_CHECKING:
     import pandas
@@ -121,6 +122,7 @@ class Run:
             import pandas
         except ImportError as error:
             raise ImportError("to_pandas needs pandas: pip install pandas") from error
+        self._check_names("t", "mode", "jump")
         rows = self.trajectory
         table = pandas.DataFrame(rows["states"], columns=self.names)
         table.insert(0, "t", rows["times"])
@@ -135,6 +137,7 @@ class Run:
             import xarray
         except ImportError as error:
             raise ImportError("to_xarray needs xarray: pip install 'passive-hopper[xarray]'") from error
+        self._check_names("t", "row", "mode", "jump", "event_time", "event_surface")
         rows = self.trajectory
         on, along = (slice(None), "row") if self._asked is None else (rows["on_grid"], "t")
         columns = {
@@ -147,6 +150,12 @@ class Run:
         data = {name: (axis, values, {"long_name": text}) for name, (axis, values, text) in columns.items()}
         times = (along, rows["times"][on], {"long_name": "time"})
         return complete(xarray.Dataset(data, {"t": times}, {**about("a run of a hybrid system"), "reason": self.reason}))
+
+    def _check_names(self, *columns: str) -> None:
+        """A component with the name of another column would be lost."""
+        for name in self.names:
+            if name in columns:
+                raise InputError(f"the component {name!r} has the name of another column of the table: name it otherwise; taken are {', '.join(columns)}")
 
     def __repr__(self) -> str:
         begin, end = self._solution.times
@@ -164,7 +173,7 @@ def _of_dimension(event: Event, dimension: int) -> Event:
 
 @dataclass(frozen=True)
 class Fates:
-    """How many runs ended, in arrays with one entry for each run."""
+    """How each of many runs ended, in arrays with one entry for each run."""
 
     #: Why each run ended, as :attr:`Run.reason`; "failed: …" with the error for one that failed.
     reason: NDArray[np.str_]

@@ -88,7 +88,7 @@ def stability_of(
     >>> 0.5 in stable[1].fraction, round(stable[1].fatal.size, 5)
     (True, 1.0)
     """
-    sample = {"region": _sides(region), "count": whole("starts", starts), "seed": whole("seed", seed)}
+    sample = {"region": _sides(region), "count": whole("starts", starts, 1), "seed": whole("seed", seed)}
     found = _native._stability(attractors, sample, precision, threads_of(threads))
     return {label: _stability(row) for label, row in found.items()}
 
@@ -102,7 +102,7 @@ def tipping(
     seed: int = 1,
     threads: int | None = None,
 ) -> list[Tipping]:
-    """Where states go when a parameter changes at once: for each pair of basins the probability that a state of the one before is in the one after, by the same random points
+    """Where states go when a parameter changes at once. Labels are those of each set by itself: of two searches the same attractor may have two labels. For each pair of basins the probability that a state of the one before is in the one after, by the same random points
     of a region.
 
     >>> import nonsmooth as ns
@@ -112,7 +112,7 @@ def tipping(
     >>> [(own.before, own.after) for own in ns.tipping(at(0), at(0.1), {"x": (-1, 1)}) if own.probability.value > 0]
     [(1, 1), (1, 2), (2, 2)]
     """
-    sample = {"region": _sides(region), "count": whole("points", points), "seed": whole("seed", seed)}
+    sample = {"region": _sides(region), "count": whole("points", points, 1), "seed": whole("seed", seed)}
     return [Tipping(*row) for row in _native._tipping(before, after, sample, threads_of(threads))]
 
 

@@ -37,7 +37,7 @@ class System:
     Texts and SymPy's expressions are formulas, too.
 
     ``states`` are the names of the components of the state, ``parameters`` the values of the parameters by name, ``guards`` surfaces
-    (:class:`Guard`) and preset times (:class:`Clock`). ``args`` are further arguments of all functions, as in SciPy. ``rests`` has for a mode where
+    (:class:`Guard`) and preset times (:class:`Clock`). ``args`` are further arguments of all functions, as in SciPy: behind x, or behind p if there are parameters. ``rests`` has for a mode where
     the run goes on after infinitely many events in finite time (Zeno): the next mode, or a pair of it and the reset.
     ``tolerance`` is the relative and absolute error of a step, ``absolute`` another absolute one: a number, or one for each component.
 
@@ -63,7 +63,7 @@ class System:
         guards: Sequence[Guard | Clock] = (),
         args: tuple[Any, ...] = (),
         rests: Mapping[str, str | tuple[str, FunctionOrFormulas]] | None = None,
-        tolerance: float = 1e-10,
+        tolerance: float | Sequence[float] = 1e-10,
         absolute: float | Sequence[float] | None = None,
         longest_step: float = float("inf"),
         compiled: bool | None = None,
@@ -159,7 +159,7 @@ class System:
         threads: int | None = None,
         progress: Callable[[int, int], Any] | bool | None = None,
     ) -> Fates:
-        """How the runs of many starts end: in parallel, with the same bits for any number of threads.
+        """How the run of each of many starts ends: in parallel, with the same bits for any number of threads.
 
         ``starts`` has one start a row. ``parameters`` may have an array for a parameter: one value for each start; one start is repeated for all of
         them. ``progress`` is a function of (done, all), or True for a bar of tqdm.
@@ -179,6 +179,8 @@ class System:
             raise InputError(f"a start has {len(self.states)} components ({', '.join(self.states)}), not {rows.shape[1]}")
         modes = [mode] * shape[0] if mode is None or isinstance(mode, str) else list(mode)
         modes = [self._first_mode(own) for own in modes]
+        if len(modes) != shape[0]:
+            raise InputError(f"{len(modes)} modes are given for {shape[0]} starts")
         values = [list(row) for row in zip(*(np.broadcast_to(value, shape).tolist() for value in changed.values()))]
         if self._callbacks is not None:
             given = [dict(zip(changed, own)) for own in values] if changed else [{}] * len(rows)
@@ -276,15 +278,19 @@ def _span(time: float | tuple[float, float]) -> tuple[float, float]:
     return float(ends[0]), float(ends[1])
 
 
-def _tolerances(tolerance: float, absolute: Any, longest_step: float, dimension: int) -> dict[str, Any]:
-    found: dict[str, Any] = {"relative": float(tolerance), "absolute": float(tolerance), "longest_step": float(longest_step)}
-    if np.ndim(absolute) == 1:
-        each = [float(part) for part in absolute]
-        if len(each) != dimension:
-            raise InputError(f"absolute= has {len(each)} tolerances for {dimension} components")
-        found["absolute_each"] = each
-    elif absolute is not None:
-        found["absolute"] = float(absolute)
+def _tolerances(tolerance: Any, absolute: Any, longest_step: float, dimension: int) -> dict[str, Any]:
+    found: dict[str, Any] = {"longest_step": float(longest_step)}
+    absolute = tolerance if absolute is None else absolute
+    for argument, name, given in (("tolerance", "relative", tolerance), ("absolute", "absolute", absolute)):
+        each = [float(part) for part in np.ravel(numbers(given))]
+        if np.ndim(given) == 1:
+            if len(each) != dimension:
+                raise InputError(f"{argument}= has {len(each)} tolerances for {dimension} components")
+            if not all(part > 0.0 for part in each):
+                raise InputError(f"{argument}= must be positive for each component, not {each}")
+            found[f"{name}_each"] = each
+        # Of a list the smallest one chooses the order of the steps.
+        found[name] = min(each)
     for name in ("relative", "absolute"):
         if not 0.0 < found[name] <= 0.1:
             raise InputError(f"the {name} tolerance must be positive and at most 0.1, not {found[name]!r}")

@@ -203,7 +203,13 @@ pub(crate) fn _attractors_along<'py>(
     if let Some(error) = family.raised() {
         return Err(error);
     }
-    as_dictionary(py, &found.map_err(value_error)?)
+    let found = found.map_err(value_error)?;
+    if let Some(progress) = &progress {
+        // So many parameters were enough.
+        let done = found.found.len();
+        progress.call1((done, done)).map_err(|error| of_callback(py, "progress", error))?;
+    }
+    as_dictionary(py, &found)
 }
 
 /// All that was found, as lists and arrays.

@@ -1,4 +1,4 @@
-//! Which attractors has any map, and what do their basins stand?
+//! Which attractors has any map, and which disturbances do they withstand?
 //!
 //! `state_map` is the map of a user. `search` has the class of attractors, which are found or given in the ways of `kinds`. `boundaries` has points
 //! between basins, edge states and fatal shocks, `stability` what random starts show, `along` the attractors along a parameter. Their results are tuples:

@@ -7,7 +7,7 @@ use crate::errors::value_error;
 use crate::formulas::Steps;
 use crate::labelling::region_of;
 use crate::pickling::{Reduced, refused};
-use crate::whole::whole;
+use crate::whole::{threads_of, whole};
 use basin_of_attraction::{
     Error, FeatureAttractors, FeatureLimits, KnownAttractors, KnownLimits, Label, RecurrenceLimits,
     StateGrid, StateMap,
@@ -61,8 +61,8 @@ pub(crate) struct Attractors {
 impl Attractors {
     #[new]
     #[pyo3(signature = (map, *, region, starts, cells = 100, recurrences = 100, locate = 1000, budget = 100_000, lost = 1000, tests = 200,
-                        escape = None, periodic = Vec::new()),
-           text_signature = "(map, *, region, starts, cells=100, recurrences=100, locate=1000, budget=100000, lost=1000, tests=200, escape=None, periodic=())")]
+                        escape = None, periodic = Vec::new(), threads = None),
+           text_signature = "(map, *, region, starts, cells=100, recurrences=100, locate=1000, budget=100000, lost=1000, tests=200, escape=None, periodic=(), threads=None)")]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn new(
         py: Python<'_>,
@@ -77,6 +77,7 @@ impl Attractors {
         #[pyo3(from_py_with = whole)] tests: usize,
         escape: Option<f64>,
         periodic: Vec<usize>,
+        #[pyo3(from_py_with = threads_of)] threads: Option<usize>,
     ) -> PyResult<Self> {
         let settings = settings!(
             py,
@@ -97,7 +98,7 @@ impl Attractors {
         let search = move |map: &dyn StateMap| {
             basin_of_attraction::Attractors::search(map, grid, &starts, limits)
         };
-        let found = on_map(py, &map, None, search)?.map_err(value_error)?;
+        let found = on_map(py, &map, threads, search)?.map_err(value_error)?;
         let kind = Arc::new(Kind::Recurrences(found));
         Ok(Attractors { map, dimension, kind, made_by: ("", settings) })
     }
@@ -114,8 +115,9 @@ impl Attractors {
     /// >>> known.labels([[0.3], [-0.2], [0.0]]).tolist()
     /// [1, 2, 65535]
     #[staticmethod]
-    #[pyo3(signature = (map, points, distance = None, *, budget = 100_000, stretch = 1000, tests = 200),
-           text_signature = "(map, points, distance=None, *, budget=100000, stretch=1000, tests=200)")]
+    #[pyo3(signature = (map, points, distance = None, *, budget = 100_000, stretch = 1000, tests = 200, threads = None),
+           text_signature = "(map, points, distance=None, *, budget=100000, stretch=1000, tests=200, threads=None)")]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn of_points(
         py: Python<'_>,
         map: Py<PyAny>,
@@ -124,6 +126,7 @@ impl Attractors {
         #[pyo3(from_py_with = whole)] budget: usize,
         #[pyo3(from_py_with = whole)] stretch: usize,
         #[pyo3(from_py_with = whole)] tests: usize,
+        #[pyo3(from_py_with = threads_of)] threads: Option<usize>,
     ) -> PyResult<Self> {
         let settings = settings!(py, points, distance, budget, stretch, tests);
         let limits = KnownLimits { budget, stretch, tests };
@@ -134,7 +137,7 @@ impl Attractors {
             Some(distance) => KnownAttractors::new(map, &own, distance, limits),
             None => KnownAttractors::suggested(map, &own, limits),
         };
-        let known = on_map(py, &map, None, test)?.map_err(value_error)?;
+        let known = on_map(py, &map, threads, test)?.map_err(value_error)?;
         let kind = Arc::new(Kind::Points(points, known));
         Ok(Attractors { map, dimension, kind, made_by: ("of_points", settings) })
     }
@@ -153,7 +156,7 @@ impl Attractors {
     /// >>> found.labels([[0.3], [-0.2]]).tolist()
     /// [2, 1]
     #[staticmethod]
-    #[pyo3(signature = (map, features, starts, *, radius, beside, transient = 1000, stretch = 1000, agree = 3, budget = 30, fewest = 4, tests = 100))]
+    #[pyo3(signature = (map, features, starts, *, radius, beside, transient = 1000, stretch = 1000, agree = 3, budget = 30, fewest = 4, tests = 100, threads = None))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn of_features(
         py: Python<'_>,
@@ -168,6 +171,7 @@ impl Attractors {
         #[pyo3(from_py_with = whole)] budget: usize,
         #[pyo3(from_py_with = whole)] fewest: usize,
         #[pyo3(from_py_with = whole)] tests: usize,
+        #[pyo3(from_py_with = threads_of)] threads: Option<usize>,
     ) -> PyResult<Self> {
         let settings = settings!(
             py, features, starts, radius, beside, transient, stretch, agree, budget, fewest, tests
@@ -181,7 +185,7 @@ impl Attractors {
             let found = FeatureAttractors::search(map, &of, &starts, limits);
             (found, feature)
         };
-        let (found, feature) = on_map(py, &map, None, search)?;
+        let (found, feature) = on_map(py, &map, threads, search)?;
         let found = feature.unless_raised(found)?.map_err(value_error)?;
         let kind = Arc::new(Kind::Features(found, feature));
         Ok(Attractors { map, dimension, kind, made_by: ("of_features", settings) })
@@ -257,7 +261,7 @@ impl Attractors {
         &self,
         py: Python<'py>,
         starts: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        #[pyo3(from_py_with = threads_of)] threads: Option<usize>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (labels, _) = self.all_convergences(py, starts, threads)?;
         codes(py, &labels)
@@ -269,7 +273,7 @@ impl Attractors {
         &self,
         py: Python<'py>,
         starts: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        #[pyo3(from_py_with = threads_of)] threads: Option<usize>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         if matches!(&*self.kind, Kind::Features(..)) {
             return Err(no_steps());

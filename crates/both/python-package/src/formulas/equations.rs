@@ -37,8 +37,8 @@ fn kept(values: Vec<f64>) -> &'static [f64] {
 }
 
 /// Lists of tolerances of the components, with one for the time if it is the last component of the state: any one, as the time is exact.
-fn with_time(mut tolerances: Tolerances, dimension: usize) -> Tolerances {
-    let longer = |list: &'static [f64]| match list.len() + 1 == dimension {
+fn with_time(mut tolerances: Tolerances, names: usize, dimension: usize) -> Tolerances {
+    let longer = |list: &'static [f64]| match list.len() == names && dimension > names {
         true => kept([list, &[list.iter().copied().fold(0.0, f64::max)]].concat()),
         false => list,
     };
@@ -50,7 +50,7 @@ fn with_time(mut tolerances: Tolerances, dimension: usize) -> Tolerances {
 impl Equations {
     fn of(equations: &hybrid_system::Equations, tolerances: Tolerances) -> PyResult<Self> {
         let model = equations.model::<DVector<f64>>().map_err(|error| of_hybrid(&error))?;
-        let tolerances = with_time(tolerances, model.dimension());
+        let tolerances = with_time(tolerances, equations.names().states.len(), model.dimension());
         Ok(Equations { model: Arc::new(model.tolerances(tolerances)), tolerances })
     }
 

@@ -4,6 +4,7 @@ use super::equations::{Equations, Model};
 use super::returns::ReturnMap;
 use super::trace::Formulas;
 use crate::errors::{InputError, of_hybrid, value_error};
+use crate::interruptible::{Watch, in_background};
 use crate::pickling::Reduced;
 use basin_of_attraction::{Label, StateMap};
 use hybrid_system::Label as Name;
@@ -186,14 +187,18 @@ impl Steps {
         self.map.dimension().unwrap_or(0)
     }
 
-    /// The image of a state; None where it has none.
-    fn __call__(&self, state: Vec<f64>) -> PyResult<Option<Vec<f64>>> {
+    /// The image of a state; None where it has none. No Python runs meanwhile, and Ctrl-C ends it.
+    fn __call__(&self, py: Python<'_>, state: Vec<f64>) -> PyResult<Option<Vec<f64>>> {
         if self.map.dimension().is_some_and(|dimension| dimension != state.len()) {
             let text = format!("a state has {} coordinates, not {}", self.dimension(), state.len());
             return Err(InputError::new_err(text));
         }
-        let mut image = vec![0.0; state.len()];
-        Ok(self.map.image(&state, &mut image).then_some(image))
+        let map = Arc::clone(&self.map);
+        let work = move |_: &Watch| {
+            let mut image = vec![0.0; state.len()];
+            Ok::<_, String>(map.image(&state, &mut image).then_some(image))
+        };
+        in_background(py, work, value_error, |_| Ok(()))
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {

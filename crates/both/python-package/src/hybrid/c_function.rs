@@ -9,7 +9,21 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 /// void f(double t, const double *x, const double *p, double *out)
-pub(super) type Function = unsafe extern "C" fn(f64, *const f64, *const f64, *mut f64);
+type Function = unsafe extern "C" fn(f64, *const f64, *const f64, *mut f64);
+
+/// The function of a [`CFunction`], which whoever has it keeps: it alone makes them.
+#[derive(Clone, Copy)]
+pub(super) struct Pointer(Function);
+
+impl Pointer {
+    /// The results at a time and a state.
+    pub(super) fn write(self, time: f64, state: &[f64], parameters: &[f64], results: &mut [f64]) {
+        // Safety: the contract of `CFunction`. The slices live during the call.
+        unsafe {
+            (self.0)(time, state.as_ptr(), parameters.as_ptr(), results.as_mut_ptr());
+        }
+    }
+}
 
 /// A function of C with the signature `void (double, double *, double *, double *)`: of the time, the components of the state, the parameters, and the
 /// results that it writes.
@@ -20,29 +34,19 @@ pub(super) type Function = unsafe extern "C" fn(f64, *const f64, *const f64, *mu
 /// front checks the signature where the object tells it, and demands it of a bare address.
 #[pyclass(frozen, module = "nonsmooth._native")]
 pub(crate) struct CFunction {
-    pub(super) function: Function,
+    pointer: Pointer,
     /// What keeps the function alive: it is not called after this is gone.
     owner: Py<PyAny>,
 }
 
 impl CFunction {
-    /// The results at a time and a state, of the function of a `CFunction` that the caller keeps.
-    pub(super) fn call(
-        function: Function,
-        time: f64,
-        state: &[f64],
-        parameters: &[f64],
-        results: &mut [f64],
-    ) {
-        // Safety: the contract of this class, which alone makes functions of addresses. The slices live during the call, and the caller keeps the
-        // `CFunction` with its owner.
-        unsafe {
-            function(time, state.as_ptr(), parameters.as_ptr(), results.as_mut_ptr());
-        }
+    /// The function. The caller keeps this object as long as it has it.
+    pub(super) fn pointer(&self) -> Pointer {
+        self.pointer
     }
 
     fn write(&self, time: f64, state: &[f64], parameters: &[f64], results: &mut [f64]) {
-        CFunction::call(self.function, time, state, parameters, results);
+        self.pointer.write(time, state, parameters, results);
     }
 }
 
@@ -55,7 +59,7 @@ impl CFunction {
         }
         // Safety: the contract of this class.
         let function = unsafe { std::mem::transmute::<usize, Function>(address) };
-        Ok(CFunction { function, owner })
+        Ok(CFunction { pointer: Pointer(function), owner })
     }
 
     /// The results at a time and a state.

@@ -1,7 +1,7 @@
 //! A system whose functions are all of C: it runs without the interpreter, and many of its runs on all processors.
 
 use super::arcs::HybridArc;
-use super::c_function::{CFunction, Function};
+use super::c_function::{CFunction, Pointer};
 use super::guards::Times;
 use super::model::{Model, Watched};
 use super::names::{ExecutionMode, ExecutionSurface, Mode, Surface};
@@ -11,6 +11,7 @@ use super::vectors::State;
 use crate::arrays::shaped;
 use crate::errors::value_error;
 use crate::interruptible::{Watch, in_background, progress_function, with_threads};
+use crate::whole::whole;
 use hybrid_system::{
     End, Error, Execution, FateOf, Filippov, FilippovMode, Guard, Limits, NextEvent, Reset, Search,
     StateVector, Tolerances, integrated_crossing, integrated_states, many,
@@ -22,26 +23,26 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// What follows an event.
-enum After {
+enum Next {
     Nothing,
     End,
-    Jump { reset: Option<Function>, mode: Option<Mode> },
+    Jump { reset: Option<Pointer>, mode: Option<Mode> },
 }
 
 /// The functions of a system, and what keeps them alive.
-struct Functions {
+struct Parts {
     model: Arc<Model>,
     /// By the numbers of the modes.
-    fields: Vec<Function>,
+    fields: Vec<Pointer>,
     /// The value of each guard, and what follows its event. A clock has no value.
-    surfaces: Vec<(Option<Function>, After)>,
+    surfaces: Vec<(Option<Pointer>, Next)>,
     _owners: Vec<Py<CFunction>>,
 }
 
 /// A system whose functions are all of C. The last component of a state is the time.
 #[pyclass(frozen, module = "nonsmooth._native")]
 pub(crate) struct CSystem {
-    functions: Arc<Functions>,
+    functions: Arc<Parts>,
 }
 
 /// A guard or a clock: its value, its reset, the next mode, whether its event ends the run, and whether it only observes.
@@ -51,7 +52,7 @@ type GivenSurface<'py> =
 /// A run: a mode, a start whose last component is the time, and all parameters.
 type GivenRun<'py> = (Bound<'py, PyAny>, Vec<f64>, Vec<f64>);
 
-/// Where a run began to end: its arcs, why it stopped, when, and its error.
+/// What a run gives: its arcs, why it stopped, when, and its error.
 type Arcs = (
     Vec<hybrid_system::Arc<ExecutionMode, ExecutionSurface, State>>,
     Option<hybrid_system::Stop>,
@@ -59,7 +60,7 @@ type Arcs = (
     Option<Error>,
 );
 
-/// The same for Python.
+/// The same as objects of Python.
 type Ran = (Vec<HybridArc>, Option<&'static str>, f64, Option<Py<PyAny>>);
 
 #[pymethods]
@@ -74,7 +75,7 @@ impl CSystem {
         let model = Arc::clone(system.model());
         let mut owners = Vec::new();
         let mut kept = |own: Py<CFunction>| {
-            let function = own.get().function;
+            let function = own.get().pointer();
             owners.push(own);
             function
         };
@@ -87,16 +88,14 @@ impl CSystem {
         for (value, reset, to, ends, observes) in surfaces {
             let mode = to.map(|to| model.modes.number(&to)).transpose()?;
             let after = match (ends, observes) {
-                (true, _) => After::End,
-                (_, true) => After::Nothing,
-                _ => After::Jump { reset: reset.map(&mut kept), mode },
+                (true, _) => Next::End,
+                (_, true) => Next::Nothing,
+                _ => Next::Jump { reset: reset.map(&mut kept), mode },
             };
             own.push((value.map(&mut kept), after));
         }
         let fields = by_mode.into_iter().map(|(_, field)| field).collect();
-        Ok(CSystem {
-            functions: Arc::new(Functions { model, fields, surfaces: own, _owners: owners }),
-        })
+        Ok(CSystem { functions: Arc::new(Parts { model, fields, surfaces: own, _owners: owners }) })
     }
 
     /// The arcs of a run between two times, why and when it ended, and its exception if it failed.
@@ -105,7 +104,7 @@ impl CSystem {
         py: Python<'_>,
         run: GivenRun<'_>,
         times: (f64, f64),
-        events: usize,
+        #[pyo3(from_py_with = whole)] events: usize,
     ) -> PyResult<Ran> {
         let (mode, start, parameters) = run;
         let functions = Arc::clone(&self.functions);
@@ -133,13 +132,13 @@ impl CSystem {
         Ok((arcs, stop.map(stop_name), time, error))
     }
 
-    /// How many runs end: a dictionary of lists and arrays.
+    /// How each of many runs ends: a dictionary of lists and arrays.
     fn fates<'py>(
         &self,
         py: Python<'py>,
         runs: Vec<GivenRun<'py>>,
         times: (f64, f64),
-        events: usize,
+        #[pyo3(from_py_with = whole)] events: usize,
         threads: Option<usize>,
         progress: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
@@ -224,18 +223,18 @@ impl Row {
     }
 }
 
-/// A system of C during one run. After Ctrl-C its field has no value, so that the run ends.
+/// A system of C during one run. Next Ctrl-C its field has no value, so that the run ends.
 struct Run<'r> {
-    functions: &'r Functions,
+    functions: &'r Parts,
     parameters: &'r [f64],
     watch: &'r Watch,
 }
 
 impl Run<'_> {
     /// Writes the results of a function of the time, the other components and the parameters.
-    fn write(&self, function: Function, state: &State, results: &mut [f64]) {
+    fn write(&self, function: Pointer, state: &State, results: &mut [f64]) {
         if let Some((time, components)) = state.as_slice().split_last() {
-            CFunction::call(function, *time, components, self.parameters, results);
+            function.write(*time, components, self.parameters, results);
         }
     }
 
@@ -273,9 +272,9 @@ impl hybrid_system::HybridSystem for Run<'_> {
 
     fn reset(&self, mode: Mode, surface: Surface, before: &State) -> Reset<Mode, State> {
         match self.functions.surfaces.get(surface.0) {
-            None | Some((_, After::End)) => Reset::Stop,
-            Some((_, After::Nothing)) => Reset::Jump { mode, state: before.clone() },
-            Some((_, After::Jump { reset, mode: to })) => {
+            None | Some((_, Next::End)) => Reset::Stop,
+            Some((_, Next::Nothing)) => Reset::Jump { mode, state: before.clone() },
+            Some((_, Next::Jump { reset, mode: to })) => {
                 let mut state = before.clone();
                 if let Some(reset) = reset
                     && let Some((_, components)) = state.as_mut_slice().split_last_mut()
