@@ -19,7 +19,8 @@ const WINDOW: (f64, f64) = (-1.0, 0.4);
 const SIDE: usize = 512;
 /// Runs, of which the least time counts, of one start, of all starts, and of the raster.
 const REPEATS: [usize; 3] = [15, 3, 5];
-/// The components of the last state agree to this: each program follows them to its own rounding, which eighty impacts have made larger.
+/// The components of the last state agree to this: each program follows them to its own rounding, which eighty impacts have made larger. Here the
+/// numbers are decimals, and doubles in Python.
 const SAME: f64 = 1e-10;
 
 /// What the script has measured: heyoka first, then ours.
@@ -45,7 +46,7 @@ pub(crate) struct SystemTime {
 /// The least times of all.
 ///
 /// # Errors
-/// [`Error::CheckFailed`] if a result from Python is another one than in Rust, or one of heyoka.
+/// [`Error::CheckFailed`] if a result from Python, or one of heyoka, is another one than in Rust.
 pub(crate) fn system_times(
     python: &Python,
     folder: &Path,
@@ -64,11 +65,11 @@ pub(crate) fn system_times(
     let theirs =
         std::fs::read(&labels).map_err(|source| Error::File { path: labels.clone(), source })?;
     let same_end =
-        |end: &[f64; 2], most: f64| (0..2).all(|axis| (end[axis] - fate.state[axis]).abs() <= most);
+        |end: &[f64; 2]| (0..2).all(|axis| (end[axis] - fate.state[axis]).abs() <= SAME);
     let checks = [
         ("events", found.events == [fate.events; 2]),
-        ("state of heyoka", same_end(&found.end[0], SAME)),
-        ("state", same_end(&found.end[1], 0.0)),
+        ("state of heyoka", same_end(&found.end[0])),
+        ("state", same_end(&found.end[1])),
         ("raster", theirs == numbers),
     ];
     if let Some((what, _)) = checks.iter().find(|(_, same)| !same) {
