@@ -64,8 +64,7 @@ pub(crate) fn system_times(
     let (raster, numbers) = least(REPEATS[2], raster)?;
     let theirs =
         std::fs::read(&labels).map_err(|source| Error::File { path: labels.clone(), source })?;
-    let same_end =
-        |end: &[f64; 2]| (0..2).all(|axis| (end[axis] - fate.state[axis]).abs() <= SAME);
+    let same_end = |end: &[f64; 2]| (0..2).all(|axis| (end[axis] - fate.state[axis]).abs() <= SAME);
     let checks = [
         ("events", found.events == [fate.events; 2]),
         ("state of heyoka", same_end(&found.end[0])),
