@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::formulas::{Formulas, length};
 use crate::graph::Graph;
 use crate::node::{Binary, Node, Unary};
+use interval_arithmetic::Enclosure;
 
 impl Formulas {
     /// The formulas at another time and another state, f(τ(t, x), ξ(t, x)): `inner` has τ first, then each component of ξ.
@@ -20,7 +21,16 @@ impl Formulas {
     /// # Errors
     /// [`Error::Length`] for another number of inner formulas; [`Error::Name`] for other names or values; [`Error::TooLarge`].
     pub fn composed(&self, inner: &Formulas) -> Result<Formulas, Error> {
-        length("inner formulas", self.names.states.len() + 1, inner.count())?;
+        self.composed_of(inner, self.names.states.len())
+    }
+
+    /// The same with the number of components that these formulas speak of.
+    pub(crate) fn composed_of(
+        &self,
+        inner: &Formulas,
+        components: usize,
+    ) -> Result<Formulas, Error> {
+        length("inner formulas", components + 1, inner.count())?;
         let mut graph = Graph::default();
         let inner = self.joined(&mut graph, inner)?;
         let mut places: Vec<usize> = Vec::with_capacity(self.nodes.len());
@@ -34,6 +44,38 @@ impl Formulas {
         graph.check()?;
         let outputs = self.outputs.iter().map(|&place| places[place]).collect();
         Formulas::of_parts(self.names.clone(), graph.into_nodes(), outputs)
+    }
+
+    /// For each formula, true if it is 0 at every state by the way in which it is written: as a number, as a − a, or as a product with such a
+    /// factor. A formula that is 0 for another reason may have `false`.
+    ///
+    /// ```
+    /// use equations::{Formulas, Names};
+    /// let found = Formulas::from_text(Names::new(&["x"], &[])?, &["0.7 - 0.7", "x*0", "x"])?;
+    /// assert_eq!(found.vanishes(), [true, true, false]);
+    /// # Ok::<(), equations::Error>(())
+    /// ```
+    pub fn vanishes(&self) -> Vec<bool> {
+        let mut zero: Vec<bool> = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            zero.push(match *node {
+                Node::Constant(ref constant) => constant.enclosure() == Enclosure::ZERO,
+                Node::Parameter(at) => self.names.values[at].enclosure() == Enclosure::ZERO,
+                Node::Unary(Unary::Negative, a) => zero[a],
+                Node::Binary(Binary::Difference, a, b) => a == b || (zero[a] && zero[b]),
+                Node::Binary(Binary::Sum, a, b) => zero[a] && zero[b],
+                Node::Binary(Binary::Product, a, b) => zero[a] || zero[b],
+                _ => false,
+            });
+        }
+        self.outputs.iter().map(|&place| zero[place]).collect()
+    }
+
+    /// True if each formula is written as the other's of the same place: the values are the same at every state.
+    pub fn is_written_as(&self, other: &Formulas) -> bool {
+        let Ok(both) = self.and(other) else { return false };
+        let (own, others) = both.outputs.split_at(self.count());
+        own == others
     }
 
     /// The formulas from the last to the first.

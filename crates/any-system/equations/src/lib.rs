@@ -14,7 +14,8 @@
 //! | [`TaylorFlow`], [`Step`] | the motion by Taylor's method: a polynomial for each step |
 //! | [`TaylorFlow::states_at`] | the motions of many starts side by side, with the same bits |
 //! | [`JetSeries`], [`Jet`] | derivatives of any order in one direction, of values and of motions, as polynomials |
-//! | [`Formulas::composed`], [`Formulas::and`], [`Formulas::negative`], [`Formulas::rate`] | formulas of formulas, lists of them, rates along a field |
+//! | [`Formulas::composed`], [`Formulas::on`], [`Formulas::and`], [`Formulas::negative`], [`Formulas::rate`] | formulas of formulas, lists of them, rates along a field |
+//! | [`Formulas::with_variations`], [`Formulas::with_states_for`] | formulas with their derivatives along a motion; with parameters as components of the state |
 //! | [`Formulas::texts`], [`Formulas::latex`] | the formulas, written |
 //! | [`Formulas::to_json`], [`Formulas::from_json`], [`Formulas::content_hash`] | the formulas as data, with exact numbers |
 //! | [`Expression`], [`Term`], [`States`], [`Parameters`] | what a closure computes with |
@@ -65,6 +66,7 @@ mod step;
 mod step_length;
 mod taylor_flow;
 mod text;
+mod variations;
 
 pub use algebra::{Algebra, Arithmetic};
 pub use columns::Columns;

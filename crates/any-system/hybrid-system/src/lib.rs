@@ -11,6 +11,7 @@
 //! | `Equations` | a model by its equations, written once: events, exact derivatives, JSON (feature `ode`) |
 //! | `Along`, `ExecutionJet` | derivatives of a whole execution, to any order (feature `ode`) |
 //! | `SavedRun` | an execution of equations as a file, which another program goes on with (features `ode` and `serde`) |
+//! | `ModeParts`, `GuardParts` | the formulas of equations, for programs that compute with other numbers (feature `ode`) |
 //! | `Function`, `Label` | a function that equations call and a user brings; the name of a mode or a surface (feature `ode`) |
 //! | [`Model`] | a model written with closures, in some 20 lines |
 //! | [`HybridSystem`], [`System`] | the trait of a model: flow, guards, guard values, reset; a short name for it in signatures |
@@ -166,7 +167,9 @@ pub use fate::{End, Fate, FateOf, many};
 #[cfg(all(feature = "ode", feature = "serde"))]
 pub use formulas::SavedRun;
 #[cfg(feature = "ode")]
-pub use formulas::{Along, Equations, EquationsModel, ExecutionJet, Label, Start, Turn};
+pub use formulas::{
+    Along, Equations, EquationsModel, ExecutionJet, GuardParts, Label, ModeParts, Start, Turn,
+};
 pub use guard::{Direction, Guard, Role, Touch};
 pub use interval_arithmetic::Enclosure;
 pub use lands_beyond::LandsBeyond;

@@ -154,7 +154,7 @@ impl Equations {
         self.modes.iter().flat_map(|mode| &mode.guards).chain(&self.everywhere)
     }
 
-    fn uses_time(&self) -> bool {
+    pub(super) fn uses_time(&self) -> bool {
         self.modes.iter().any(ModeEquations::uses_time)
             || self.all_guards().any(GuardEquations::uses_time)
     }

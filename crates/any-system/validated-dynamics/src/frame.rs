@@ -1,0 +1,105 @@
+//! Frames: directions in which the errors of a set are kept, nearly orthogonal, with an enclosure of the inverse.
+
+use crate::matrix::Matrix;
+use interval_arithmetic::Enclosure;
+use nalgebra::DMatrix;
+
+/// A matrix of directions with an enclosure of its inverse.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Frame {
+    /// The directions, as columns.
+    pub(crate) directions: DMatrix<f64>,
+    /// Encloses the inverse.
+    pub(crate) inverse: Matrix,
+}
+
+impl Frame {
+    /// The axes.
+    pub(crate) fn axes(size: usize) -> Frame {
+        Frame { directions: DMatrix::identity(size, size), inverse: Matrix::identity(size) }
+    }
+
+    /// The orthogonal frame whose first direction is the longest of these columns, each one with its length in `weights`: then those
+    /// of the others that are left when the directions before are taken away. Long thin sets keep their shape so (R. J. Lohner, 1987).
+    pub(crate) fn of_columns(columns: &DMatrix<f64>, weights: &[f64]) -> Frame {
+        let size = columns.nrows();
+        let mut order: Vec<usize> = (0..columns.ncols()).collect();
+        let length = |&column: &usize| columns.column(column).norm() * weights[column];
+        order.sort_by(|a, b| length(b).total_cmp(&length(a)));
+        let mut directions: Vec<Vec<f64>> = Vec::with_capacity(size);
+        let wanted = order.iter().map(|&column| columns.column(column).iter().copied().collect());
+        let axes = (0..size).map(|axis| (0..size).map(|row| f64::from(row == axis)).collect());
+        // Columns that depend on each other leave directions open: axes fill them.
+        for candidate in wanted.chain(axes) {
+            if directions.len() == size {
+                break;
+            }
+            directions.extend(orthogonal_part(candidate, &directions));
+        }
+        let directions = DMatrix::from_fn(size, size, |row, column| directions[column][row]);
+        match inverse_of(&directions) {
+            Some(inverse) => Frame { directions, inverse },
+            None => Frame::axes(size),
+        }
+    }
+
+    /// The directions, as enclosures.
+    pub(crate) fn matrix(&self) -> Matrix {
+        Matrix::of_numbers(&self.directions)
+    }
+}
+
+/// A direction whose part beside the others is shorter than this part of it is one of them, to rounding.
+const DEPENDENT: f64 = 1e-10;
+
+/// The part of a vector that is orthogonal to unit vectors, of length 1; `None` if it is lost in rounding.
+fn orthogonal_part(mut vector: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
+    let norm = |vector: &[f64]| vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let before = norm(&vector);
+    // The second time takes away what rounding has left.
+    for _ in 0..2 {
+        for other in others {
+            let along: f64 = vector.iter().zip(other).map(|(x, y)| x * y).sum();
+            vector.iter_mut().zip(other).for_each(|(x, y)| *x -= along * y);
+        }
+    }
+    let after = norm(&vector);
+    let is_kept = after > DEPENDENT * before && after.is_finite() && before > 0.0;
+    is_kept.then(|| vector.iter().map(|x| x / after).collect())
+}
+
+/// An enclosure of the inverse of a nearly orthogonal matrix Q: with E = I − QᵀQ of norm ε < 1 it is (I − E)⁻¹Qᵀ, and
+/// (I − E)⁻¹ − I has entries of at most ε/(1 − ε), in the norm of the largest sum of a row.
+fn inverse_of(directions: &DMatrix<f64>) -> Option<Matrix> {
+    let size = directions.nrows();
+    let transposed = Matrix::of_numbers(&directions.transpose());
+    let error = Matrix::identity(size).minus(&transposed.times(&Matrix::of_numbers(directions)));
+    let sizes = |row| error.row(row).iter().map(|x| Enclosure::from(x.magnitude()));
+    let sums = (0..size).map(|row| sizes(row).fold(Enclosure::ZERO, |sum, x| sum + x));
+    let epsilon = sums.map(|sum| sum.high).fold(0.0, f64::max);
+    // NaN has no inverse.
+    if !(epsilon < 0.5) {
+        return None;
+    }
+    let most = (Enclosure::from(epsilon) / (Enclosure::ONE - Enclosure::from(epsilon))).high;
+    let near_identity = Matrix::from_fn(size, size, |row, column| {
+        Enclosure::from(f64::from(row == column)).widened(most)
+    });
+    Some(near_identity.times(&transposed))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_has_its_inverse_also_for_columns_that_depend_on_each_other() {
+        let columns = DMatrix::from_row_slice(3, 3, &[1.0, 2.0, 0.1, 1.0, 2.0, 0.1, 3.0, 6.0, 0.3]);
+        let frame = Frame::of_columns(&columns, &[1.0, 1.0, 5.0]);
+        let product = frame.inverse.times(&frame.matrix());
+        for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
+            let entry = product.at(row, column);
+            assert!(entry.contains(f64::from(row == column)) && entry.width() < 1e-14);
+        }
+    }
+}

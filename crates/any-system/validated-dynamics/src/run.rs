@@ -1,0 +1,377 @@
+//! A run of a set of states: step after step, event after event.
+
+use crate::matrix::Matrix;
+use crate::piece::Piece;
+use crate::set::{AffineSet, Chain};
+use crate::surface_image::{OnSurface, on_surface};
+use crate::system::{ValidatedGuard, ValidatedMode, ValidatedSystem};
+use crate::tube::Tube;
+use crate::undecided::{Error, Reason, Undecided};
+use crate::window::{Crossing, First, Guards};
+use equations::Formulas;
+use hybrid_system::Label;
+use interval_arithmetic::Enclosure;
+use std::ops::ControlFlow;
+
+/// How far a run goes before it is called undecided.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// The most steps. Ten thousand take seconds in three dimensions.
+    pub steps: usize,
+    /// The most events.
+    pub events: usize,
+    /// The latest time since the start.
+    pub time: f64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Limits { steps: 10_000, events: 1000, time: f64::INFINITY }
+    }
+}
+
+/// An event of all states of a set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProvedEvent {
+    /// The surface.
+    pub surface: Label,
+    /// The mode before.
+    pub mode: Label,
+    /// The mode after; `None` if the execution ends.
+    pub next: Option<Label>,
+    /// The times since the start.
+    pub time: Enclosure,
+    /// A box of the states before the event, on the surface.
+    pub before: Vec<Enclosure>,
+    /// A box of the states after it.
+    pub after: Vec<Enclosure>,
+    /// The states after it.
+    pub(crate) set: AffineSet,
+    /// Their derivatives with respect to the first ones.
+    pub(crate) chain: Chain,
+}
+
+/// A run of all states of a set. Each event that it returns is one of all states, with none before.
+#[derive(Debug, Clone)]
+pub struct ValidatedRun<'s> {
+    system: &'s ValidatedSystem,
+    limits: Limits,
+    mode: usize,
+    set: AffineSet,
+    /// The derivatives of the states with respect to the first ones.
+    chain: Chain,
+    time: Enclosure,
+    /// For each guard of the mode, true if it is 0 at all states.
+    on: Vec<bool>,
+    /// True until the guards have been looked at in this arc.
+    begins: bool,
+    steps: usize,
+    events: usize,
+    ended: Option<Label>,
+}
+
+/// The part of the first step of an arc on which a flow that leads beyond a surface is recognised. A longer part would not recognise one that
+/// comes back soon; the search calls this undecided.
+const SOON: f64 = 1e-3;
+
+/// What a run does in a step.
+enum Moved {
+    Flowed,
+    Event(ProvedEvent),
+}
+
+impl<'s> ValidatedRun<'s> {
+    /// A run of these states, of which guards in `on` are 0.
+    pub(crate) fn new(
+        system: &'s ValidatedSystem,
+        mode: usize,
+        set: AffineSet,
+        chain: Chain,
+        on: Vec<bool>,
+    ) -> Self {
+        let limits = Limits::default();
+        ValidatedRun {
+            system,
+            limits,
+            mode,
+            set,
+            chain,
+            time: Enclosure::ZERO,
+            on,
+            begins: true,
+            steps: 0,
+            events: 0,
+            ended: None,
+        }
+    }
+
+    /// The same run within other limits.
+    #[must_use]
+    pub fn within(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
+    }
+
+    /// The time since the start.
+    pub fn time(&self) -> Enclosure {
+        self.time
+    }
+
+    /// The states.
+    pub fn set(&self) -> &AffineSet {
+        &self.set
+    }
+
+    /// The mode.
+    pub fn mode(&self) -> Label {
+        self.own().name
+    }
+
+    /// The derivatives of the states with respect to those at the start: of the variables of its box.
+    pub fn derivatives(&self) -> Matrix {
+        self.chain.matrix()
+    }
+
+    /// The steps that were made.
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    fn own(&self) -> &'s ValidatedMode {
+        &self.system.modes[self.mode]
+    }
+
+    /// The next event of all states.
+    ///
+    /// # Errors
+    /// [`Error::Undecided`] with what is not proved, where and when.
+    pub fn next_event(&mut self) -> Result<ProvedEvent, Error> {
+        self.next_event_watched(&mut |_| ControlFlow::Continue(()))
+    }
+
+    /// The same, with each step shown as it is proved: for dense output, progress, and interruption by
+    /// [`ControlFlow::Break`].
+    ///
+    /// # Errors
+    /// As [`next_event`](Self::next_event), with [`Reason::Interrupted`].
+    pub fn next_event_watched(
+        &mut self,
+        watch: &mut dyn FnMut(&Piece<'_>) -> ControlFlow<()>,
+    ) -> Result<ProvedEvent, Error> {
+        loop {
+            if let Moved::Event(event) = self.step(None, watch)? {
+                return Ok(event);
+            }
+            if self.time.low > self.limits.time {
+                return self.undecided(Reason::NoEvent { time: self.limits.time });
+            }
+        }
+    }
+
+    /// The states at a time since the start, and the events until then.
+    ///
+    /// # Errors
+    /// As [`next_event`](Self::next_event); [`Error::Argument`] for a time before that of the states.
+    pub fn advance(&mut self, time: Enclosure) -> Result<Vec<ProvedEvent>, Error> {
+        if !(time.low >= self.time.high && time.high.is_finite()) {
+            return Error::argument("time", format!("it must be finite, and at or after {}", self.time.high));
+        }
+        let mut events = Vec::new();
+        while self.time != time {
+            let moved = self.step(Some(time), &mut |_| ControlFlow::Continue(()))?;
+            if let Moved::Event(event) = moved {
+                events.push(event);
+            }
+        }
+        Ok(events)
+    }
+
+    /// One step, to `end` at most: up to its end, or up to an event.
+    fn step(
+        &mut self,
+        end: Option<Enclosure>,
+        watch: &mut dyn FnMut(&Piece<'_>) -> ControlFlow<()>,
+    ) -> Result<Moved, Error> {
+        if let Some(surface) = self.ended {
+            return self.undecided(Reason::Stopped { surface });
+        }
+        if self.steps == self.limits.steps {
+            return self.undecided(Reason::Steps { steps: self.limits.steps });
+        }
+        self.steps += 1;
+        let left = end.map(|end| end - self.time);
+        let longest = left.map_or(f64::INFINITY, |left| left.high);
+        let set = self.set.clone();
+        let mode = self.own();
+        let tube = match Tube::new(&mode.series, &set, longest) {
+            Ok(tube) => tube,
+            Err(reason) => return self.undecided(reason),
+        };
+        let piece = Piece::new(&tube, self.time, &self.system.names.states, mode.name);
+        if watch(&piece).is_break() {
+            return self.undecided(Reason::Interrupted);
+        }
+        if self.begins
+            && let Err(reason) = self.check_begin(&tube)
+        {
+            return self.undecided(reason);
+        }
+        self.begins = false;
+        let on = self.on.clone();
+        let guards = Guards { tube: &tube, guards: &mode.guards, on: &on };
+        match guards.first() {
+            Err(reason) => self.undecided(reason),
+            Ok(First::Crossing(crossing)) => {
+                let surface = mode.guards[crossing.guard].surface;
+                if left.is_some_and(|left| crossing.beyond >= left.low) {
+                    return self.undecided(Reason::EventAtEnd { surface });
+                }
+                match on_surface(&tube, mode, crossing.guard, crossing.times) {
+                    Ok(found) => self.event(&guards, crossing, found),
+                    Err(reason) => self.undecided(reason),
+                }
+            }
+            Ok(First::Cut(time)) => self.flow(&tube, Enclosure::from(time), None),
+            Ok(First::Nothing) => match left.filter(|left| tube.length >= left.high) {
+                Some(left) => self.flow(&tube, left, end),
+                None => self.flow(&tube, Enclosure::from(tube.length), None),
+            },
+        }
+    }
+
+    /// The states after a time of a step; `now` is the time then, if it is known better than by sums.
+    fn flow(
+        &mut self,
+        tube: &Tube<'_>,
+        time: Enclosure,
+        now: Option<Enclosure>,
+    ) -> Result<Moved, Error> {
+        self.chain = self.chain.then(&tube.derivatives_at(time));
+        self.set = tube.set_at(time);
+        self.time = now.unwrap_or(self.time + time);
+        // No step has the length 0: a guard that is 0 at its start is not any more.
+        self.on = vec![false; self.own().guards.len()];
+        Ok(Moved::Flowed)
+    }
+
+    /// An error unless the states at the start of an arc are where its mode flows: on this side of each surface that bounds the flow, or on it
+    /// and leaving it.
+    fn check_begin(&self, tube: &Tube<'_>) -> Result<(), Reason> {
+        for (place, guard) in self.own().guards.iter().enumerate() {
+            let surface = guard.surface;
+            let Some(beyond) = guard.side_beyond() else { continue };
+            if self.on[place] {
+                let soon = Enclosure::new(0.0, tube.length * SOON);
+                if tube.guard(place).over_time(soon).sign() == Some(beyond) {
+                    return Err(Reason::Beyond { surface });
+                }
+                continue;
+            }
+            let value = tube.guard_at(place, Enclosure::ZERO) * beyond;
+            if value.is_positive() {
+                return Err(Reason::Beyond { surface });
+            }
+            if value.high > 0.0 {
+                return Err(Reason::OnSurface { surface });
+            }
+        }
+        Ok(())
+    }
+
+    fn event(
+        &mut self,
+        guards: &Guards<'_, '_>,
+        crossing: Crossing,
+        found: OnSurface,
+    ) -> Result<Moved, Error> {
+        let mode = self.own();
+        let guard = &mode.guards[crossing.guard];
+        let before = found.set.hull().to_vec();
+        match holds(guard, &before) {
+            Ok(true) => {}
+            Ok(false) => return self.pass(guards, crossing),
+            Err(reason) => return self.undecided(reason),
+        }
+        if self.events == self.limits.events {
+            let (events, surface) = (self.limits.events, guard.surface);
+            return self.undecided(Reason::Events { events, surface });
+        }
+        self.events += 1;
+        let time = self.time + found.times;
+        let arrived = self.chain.then(&found.derivatives);
+        let (set, chain) = match jumped(guard, &found.set, &arrived) {
+            Ok(after) => after,
+            Err(reason) => return self.undecided(reason),
+        };
+        let event = ProvedEvent {
+            surface: guard.surface,
+            mode: mode.name,
+            next: (!guard.stops).then(|| self.system.modes[guard.mode].name),
+            time,
+            before,
+            after: set.hull().to_vec(),
+            set: set.clone(),
+            chain: chain.clone(),
+        };
+        if guard.observes(self.mode) {
+            self.pass(guards, crossing)?;
+        } else {
+            self.ended = guard.stops.then_some(guard.surface);
+            (self.mode, self.begins) = (guard.mode, true);
+            self.on.clone_from(&guard.begins_on);
+            (self.set, self.chain, self.time) = (set, chain, time);
+        }
+        Ok(Moved::Event(event))
+    }
+
+    /// The flow goes on behind a surface at which nothing changes: from a time at which all states have crossed it.
+    fn pass(&mut self, guards: &Guards<'_, '_>, crossing: Crossing) -> Result<Moved, Error> {
+        if let Err(reason) = guards.are_others_clear(crossing.guard, crossing.beyond) {
+            return self.undecided(reason);
+        }
+        self.flow(guards.tube, Enclosure::from(crossing.beyond), None)
+    }
+
+    /// The error that says what is not proved here.
+    pub(crate) fn undecided<T>(&self, reason: Reason) -> Result<T, Error> {
+        Err(Error::Undecided(Box::new(Undecided {
+            reason,
+            mode: Some(self.own().name),
+            time: self.time,
+            states: self.set.hull().to_vec(),
+            names: self.system.names.states.clone(),
+        })))
+    }
+}
+
+/// True if the condition of an event holds at all of these states.
+fn holds(guard: &ValidatedGuard, states: &[Enclosure]) -> Result<bool, Reason> {
+    let Some(condition) = &guard.condition else { return Ok(true) };
+    let value = condition.enclosures(Enclosure::ZERO, states).map_err(Reason::Domain)?;
+    let sign = value.first().and_then(Enclosure::sign);
+    sign.map(|sign| sign > 0.0).ok_or(Reason::Condition { surface: guard.surface })
+}
+
+/// The states after an event, and their derivatives.
+fn jumped(
+    guard: &ValidatedGuard,
+    before: &AffineSet,
+    chain: &Chain,
+) -> Result<(AffineSet, Chain), Reason> {
+    let Some((state, slopes)) = &guard.reset else { return Ok((before.clone(), chain.clone())) };
+    let mapped = carried(before, chain, (state, slopes));
+    mapped.map_err(Reason::Domain)
+}
+
+/// The image of a set under formulas, with their derivatives, and the derivatives of all.
+pub(crate) fn carried(
+    set: &AffineSet,
+    chain: &Chain,
+    (formulas, slopes): (&Formulas, &Formulas),
+) -> Result<(AffineSet, Chain), equations::Error> {
+    let at_centre = formulas.enclosures(Enclosure::ZERO, &set.centre_box())?;
+    let entries = slopes.enclosures(Enclosure::ZERO, set.hull())?;
+    let slopes = Matrix::of_rows(at_centre.len(), set.hull().len(), &entries);
+    let bounds = formulas.enclosures(Enclosure::ZERO, set.hull())?;
+    Ok((set.image(&at_centre, &slopes, Some(&bounds)), chain.then(&slopes)))
+}

@@ -1,0 +1,95 @@
+//! Where runs begin: at numbers, in boxes, on charts.
+
+use crate::run::{ValidatedRun, carried};
+use crate::set::{AffineSet, Chain};
+use crate::system::ValidatedSystem;
+use crate::undecided::Error;
+use equations::{Formulas, Names};
+use interval_arithmetic::Enclosure;
+
+/// A chart: states as formulas of some variables, in a mode.
+///
+/// A surface on which they are for all values of the variables is known exactly: a guard x − 0.5 is 0 on a chart whose x is 0.5.
+#[derive(Debug, Clone)]
+pub struct Chart {
+    pub(crate) mode: usize,
+    pub(crate) states: Formulas,
+    slopes: Formulas,
+    /// For each guard of the mode, true if it is 0 on the chart.
+    on: Vec<bool>,
+}
+
+impl ValidatedSystem {
+    /// The states in a mode that these texts give, a formula of the variables and the parameters for each component of the state.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a mode that is not there, and for another number of texts than components; [`Error::Formula`] for texts and
+    /// names that are refused.
+    pub fn chart(&self, mode: &str, variables: &[&str], states: &[&str]) -> Result<Chart, Error> {
+        let mode = self.place_of(mode)?;
+        if states.len() != self.names.states.len() {
+            let names = self.names.states.join(", ");
+            return Error::argument("states", format!("{} given; needed are {names}", states.len()));
+        }
+        let names = Names {
+            states: variables.iter().map(|&name| name.to_owned()).collect(),
+            ..self.names.clone()
+        };
+        let states = Formulas::from_text(names, states)?;
+        let slopes = states.jacobian()?;
+        let zero = |guard: &crate::system::ValidatedGuard| {
+            Ok(guard.function.on(&states)?.vanishes() == [true])
+        };
+        let on = self.modes[mode].guards.iter().map(zero).collect::<Result<_, Error>>()?;
+        Ok(Chart { mode, states, slopes, on })
+    }
+
+    /// A run from one state: decimals, or formulas of the parameters.
+    ///
+    /// # Errors
+    /// As [`chart`](Self::chart); [`Error::Formula`] for a formula without a value.
+    pub fn start(&self, mode: &str, states: &[&str]) -> Result<ValidatedRun<'_>, Error> {
+        self.start_on(&self.chart(mode, &[], states)?, &[])
+    }
+
+    /// A run from all states of a chart whose variables are in a box. Its derivatives are those with respect to these variables.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for another number of enclosures than variables, and for one without bounds; [`Error::Formula`] for a
+    /// formula without a value.
+    pub fn start_on(&self, chart: &Chart, variables: &[Enclosure]) -> Result<ValidatedRun<'_>, Error> {
+        let names = &chart.states.names().states;
+        check_box(names, variables)?;
+        let size = variables.len();
+        let start = AffineSet::of_box(variables);
+        let identity = Chain::identity(size);
+        let (set, chain) = carried(&start, &identity, (&chart.states, &chart.slopes))?;
+        Ok(ValidatedRun::new(self, chart.mode, set, chain, chart.on.clone()))
+    }
+
+    /// A run from all states of a box.
+    ///
+    /// # Errors
+    /// As [`start_on`](Self::start_on).
+    pub fn start_box(&self, mode: &str, states: &[Enclosure]) -> Result<ValidatedRun<'_>, Error> {
+        let mode = self.place_of(mode)?;
+        check_box(&self.names.states, states)?;
+        let (set, chain) = (AffineSet::of_box(states), Chain::identity(states.len()));
+        let on = vec![false; self.modes[mode].guards.len()];
+        Ok(ValidatedRun::new(self, mode, set, chain, on))
+    }
+}
+
+/// An error unless a box has these components, with bounds.
+pub(crate) fn check_box(names: &[String], given: &[Enclosure]) -> Result<(), Error> {
+    if names.len() != given.len() {
+        let names = names.join(", ");
+        return Error::argument("box", format!("{} enclosures given; needed are {names}", given.len()));
+    }
+    for (name, x) in names.iter().zip(given) {
+        if !(x.low <= x.high && x.low.is_finite() && x.high.is_finite()) {
+            return Error::argument(name, format!("[{}, {}] is no interval of finite numbers", x.low, x.high));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,198 @@
+//! A hybrid system of which statements are proved.
+
+use crate::mode_series::ModeSeries;
+use crate::undecided::Error;
+use equations::{Formulas, Names};
+use hybrid_system::{Direction, Equations, GuardParts, Label, ModeParts, Role};
+
+/// A hybrid system, by its [`Equations`], whose flows and events are enclosed.
+///
+/// Numbers that are written as decimals are these decimals: 0.2 is 1/5. A parameter may be an interval: name it when the system is
+/// made, and it is a component of the state, the last one. If a formula uses the time, the time is a component before these.
+#[derive(Debug)]
+pub struct ValidatedSystem {
+    equations: Equations,
+    /// The parameters that are components of the state.
+    intervals: Vec<String>,
+    pub(crate) names: Names,
+    pub(crate) modes: Vec<ValidatedMode>,
+}
+
+/// A mode with all that is evaluated in it.
+#[derive(Debug)]
+pub(crate) struct ValidatedMode {
+    pub(crate) name: Label,
+    pub(crate) series: ModeSeries,
+    pub(crate) field: Formulas,
+    pub(crate) guards: Vec<ValidatedGuard>,
+}
+
+/// A guard with all that is evaluated at its events.
+#[derive(Debug)]
+pub(crate) struct ValidatedGuard {
+    pub(crate) surface: Label,
+    pub(crate) direction: Direction,
+    /// True if states beyond the surface cannot flow.
+    pub(crate) bounds_flow: bool,
+    pub(crate) function: Formulas,
+    pub(crate) gradient: Formulas,
+    pub(crate) condition: Option<Formulas>,
+    pub(crate) stops: bool,
+    /// The place of the mode after the event.
+    pub(crate) mode: usize,
+    /// The state after the event, and its derivatives, if it is another one.
+    pub(crate) reset: Option<(Formulas, Formulas)>,
+    /// For each guard of the mode after the event, true if it is 0 there because this guard is.
+    pub(crate) begins_on: Vec<bool>,
+}
+
+impl ValidatedGuard {
+    /// True if its events change nothing.
+    pub(crate) fn observes(&self, mode: usize) -> bool {
+        !self.stops && self.mode == mode && self.reset.is_none()
+    }
+}
+
+impl ValidatedGuard {
+    /// The sign of the guard beyond its surface, where no state can flow; `None` if states on both sides can.
+    pub(crate) fn side_beyond(&self) -> Option<f64> {
+        match self.direction {
+            Direction::Rising if self.bounds_flow => Some(1.0),
+            Direction::Falling if self.bounds_flow => Some(-1.0),
+            _ => None,
+        }
+    }
+}
+
+impl ValidatedSystem {
+    /// The system of these equations.
+    ///
+    /// ```
+    /// use hybrid_system::Equations;
+    /// use validated_dynamics::ValidatedSystem;
+    /// let ball = Equations::new(&["height", "speed"], &[("restitution", "0.5")])
+    ///     .mode_text("flight", &["speed", "-1"])
+    ///     .falling_text("floor", "height")
+    ///     .resets_text(&["height", "-restitution*speed"]);
+    /// let ball = ValidatedSystem::new(&ball)?;
+    /// let landing = ball.start("flight", &["0.5", "0"])?.next_event()?;
+    /// assert!(landing.time.contains(1.0) && landing.time.width() < 1e-14);
+    /// assert!(landing.after[1].contains(0.5));
+    /// # Ok::<(), validated_dynamics::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Equations`] and [`Error::Formula`] for equations that are refused; [`Error::Argument`] for a clock, whose events are not
+    /// followed.
+    pub fn new(equations: &Equations) -> Result<ValidatedSystem, Error> {
+        ValidatedSystem::with_interval_parameters(equations, &[])
+    }
+
+    /// The same with these parameters as the last components of the state.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), and for a name that is no parameter.
+    pub fn with_interval_parameters(
+        equations: &Equations,
+        parameters: &[&str],
+    ) -> Result<ValidatedSystem, Error> {
+        let parts = equations.mode_parts(parameters)?;
+        let place = |name: Label| parts.iter().position(|mode| mode.name == name);
+        let mode = |(own, mode): (usize, &ModeParts)| {
+            let guard = |guard: &GuardParts| {
+                let after = guard.mode.and_then(place).unwrap_or(own);
+                ValidatedGuard::new(guard, after, &parts[after])
+            };
+            Ok(ValidatedMode {
+                name: mode.name,
+                series: ModeSeries::new(mode)?,
+                field: mode.field.clone(),
+                guards: mode.guards.iter().map(guard).collect::<Result<_, Error>>()?,
+            })
+        };
+        let names = parts.first().map(|mode| mode.field.names().clone()).unwrap_or_default();
+        let modes = parts.iter().enumerate().map(mode).collect::<Result<_, Error>>()?;
+        let intervals = parameters.iter().map(|&name| name.to_owned()).collect();
+        Ok(ValidatedSystem { equations: equations.clone(), intervals, names, modes })
+    }
+
+    /// The names of the components of the state, and the parameters with their values.
+    pub fn names(&self) -> &Names {
+        &self.names
+    }
+
+    /// Formulas of the state, from texts in the names of the equations.
+    pub(crate) fn formulas(&self, texts: &[&str]) -> Result<Formulas, Error> {
+        let intervals: Vec<&str> = self.intervals.iter().map(String::as_str).collect();
+        Ok(self.equations.texts_in_parts(texts, &intervals)?)
+    }
+
+    pub(crate) fn place_of(&self, mode: &str) -> Result<usize, Error> {
+        let place = self.modes.iter().position(|known| known.name == *mode);
+        let known: Vec<&str> = self.modes.iter().map(|mode| mode.name.as_str()).collect();
+        place.map_or_else(
+            || Error::argument(mode, format!("no mode; the modes are {}", known.join(", "))),
+            Ok,
+        )
+    }
+
+    /// The label of a surface that some mode has.
+    pub(crate) fn surface(&self, surface: &str) -> Result<Label, Error> {
+        let guards = self.modes.iter().flat_map(|mode| &mode.guards);
+        let mut known: Vec<Label> = guards.map(|guard| guard.surface).collect();
+        known.dedup();
+        match known.iter().find(|known| **known == *surface) {
+            Some(known) => Ok(*known),
+            None => {
+                let names: Vec<&str> = known.iter().map(Label::as_str).collect();
+                Error::argument(surface, format!("no surface; the surfaces are {}", names.join(", ")))
+            }
+        }
+    }
+}
+
+impl ValidatedGuard {
+    fn new(parts: &GuardParts, mode: usize, after: &ModeParts) -> Result<ValidatedGuard, Error> {
+        let surface = parts.guard.surface;
+        let observes = !parts.stops && parts.mode.is_none() && parts.state.is_none();
+        let bounds_flow = match parts.guard.role {
+            Role::Contact => true,
+            Role::Switch => !observes,
+            Role::Crossing => false,
+            Role::Clock => {
+                return Error::argument(
+                    surface.as_str(),
+                    "a clock, whose events are not followed: write a guard of the time t for them",
+                );
+            }
+            Role::Undone => {
+                return Error::argument(
+                    surface.as_str(),
+                    "a surface of equations backward in time, which are not followed: give those forward in time",
+                );
+            }
+        };
+        let reset = match &parts.state {
+            Some(state) => Some((state.clone(), state.jacobian()?)),
+            None => None,
+        };
+        let is_zero = |other: &GuardParts| match &parts.state {
+            Some(state) => other.function.on(state).is_ok_and(|composed| {
+                composed.vanishes() == [true] || composed.is_written_as(&parts.function)
+            }),
+            None => other.function.is_written_as(&parts.function),
+        };
+        Ok(ValidatedGuard {
+            surface,
+            direction: parts.guard.direction,
+            bounds_flow,
+            gradient: parts.function.jacobian()?,
+            function: parts.function.clone(),
+            condition: parts.condition.clone(),
+            stops: parts.stops,
+            mode,
+            begins_on: after.guards.iter().map(is_zero).collect(),
+            reset,
+        })
+    }
+}

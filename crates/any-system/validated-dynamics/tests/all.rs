@@ -1,0 +1,5 @@
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+//! All tests of this crate in one program.
+
+mod flows;
+mod periodic_orbits;
