@@ -235,13 +235,30 @@ impl Arithmetic for Enclosure {
         if x.is_valid() { x.squared() } else { NO_VALUE }
     }
 
+    /// The ends are summed with rounding to nearest, and moved outwards once, by a bound of all roundings: of n products p and their sums
+    /// they are below (n + 1) u Σ|p|, with u = 2⁻⁵³, and n times the smallest number for products that underflow.
     fn convolution(x: &[Self], y: &[Self]) -> Self {
-        x.iter().zip(y.iter().rev()).fold(Enclosure::ZERO, |sum, (x, y)| {
-            match sum.is_valid() && x.is_valid() && y.is_valid() {
-                true => sum + *x * *y,
-                false => NO_VALUE,
-            }
-        })
+        let (mut low, mut high, mut size, mut all) = (0.0, 0.0, 0.0, 0.0);
+        for (x, y) in x.iter().zip(y.iter().rev()) {
+            let (a, b) = (x.low * y.low, x.low * y.high);
+            let (c, d) = (x.high * y.low, x.high * y.high);
+            let (least, most) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
+            low += least;
+            high += most;
+            size += least.abs().max(most.abs());
+            // Minima and maxima pass over NaN, sums do not.
+            all += (a + b) + (c + d);
+        }
+        if !f64::is_finite(all) {
+            return NO_VALUE;
+        }
+        let count = x.len() as f64;
+        // One more for the rounding of the bound itself.
+        let error = (count + 2.0) * (0.5 * f64::EPSILON) * size + count * f64::from_bits(1);
+        match error == 0.0 {
+            true => Enclosure::ZERO,
+            false => Enclosure::new((low - error).next_down(), (high + error).next_up()),
+        }
     }
 
     fn times(x: &Self, k: f64) -> Self {

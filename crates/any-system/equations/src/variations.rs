@@ -1,7 +1,7 @@
 //! Formulas together with their derivatives along a motion, with respect to its start.
 
 use crate::error::Error;
-use crate::formulas::Formulas;
+use crate::formulas::{Formulas, length};
 use crate::graph::Graph;
 use crate::node::Node;
 
@@ -10,13 +10,14 @@ impl Formulas {
     /// of the state of n components.
     ///
     /// Of a field this is the field of the motion together with V = ∂x/∂x₀, whose rate is Df·V. Of a guard g along this motion they
-    /// are the guard and its derivatives with respect to the start.
+    /// are the guard and its derivatives with respect to the start. Components that are `carried` change by the same amount whatever the
+    /// state is, such as a time and a parameter: their rows of V are those of the identity for ever, and are taken as these numbers.
     ///
     /// ```
     /// use equations::{Formulas, Names, Series};
     /// let names = Names::new(&["x", "v"], &[])?;
     /// let oscillator = Formulas::from_text(names, &["v", "-x"])?;
-    /// let motion = Series::new(&oscillator.with_variations()?, None)?;
+    /// let motion = Series::new(&oscillator.with_variations(&oscillator.carried())?, None)?;
     /// let start = [1.0, 0.0, 1.0, 0.0, 0.0, 1.0];
     /// // ∂x/∂v₀ is the sine.
     /// assert_eq!(motion.coefficients(0.0, &start, 3)?.state(3), [0.0, 1.0, 0.0, -1.0 / 6.0]);
@@ -24,9 +25,11 @@ impl Formulas {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Kink`] for a function with a kink or a jump; [`Error::TooLarge`].
-    pub fn with_variations(&self) -> Result<Formulas, Error> {
+    /// [`Error::Length`] for another number of marks than components; [`Error::Kink`] for a function with a kink or a jump;
+    /// [`Error::TooLarge`].
+    pub fn with_variations(&self, carried: &[bool]) -> Result<Formulas, Error> {
         let count = self.names.states.len();
+        length("marks of components", count, carried.len())?;
         let mut names = self.names.clone();
         for (row, column) in (0..count).flat_map(|row| (0..count).map(move |column| (row, column))) {
             let mut name = format!("d{row}_{column}");
@@ -44,7 +47,10 @@ impl Formulas {
             for variation in 0..count {
                 let mut sum = graph.number(0.0);
                 for (component, column) in columns.iter().enumerate() {
-                    let entry = graph.place(Node::State(count * (1 + component) + variation));
+                    let entry = match carried[component] {
+                        true => graph.number(f64::from(component == variation)),
+                        false => graph.place(Node::State(count * (1 + component) + variation)),
+                    };
                     let term = graph.product(column[formula], entry);
                     sum = graph.sum(sum, term);
                 }
@@ -53,6 +59,11 @@ impl Formulas {
         }
         graph.check()?;
         Formulas::of_parts(names, graph.into_nodes(), outputs)
+    }
+
+    /// For each formula of a field, true if it is a number whatever time and state are.
+    pub fn carried(&self) -> Vec<bool> {
+        self.constants().iter().map(Option::is_some).collect()
     }
 
     /// The same formulas with some parameters as further components of the state, the last ones, in this order, and with a

@@ -20,6 +20,12 @@ pub trait EnclosedMap {
     /// # Errors
     /// [`Error::Undecided`] where nothing is proved.
     fn image(&self, domain: &[Enclosure]) -> Result<MapImage, Error>;
+
+    /// A set that holds the images of all points of a box, without derivatives, in less time.
+    ///
+    /// # Errors
+    /// As [`image`](Self::image).
+    fn set_image(&self, domain: &[Enclosure]) -> Result<AffineSet, Error>;
 }
 
 /// The images of a box under a map.
@@ -31,8 +37,6 @@ pub struct MapImage {
     pub derivatives: Matrix,
     /// The events until the images, one after the other.
     pub events: Vec<ProvedEvent>,
-    /// The images themselves.
-    pub(crate) set: AffineSet,
 }
 
 /// The map from a chart to the states after the event number `count` of a surface, of which formulas are read.
@@ -113,29 +117,42 @@ impl EnclosedMap for SectionMap<'_> {
 
     fn image(&self, domain: &[Enclosure]) -> Result<MapImage, Error> {
         let mut run = self.run(domain)?;
+        let (events, set, chain) = self.followed(&mut run)?;
+        match chain {
+            Some(chain) => {
+                let (values, derivatives) = (set.hull().to_vec(), chain.matrix());
+                Ok(MapImage { values, derivatives, events })
+            }
+            // The run has derivatives.
+            None => run.undecided(Reason::Singular),
+        }
+    }
+
+    fn set_image(&self, domain: &[Enclosure]) -> Result<AffineSet, Error> {
+        let mut run = self.run(domain)?.without_derivatives();
+        Ok(self.followed(&mut run)?.1)
+    }
+}
+
+/// The events of a run, and the set and the derivatives that are read after the last one.
+type Followed = (Vec<ProvedEvent>, AffineSet, Option<Chain>);
+
+impl SectionMap<'_> {
+    fn followed(&self, run: &mut ValidatedRun<'_>) -> Result<Followed, Error> {
         let mut events = Vec::new();
         let mut left = self.count;
         loop {
             let event = run.next_event()?;
             left -= usize::from(event.surface == self.surface);
+            let (set, chain) = (event.set.clone(), event.chain.clone());
             events.push(event);
-            if left == 0 {
-                break;
+            if left > 0 {
+                continue;
             }
-        }
-        // There is an event.
-        let Some(event) = events.last() else {
-            return run.undecided(Reason::NoEvent { time: run.time().high });
-        };
-        let read = carried(&event.set, &event.chain, (&self.read.0, &self.read.1));
-        match read {
-            Ok((set, chain)) => Ok(MapImage {
-                values: set.hull().to_vec(),
-                derivatives: chain.matrix(),
-                events,
-                set,
-            }),
-            Err(error) => run.undecided(Reason::Domain(error)),
+            return match carried(&set, chain, (&self.read.0, &self.read.1)) {
+                Ok((set, chain)) => Ok((events, set, chain)),
+                Err(error) => run.undecided(Reason::Domain(error)),
+            };
         }
     }
 }
@@ -184,13 +201,30 @@ impl EnclosedMap for FormulaMap {
     }
 
     fn image(&self, domain: &[Enclosure]) -> Result<MapImage, Error> {
+        let (set, chain) = self.applied(domain, Some(Chain::identity(domain.len())))?;
+        let own = chain.map(|chain| chain.matrix());
+        let derivatives = Matrix::from_fn(self.count, domain.len(), |row, column| {
+            own.as_ref().map_or(Enclosure::WHOLE, |own| own.at(row, column))
+        });
+        Ok(MapImage { values: set.hull()[..self.count].to_vec(), derivatives, events: Vec::new() })
+    }
+
+    fn set_image(&self, domain: &[Enclosure]) -> Result<AffineSet, Error> {
+        Ok(self.applied(domain, None)?.0)
+    }
+}
+
+impl FormulaMap {
+    fn applied(
+        &self,
+        domain: &[Enclosure],
+        mut chain: Option<Chain>,
+    ) -> Result<(AffineSet, Option<Chain>), Error> {
         check_box(&self.formulas.names().states, domain)?;
-        let (mut set, mut chain) = (AffineSet::of_box(domain), Chain::identity(domain.len()));
+        let mut set = AffineSet::of_box(domain);
         for _ in 0..self.times {
-            (set, chain) = carried(&set, &chain, (&self.formulas, &self.slopes))?;
+            (set, chain) = carried(&set, chain, (&self.formulas, &self.slopes))?;
         }
-        let derivatives = chain.matrix();
-        let derivatives = Matrix::from_fn(self.count, domain.len(), |row, column| derivatives.at(row, column));
-        Ok(MapImage { values: set.hull()[..self.count].to_vec(), derivatives, events: Vec::new(), set })
+        Ok((set, chain))
     }
 }

@@ -35,12 +35,14 @@ impl ModeSeries {
                 None => guard.function.clone(),
             });
         }
-        let varied = watched.as_ref().map(Formulas::with_variations).transpose()?;
+        let carried = mode.field.carried();
+        let varied = watched.as_ref().map(|watched| watched.with_variations(&carried));
+        let varied = varied.transpose()?;
         Ok(ModeSeries {
             dimension: mode.field.names().states.len(),
             guards: mode.guards.len(),
             plain: Series::new(&mode.field, watched.as_ref())?,
-            varied: Series::new(&mode.field.with_variations()?, varied.as_ref())?,
+            varied: Series::new(&mode.field.with_variations(&carried)?, varied.as_ref())?,
         })
     }
 
@@ -77,12 +79,17 @@ impl Varied {
         self.all.state(self.dimension * (1 + component) + of)
     }
 
-    /// Of all components of the state, and then of all derivatives, row by row.
-    pub(crate) fn all(&self) -> impl Iterator<Item = &[Enclosure]> {
-        self.all.states()
+    /// Of all components of the state.
+    pub(crate) fn states(&self) -> impl Iterator<Item = &[Enclosure]> {
+        self.all.states().take(self.dimension)
     }
 
-    /// Of a guard among `guards`.
+    /// Of all derivatives, row by row.
+    pub(crate) fn derivatives(&self) -> impl Iterator<Item = &[Enclosure]> {
+        self.all.states().skip(self.dimension)
+    }
+
+    /// Of a guard.
     pub(crate) fn guard(&self, guard: usize) -> &[Enclosure] {
         self.all.watched(guard)
     }

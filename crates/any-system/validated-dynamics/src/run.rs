@@ -47,8 +47,8 @@ pub struct ProvedEvent {
     pub after: Vec<Enclosure>,
     /// The states after it.
     pub(crate) set: AffineSet,
-    /// Their derivatives with respect to the first ones.
-    pub(crate) chain: Chain,
+    /// Their derivatives with respect to the first ones, if they are wanted.
+    pub(crate) chain: Option<Chain>,
 }
 
 /// A run of all states of a set. Each event that it returns is one of all states, with none before.
@@ -58,8 +58,8 @@ pub struct ValidatedRun<'s> {
     limits: Limits,
     mode: usize,
     set: AffineSet,
-    /// The derivatives of the states with respect to the first ones.
-    chain: Chain,
+    /// The derivatives of the states with respect to the first ones, if they are wanted.
+    chain: Option<Chain>,
     time: Enclosure,
     /// For each guard of the mode, true if it is 0 at all states.
     on: Vec<bool>,
@@ -86,7 +86,7 @@ impl<'s> ValidatedRun<'s> {
         system: &'s ValidatedSystem,
         mode: usize,
         set: AffineSet,
-        chain: Chain,
+        chain: Option<Chain>,
         on: Vec<bool>,
     ) -> Self {
         let limits = Limits::default();
@@ -127,9 +127,16 @@ impl<'s> ValidatedRun<'s> {
         self.own().name
     }
 
-    /// The derivatives of the states with respect to those at the start: of the variables of its box.
-    pub fn derivatives(&self) -> Matrix {
-        self.chain.matrix()
+    /// The same run without derivatives with respect to the start, in less time.
+    #[must_use]
+    pub fn without_derivatives(mut self) -> Self {
+        self.chain = None;
+        self
+    }
+
+    /// The derivatives of the states with respect to the variables of the start's box; `None` for a run without them.
+    pub fn derivatives(&self) -> Option<Matrix> {
+        self.chain.as_ref().map(Chain::matrix)
     }
 
     /// The steps that were made.
@@ -203,23 +210,18 @@ impl<'s> ValidatedRun<'s> {
         let longest = left.map_or(f64::INFINITY, |left| left.high);
         let set = self.set.clone();
         let mode = self.own();
-        let tube = match Tube::new(&mode.series, &set, longest) {
-            Ok(tube) => tube,
+        let (tube, first) = match self.proved_step(mode, &set, longest) {
+            Ok(found) => found,
             Err(reason) => return self.undecided(reason),
         };
         let piece = Piece::new(&tube, self.time, &self.system.names.states, mode.name);
         if watch(&piece).is_break() {
             return self.undecided(Reason::Interrupted);
         }
-        if self.begins
-            && let Err(reason) = self.check_begin(&tube)
-        {
-            return self.undecided(reason);
-        }
         self.begins = false;
         let on = self.on.clone();
         let guards = Guards { tube: &tube, guards: &mode.guards, on: &on };
-        match guards.first() {
+        match first {
             Err(reason) => self.undecided(reason),
             Ok(First::Crossing(crossing)) => {
                 let surface = mode.guards[crossing.guard].surface;
@@ -239,6 +241,29 @@ impl<'s> ValidatedRun<'s> {
         }
     }
 
+    /// A step of at most this length, with what happens first on it. If this is an event, the step has derivatives.
+    fn proved_step<'t>(
+        &self,
+        mode: &'t ValidatedMode,
+        set: &'t AffineSet,
+        longest: f64,
+    ) -> Result<(Tube<'t>, Result<First, Reason>), Reason> {
+        let look = |tube: &Tube<'_>| {
+            if self.begins {
+                self.check_begin(tube)?;
+            }
+            Guards { tube, guards: &mode.guards, on: &self.on }.first()
+        };
+        let tube = Tube::new(&mode.series, set, longest, self.chain.is_some())?;
+        let first = look(&tube);
+        if self.chain.is_some() || !matches!(first, Ok(First::Crossing(_))) {
+            return Ok((tube, first));
+        }
+        let tube = Tube::new(&mode.series, set, tube.length, true)?;
+        let first = look(&tube);
+        Ok((tube, first))
+    }
+
     /// The states after a time of a step; `now` is the time then, if it is known better than by sums.
     fn flow(
         &mut self,
@@ -246,7 +271,8 @@ impl<'s> ValidatedRun<'s> {
         time: Enclosure,
         now: Option<Enclosure>,
     ) -> Result<Moved, Error> {
-        self.chain = self.chain.then(&tube.derivatives_at(time));
+        let derivatives = tube.derivatives_at(time);
+        self.chain = self.chain.take().zip(derivatives).map(|(chain, own)| chain.then(&own));
         self.set = tube.set_at(time);
         self.time = now.unwrap_or(self.time + time);
         // No step has the length 0: a guard that is 0 at its start is not any more.
@@ -298,8 +324,8 @@ impl<'s> ValidatedRun<'s> {
         }
         self.events += 1;
         let time = self.time + found.times;
-        let arrived = self.chain.then(&found.derivatives);
-        let (set, chain) = match jumped(guard, &found.set, &arrived) {
+        let arrived = self.chain.as_ref().map(|chain| chain.then(&found.derivatives));
+        let (set, chain) = match jumped(guard, &found.set, arrived) {
             Ok(after) => after,
             Err(reason) => return self.undecided(reason),
         };
@@ -352,26 +378,26 @@ fn holds(guard: &ValidatedGuard, states: &[Enclosure]) -> Result<bool, Reason> {
     sign.map(|sign| sign > 0.0).ok_or(Reason::Condition { surface: guard.surface })
 }
 
-/// The states after an event, and their derivatives.
+/// The states after an event, and their derivatives, if they are wanted.
 fn jumped(
     guard: &ValidatedGuard,
     before: &AffineSet,
-    chain: &Chain,
-) -> Result<(AffineSet, Chain), Reason> {
-    let Some((state, slopes)) = &guard.reset else { return Ok((before.clone(), chain.clone())) };
-    let mapped = carried(before, chain, (state, slopes));
-    mapped.map_err(Reason::Domain)
+    chain: Option<Chain>,
+) -> Result<(AffineSet, Option<Chain>), Reason> {
+    let Some((state, slopes)) = &guard.reset else { return Ok((before.clone(), chain)) };
+    carried(before, chain, (state, slopes)).map_err(Reason::Domain)
 }
 
 /// The image of a set under formulas, with their derivatives, and the derivatives of all.
 pub(crate) fn carried(
     set: &AffineSet,
-    chain: &Chain,
+    chain: Option<Chain>,
     (formulas, slopes): (&Formulas, &Formulas),
-) -> Result<(AffineSet, Chain), equations::Error> {
+) -> Result<(AffineSet, Option<Chain>), equations::Error> {
     let at_centre = formulas.enclosures(Enclosure::ZERO, &set.centre_box())?;
     let entries = slopes.enclosures(Enclosure::ZERO, set.hull())?;
     let slopes = Matrix::of_rows(at_centre.len(), set.hull().len(), &entries);
     let bounds = formulas.enclosures(Enclosure::ZERO, set.hull())?;
-    Ok((set.image(&at_centre, &slopes, Some(&bounds)), chain.then(&slopes)))
+    let chain = chain.map(|chain| chain.then(&slopes));
+    Ok((set.image(&at_centre, &slopes, Some(&bounds)), chain))
 }

@@ -62,8 +62,8 @@ impl ValidatedSystem {
         check_box(names, variables)?;
         let size = variables.len();
         let start = AffineSet::of_box(variables);
-        let identity = Chain::identity(size);
-        let (set, chain) = carried(&start, &identity, (&chart.states, &chart.slopes))?;
+        let identity = Some(Chain::identity(size));
+        let (set, chain) = carried(&start, identity, (&chart.states, &chart.slopes))?;
         Ok(ValidatedRun::new(self, chart.mode, set, chain, chart.on.clone()))
     }
 
@@ -74,7 +74,7 @@ impl ValidatedSystem {
     pub fn start_box(&self, mode: &str, states: &[Enclosure]) -> Result<ValidatedRun<'_>, Error> {
         let mode = self.place_of(mode)?;
         check_box(&self.names.states, states)?;
-        let (set, chain) = (AffineSet::of_box(states), Chain::identity(states.len()));
+        let (set, chain) = (AffineSet::of_box(states), Some(Chain::identity(states.len())));
         let on = vec![false; self.modes[mode].guards.len()];
         Ok(ValidatedRun::new(self, mode, set, chain, on))
     }

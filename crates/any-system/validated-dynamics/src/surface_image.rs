@@ -36,7 +36,9 @@ pub(crate) fn on_surface(
     let surface = &mode.guards[guard];
     let of_centre = crossing_of_centre(tube, guard, times);
     let at_centre = tube.centre_at(of_centre);
-    let varied = tube.derivatives_at(times);
+    let Some(varied) = tube.derivatives_at(times) else {
+        return Err(Reason::Grazing { surface: surface.surface });
+    };
     let mut bounds = tube.states_at(times);
     let mut found = None;
     for _ in 0..ROUNDS {

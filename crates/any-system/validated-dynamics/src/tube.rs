@@ -37,7 +37,7 @@ const ACCEPTED: f64 = 10.0;
 /// How much wider than the coefficient at the start the remainder is guessed to be. If it is not, the step is shortened.
 const GUESS: f64 = 2.0;
 
-/// All solutions from a set on the times [0, length], with their derivatives with respect to the start.
+/// All solutions from a set on the times [0, length], and, where they are wanted, their derivatives with respect to the start.
 ///
 /// The solutions stay in a box W on these times: x + Σ_{k ≤ p} c_k(X) s^k + c_{p+1}(W) s^{p+1} is in the inside of W for all s of the
 /// step. A solution that left W would be on its boundary at a first time, and up to this time Taylor's theorem holds with its remainder
@@ -55,15 +55,18 @@ pub(crate) struct Tube<'s> {
     /// From all states of the set.
     varied: Varied,
     /// At all states that the solutions have on the step.
-    beyond: Varied,
+    beyond: Coefficients<Enclosure>,
+    /// The same with the derivatives.
+    varied_beyond: Option<Varied>,
 }
 
 impl<'s> Tube<'s> {
-    /// A step of at most this length.
+    /// A step of at most this length, with derivatives if they are wanted.
     pub(crate) fn new(
         series: &'s ModeSeries,
         set: &'s AffineSet,
         longest: f64,
+        with_derivatives: bool,
     ) -> Result<Tube<'s>, Reason> {
         let error = wanted_error(set);
         let order = (-0.5 * ln(error)).ceil() as usize + 2;
@@ -72,72 +75,101 @@ impl<'s> Tube<'s> {
         let identity = Matrix::identity(series.dimension);
         let varied = series.varied(set.hull(), &identity, order + 1).map_err(Reason::Domain)?;
         let scale = scale(&centre, set);
-        let mut length = step_length(&centre, order, error * scale).min(longest);
-        let mut refused = Reason::NoSolution { step: length };
+        let mut step = Step { series, varied: &varied, order, length: 0.0 };
+        step.length = step_length(&centre, order, error * scale).min(longest);
+        let mut refused = Reason::NoSolution { step: step.length };
         for _ in 0..TRIES {
             let mut shorter = SHORTER;
-            match bounded(series, &varied, order, length) {
-                Ok(Some(beyond)) => {
-                    let most = remainder(&beyond, series.dimension, length, order);
+            match step.bounded(with_derivatives) {
+                Ok(Some((beyond, varied_beyond))) => {
+                    let most = step.remainder(&beyond);
                     if most <= ACCEPTED * error * scale {
-                        return Ok(Tube { set, series, length, order, centre, varied, beyond });
+                        let length = step.length;
+                        return Ok(Tube {
+                            set,
+                            series,
+                            length,
+                            order,
+                            centre,
+                            varied,
+                            beyond,
+                            varied_beyond,
+                        });
                     }
                     // The remainder falls with the power p + 1 of the length, at least.
-                    shorter = pow(error * scale / most, 1.0 / (order + 1) as f64).clamp(SHORTER, LONGEST);
-                    refused = Reason::NoSolution { step: length };
+                    let wanted = pow(error * scale / most, 1.0 / (order + 1) as f64);
+                    shorter = wanted.clamp(SHORTER, LONGEST);
+                    refused = Reason::NoSolution { step: step.length };
                 }
-                Ok(None) => refused = Reason::NoSolution { step: length },
+                Ok(None) => refused = Reason::NoSolution { step: step.length },
                 Err(error) => refused = Reason::Domain(error),
             }
-            length *= shorter;
+            step.length *= shorter;
         }
         Err(refused)
     }
 
-    fn of_centre<'t>(&self, coefficients: &'t [Enclosure], beyond: &[Enclosure]) -> Expansion<'t> {
-        Expansion { coefficients, rest: last(beyond) }
-    }
-
-    fn of_set<'t>(&self, coefficients: &'t [Enclosure], beyond: &[Enclosure]) -> Expansion<'t> {
-        Expansion { coefficients: &coefficients[..=self.order], rest: last(beyond) }
+    fn expansion<'t>(&self, coefficients: &'t [Enclosure], beyond: Enclosure) -> Expansion<'t> {
+        Expansion { coefficients: &coefficients[..=self.order], rest: beyond }
     }
 
     /// The states from the centre at the times of an interval of the step.
     pub(crate) fn centre_at(&self, time: Enclosure) -> Vec<Enclosure> {
-        let component = |axis| self.of_centre(self.centre.state(axis), self.beyond.state(axis));
-        (0..self.series.dimension).map(|axis| component(axis).at(time)).collect()
+        let component =
+            |axis| self.expansion(self.centre.state(axis), last(self.beyond.state(axis))).at(time);
+        (0..self.series.dimension).map(component).collect()
     }
 
-    /// The derivatives of the states with respect to the start.
-    pub(crate) fn derivatives_at(&self, time: Enclosure) -> Matrix {
+    /// The derivatives of the polynomials with respect to the start.
+    fn slopes_at(&self, time: Enclosure) -> Matrix {
         let size = self.series.dimension;
         Matrix::from_fn(size, size, |row, column| {
-            let beyond = self.beyond.derivative(row, column);
-            self.of_set(self.varied.derivative(row, column), beyond).at(time)
+            self.expansion(self.varied.derivative(row, column), Enclosure::ZERO).at(time)
         })
+    }
+
+    /// The derivatives of the states with respect to the start, of a step with derivatives.
+    pub(crate) fn derivatives_at(&self, time: Enclosure) -> Option<Matrix> {
+        let beyond = self.varied_beyond.as_ref()?;
+        let size = self.series.dimension;
+        Some(Matrix::from_fn(size, size, |row, column| {
+            let rest = last(beyond.derivative(row, column));
+            self.expansion(self.varied.derivative(row, column), rest).at(time)
+        }))
     }
 
     /// The states of all solutions at the times of an interval.
     pub(crate) fn states_at(&self, time: Enclosure) -> Vec<Enclosure> {
-        let plain = |axis| self.of_set(self.varied.state(axis), self.beyond.state(axis)).at(time);
+        self.states_by(time, &self.centre_at(time), &self.slopes_at(time))
+    }
+
+    fn states_by(
+        &self,
+        time: Enclosure,
+        at_centre: &[Enclosure],
+        slopes: &Matrix,
+    ) -> Vec<Enclosure> {
+        let plain =
+            |axis| self.expansion(self.varied.state(axis), last(self.beyond.state(axis))).at(time);
         let plain: Vec<Enclosure> = (0..self.series.dimension).map(plain).collect();
-        common(&plain, &self.set.values(&self.centre_at(time), &self.derivatives_at(time)))
+        common(&plain, &self.set.values(at_centre, slopes))
     }
 
     /// The set at a time of the step.
     pub(crate) fn set_at(&self, time: Enclosure) -> AffineSet {
-        let derivatives = self.derivatives_at(time);
-        self.set.image(&self.centre_at(time), &derivatives, Some(&self.states_at(time)))
+        let (at_centre, slopes) = (self.centre_at(time), self.slopes_at(time));
+        let states = self.states_by(time, &at_centre, &slopes);
+        self.set.image(&at_centre, &slopes, Some(&states))
     }
 
     /// A guard on the solution from the centre.
     pub(crate) fn guard_of_centre(&self, guard: usize) -> Expansion<'_> {
-        self.of_centre(self.centre.watched(guard), self.beyond.guard(guard))
+        self.expansion(self.centre.watched(guard), last(self.beyond.watched(guard)))
     }
 
     /// A guard on all solutions.
     pub(crate) fn guard(&self, guard: usize) -> Expansion<'_> {
-        self.of_set(self.varied.guard(guard), self.beyond.guard(guard))
+        self.expansion(self.varied.guard(guard), last(self.beyond.watched(guard)))
     }
 
     /// The values of a guard on all solutions at the times of an interval.
@@ -150,18 +182,17 @@ impl<'s> Tube<'s> {
         self.narrow(guard, |expansion| expansion.rate(time))
     }
 
-    /// What is computed of the expansion of a guard, by the mean value form from the centre and from all states at once: the common part.
-    fn narrow(
-        &self,
-        guard: usize,
-        of: impl Fn(Expansion<'_>) -> Enclosure,
-    ) -> Enclosure {
+    /// What is computed of the expansion of a guard: from all states at once, and from the centre with the slopes of the coefficients. The
+    /// common part.
+    fn narrow(&self, guard: usize, of: impl Fn(Expansion<'_>) -> Enclosure) -> Enclosure {
         let plain = of(self.guard(guard));
+        if plain.sign().is_some() {
+            return plain;
+        }
         let (count, size) = (self.series.guards, self.series.dimension);
         let slopes = Matrix::from_fn(1, size, |_, axis| {
             let coefficients = self.varied.guard_derivative(count, guard, axis);
-            let beyond = self.beyond.guard_derivative(count, guard, axis);
-            of(self.of_set(coefficients, beyond))
+            of(self.expansion(coefficients, Enclosure::ZERO))
         });
         let centre = of(self.guard_of_centre(guard));
         common(&[plain], &self.set.values(&[centre], &slopes))[0]
@@ -209,41 +240,72 @@ fn step_length(centre: &Coefficients<Enclosure>, order: usize, error: f64) -> f6
     if natural.is_finite() { natural } else { 1.0 }
 }
 
-/// The largest remainder of a component of the state.
-fn remainder(beyond: &Varied, dimension: usize, length: f64, order: usize) -> f64 {
-    let largest = (0..dimension).map(|axis| last(beyond.state(axis)).magnitude()).fold(0.0, f64::max);
-    largest * pow(length, (order + 1) as f64)
-}
-
-/// The expansion at all states of a step of this length, if the box of these states is proved to hold the solutions.
-fn bounded(
-    series: &ModeSeries,
-    varied: &Varied,
+/// A step that is tried.
+struct Step<'t> {
+    series: &'t ModeSeries,
+    varied: &'t Varied,
     order: usize,
     length: f64,
-) -> Result<Option<Varied>, equations::Error> {
-    let times = Enclosure::new(0.0, length);
-    let known = |coefficients: &[Enclosure], rest| {
-        Expansion { coefficients: &coefficients[..=order], rest }.at(times)
-    };
-    let guess = |coefficients: &[Enclosure]| {
-        let size = GUESS * last(coefficients).magnitude();
-        let found = known(coefficients, Enclosure::new(-size, size));
-        // Strictly wider, also where nothing changes.
-        let more = GUESS * f64::EPSILON * found.magnitude() + f64::MIN_POSITIVE;
-        found.widened(more)
-    };
-    let box_of_step: Vec<Enclosure> = varied.all().map(guess).collect();
-    if !is_bounded(&box_of_step) {
-        return Ok(None);
+}
+
+/// The expansion at all states of a step, and the same with derivatives if they are wanted.
+type Beyond = (Coefficients<Enclosure>, Option<Varied>);
+
+impl Step<'_> {
+    /// The largest remainder of a component of the state.
+    fn remainder(&self, beyond: &Coefficients<Enclosure>) -> f64 {
+        let sizes = beyond.states().map(|series| last(series).magnitude());
+        sizes.fold(0.0, f64::max) * pow(self.length, (self.order + 1) as f64)
     }
-    let (states, derivatives) = box_of_step.split_at(series.dimension);
-    let derivatives = Matrix::of_rows(series.dimension, series.dimension, derivatives);
-    let beyond = series.varied(states, &derivatives, order + 1)?;
-    let is_inside = |((coefficients, beyond), guessed): ((&[Enclosure], &[Enclosure]), &Enclosure)| {
-        let found = known(coefficients, last(beyond));
-        guessed.low < found.low && found.high < guessed.high
-    };
-    let proved = varied.all().zip(beyond.all()).zip(&box_of_step).all(is_inside);
-    Ok(proved.then_some(beyond))
+
+    /// The expansion at all states of the step, if the box of these states is proved to hold the solutions.
+    fn bounded(&self, with_derivatives: bool) -> Result<Option<Beyond>, equations::Error> {
+        let states: Vec<Enclosure> = self.varied.states().map(|series| self.guess(series)).collect();
+        if !is_bounded(&states) {
+            return Ok(None);
+        }
+        let beyond = self.series.motion(&states, self.order + 1)?;
+        if !self.are_inside(self.varied.states(), beyond.states(), &states) {
+            return Ok(None);
+        }
+        if !with_derivatives {
+            return Ok(Some((beyond, None)));
+        }
+        let size = self.series.dimension;
+        let entries: Vec<Enclosure> =
+            self.varied.derivatives().map(|series| self.guess(series)).collect();
+        if !is_bounded(&entries) {
+            return Ok(None);
+        }
+        let derivatives = Matrix::of_rows(size, size, &entries);
+        let varied = self.series.varied(&states, &derivatives, self.order + 1)?;
+        let proved = self.are_inside(self.varied.derivatives(), varied.derivatives(), &entries);
+        Ok(proved.then_some((beyond, Some(varied))))
+    }
+
+    fn at_all_times(&self, coefficients: &[Enclosure], rest: Enclosure) -> Enclosure {
+        let times = Enclosure::new(0.0, self.length);
+        Expansion { coefficients: &coefficients[..=self.order], rest }.at(times)
+    }
+
+    /// What a component is guessed to be on the step.
+    fn guess(&self, coefficients: &[Enclosure]) -> Enclosure {
+        let size = GUESS * last(coefficients).magnitude();
+        let found = self.at_all_times(coefficients, Enclosure::new(-size, size));
+        // Strictly wider, also where nothing changes.
+        found.widened(GUESS * f64::EPSILON * found.magnitude() + f64::MIN_POSITIVE)
+    }
+
+    /// True if each component is inside of its guess, with the remainder that follows from the guess.
+    fn are_inside<'c>(
+        &self,
+        coefficients: impl Iterator<Item = &'c [Enclosure]>,
+        beyond: impl Iterator<Item = &'c [Enclosure]>,
+        guesses: &[Enclosure],
+    ) -> bool {
+        coefficients.zip(beyond).zip(guesses).all(|((coefficients, beyond), guess)| {
+            let found = self.at_all_times(coefficients, last(beyond));
+            guess.low < found.low && found.high < guess.high
+        })
+    }
 }
