@@ -1,6 +1,6 @@
 //! Maps that are enclosed with their derivatives: return maps of systems, and maps that are formulas.
 
-use crate::matrix::Matrix;
+use crate::matrix::{Matrix, exact};
 use crate::run::{Limits, ProvedEvent, ValidatedRun, carried};
 use crate::set::{AffineSet, Chain};
 use crate::start::{Chart, check_box};
@@ -9,23 +9,75 @@ use crate::undecided::{Error, Reason};
 use equations::Formulas;
 use hybrid_system::Label;
 use interval_arithmetic::Enclosure;
+use nalgebra::DMatrix;
 
 /// A differentiable map of some variables, which may depend on parameters that are intervals.
 pub trait EnclosedMap {
     /// The number of variables.
     fn dimension(&self) -> usize;
 
-    /// The images of all points of a box: of the variables, and then of the parameters.
+    /// The images of all points of a set: of the variables, and then of the parameters; with derivatives if they are wanted.
     ///
     /// # Errors
-    /// [`Error::Undecided`] where nothing is proved.
-    fn image(&self, domain: &[Enclosure]) -> Result<MapImage, Error>;
+    /// [`Error::Undecided`] where nothing is proved. [`Reason::Stopped`] says that an event that ends the execution comes first, for all
+    /// points.
+    fn carry(&self, start: StartSet) -> Result<Carried, Error>;
 
-    /// A set that holds the images of all points of a box, without derivatives, in less time.
+    /// The images of all points of a box, with derivatives.
     ///
     /// # Errors
-    /// As [`image`](Self::image).
-    fn set_image(&self, domain: &[Enclosure]) -> Result<AffineSet, Error>;
+    /// As [`carry`](Self::carry).
+    fn image(&self, domain: &[Enclosure]) -> Result<MapImage, Error> {
+        let carried = self.carry(StartSet::of_box(domain))?;
+        let derivatives = carried.chain.map(|chain| chain.matrix());
+        Ok(MapImage {
+            values: carried.set.hull()[..self.dimension()].to_vec(),
+            derivatives: derivatives.unwrap_or_else(|| {
+                Matrix::from_fn(self.dimension(), domain.len(), |_, _| Enclosure::WHOLE)
+            }),
+            events: carried.events,
+        })
+    }
+}
+
+/// Where a map begins: a set of its variables and parameters, and the derivatives that are wanted.
+#[derive(Debug, Clone)]
+pub struct StartSet {
+    pub(crate) set: AffineSet,
+    pub(crate) chain: Option<Chain>,
+}
+
+impl StartSet {
+    /// A box, with derivatives with respect to its variables.
+    pub fn of_box(domain: &[Enclosure]) -> StartSet {
+        let set = AffineSet::of_box(domain);
+        StartSet { set, chain: Some(Chain::identity(domain.len())) }
+    }
+
+    /// The points c + A u for all u of a box, with derivatives with respect to u.
+    pub fn of_parallelepiped(centre: &[f64], directions: &DMatrix<f64>, u: &[Enclosure]) -> StartSet {
+        let directions = Matrix::of_numbers(directions);
+        let set = AffineSet::of_box(u).image(&exact(centre), &directions, None);
+        StartSet { set, chain: Some(Chain::identity(u.len()).then(&directions)) }
+    }
+
+    /// The same without derivatives, in less time.
+    #[must_use]
+    pub fn without_derivatives(mut self) -> Self {
+        self.chain = None;
+        self
+    }
+}
+
+/// Where a map leads.
+#[derive(Debug, Clone)]
+pub struct Carried {
+    /// The images.
+    pub set: AffineSet,
+    /// The events until the images, one after the other.
+    pub events: Vec<ProvedEvent>,
+    /// The derivatives, if they are wanted.
+    pub(crate) chain: Option<Chain>,
 }
 
 /// The images of a box under a map.
@@ -115,30 +167,8 @@ impl EnclosedMap for SectionMap<'_> {
         self.read.0.count()
     }
 
-    fn image(&self, domain: &[Enclosure]) -> Result<MapImage, Error> {
-        let mut run = self.run(domain)?;
-        let (events, set, chain) = self.followed(&mut run)?;
-        match chain {
-            Some(chain) => {
-                let (values, derivatives) = (set.hull().to_vec(), chain.matrix());
-                Ok(MapImage { values, derivatives, events })
-            }
-            // The run has derivatives.
-            None => run.undecided(Reason::Singular),
-        }
-    }
-
-    fn set_image(&self, domain: &[Enclosure]) -> Result<AffineSet, Error> {
-        let mut run = self.run(domain)?.without_derivatives();
-        Ok(self.followed(&mut run)?.1)
-    }
-}
-
-/// The events of a run, and the set and the derivatives that are read after the last one.
-type Followed = (Vec<ProvedEvent>, AffineSet, Option<Chain>);
-
-impl SectionMap<'_> {
-    fn followed(&self, run: &mut ValidatedRun<'_>) -> Result<Followed, Error> {
+    fn carry(&self, start: StartSet) -> Result<Carried, Error> {
+        let mut run = self.system.start_set(&self.chart, start)?.within(self.limits);
         let mut events = Vec::new();
         let mut left = self.count;
         loop {
@@ -150,7 +180,7 @@ impl SectionMap<'_> {
                 continue;
             }
             return match carried(&set, chain, (&self.read.0, &self.read.1)) {
-                Ok((set, chain)) => Ok((events, set, chain)),
+                Ok((set, chain)) => Ok(Carried { set, events, chain }),
                 Err(error) => run.undecided(Reason::Domain(error)),
             };
         }
@@ -200,31 +230,29 @@ impl EnclosedMap for FormulaMap {
         self.count
     }
 
-    fn image(&self, domain: &[Enclosure]) -> Result<MapImage, Error> {
-        let (set, chain) = self.applied(domain, Some(Chain::identity(domain.len())))?;
-        let own = chain.map(|chain| chain.matrix());
-        let derivatives = Matrix::from_fn(self.count, domain.len(), |row, column| {
-            own.as_ref().map_or(Enclosure::WHOLE, |own| own.at(row, column))
-        });
-        Ok(MapImage { values: set.hull()[..self.count].to_vec(), derivatives, events: Vec::new() })
-    }
-
-    fn set_image(&self, domain: &[Enclosure]) -> Result<AffineSet, Error> {
-        Ok(self.applied(domain, None)?.0)
+    fn carry(&self, start: StartSet) -> Result<Carried, Error> {
+        let StartSet { mut set, mut chain } = start;
+        check_box(&self.formulas.names().states, set.hull())?;
+        for _ in 0..self.times {
+            (set, chain) = carried(&set, chain, (&self.formulas, &self.slopes))?;
+        }
+        let (set, chain) = self.variables_of(&set, chain);
+        Ok(Carried { set, events: Vec::new(), chain })
     }
 }
 
 impl FormulaMap {
-    fn applied(
-        &self,
-        domain: &[Enclosure],
-        mut chain: Option<Chain>,
-    ) -> Result<(AffineSet, Option<Chain>), Error> {
-        check_box(&self.formulas.names().states, domain)?;
-        let mut set = AffineSet::of_box(domain);
-        for _ in 0..self.times {
-            (set, chain) = carried(&set, chain, (&self.formulas, &self.slopes))?;
+    /// The variables alone, without the parameters.
+    fn variables_of(&self, set: &AffineSet, chain: Option<Chain>) -> (AffineSet, Option<Chain>) {
+        let all = set.hull().len();
+        if all == self.count {
+            return (set.clone(), chain);
         }
-        Ok((set, chain))
+        let first = Matrix::from_fn(self.count, all, |row, column| {
+            Enclosure::from(f64::from(row == column))
+        });
+        let centre = first.apply(&set.centre_box());
+        let hull = &set.hull()[..self.count];
+        (set.image(&centre, &first, Some(hull)), chain.map(|chain| chain.then(&first)))
     }
 }

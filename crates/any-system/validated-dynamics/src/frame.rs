@@ -1,6 +1,6 @@
 //! Frames: directions in which the errors of a set are kept, nearly orthogonal, with an enclosure of the inverse.
 
-use crate::matrix::Matrix;
+use crate::matrix::{Matrix, row_norm};
 use interval_arithmetic::Enclosure;
 use nalgebra::DMatrix;
 
@@ -37,7 +37,7 @@ impl Frame {
             directions.extend(orthogonal_part(candidate, &directions));
         }
         let directions = DMatrix::from_fn(size, size, |row, column| directions[column][row]);
-        match inverse_of(&directions) {
+        match inverse_of(&directions, &directions.transpose()) {
             Some(inverse) => Frame { directions, inverse },
             None => Frame::axes(size),
         }
@@ -68,15 +68,13 @@ fn orthogonal_part(mut vector: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>
     is_kept.then(|| vector.iter().map(|x| x / after).collect())
 }
 
-/// An enclosure of the inverse of a nearly orthogonal matrix Q: with E = I − QᵀQ of norm ε < 1 it is (I − E)⁻¹Qᵀ, and
-/// (I − E)⁻¹ − I has entries of at most ε/(1 − ε), in the norm of the largest sum of a row.
-fn inverse_of(directions: &DMatrix<f64>) -> Option<Matrix> {
-    let size = directions.nrows();
-    let transposed = Matrix::of_numbers(&directions.transpose());
-    let error = Matrix::identity(size).minus(&transposed.times(&Matrix::of_numbers(directions)));
-    let sizes = |row| error.row(row).iter().map(|x| Enclosure::from(x.magnitude()));
-    let sums = (0..size).map(|row| sizes(row).fold(Enclosure::ZERO, |sum, x| sum + x));
-    let epsilon = sums.map(|sum| sum.high).fold(0.0, f64::max);
+/// An enclosure of the inverse of a matrix A, from an approximate inverse R: with E = I − RA of norm ε < 1 it is (I − E)⁻¹R, and
+/// (I − E)⁻¹ − I has entries of at most ε/(1 − ε), in the norm of the largest sum of a row. `None` if ε is above ½.
+pub(crate) fn inverse_of(matrix: &DMatrix<f64>, near: &DMatrix<f64>) -> Option<Matrix> {
+    let size = matrix.nrows();
+    let near = Matrix::of_numbers(near);
+    let error = Matrix::identity(size).minus(&near.times(&Matrix::of_numbers(matrix)));
+    let epsilon = row_norm(&error);
     // NaN has no inverse.
     if !(epsilon < 0.5) {
         return None;
@@ -85,7 +83,7 @@ fn inverse_of(directions: &DMatrix<f64>) -> Option<Matrix> {
     let near_identity = Matrix::from_fn(size, size, |row, column| {
         Enclosure::from(f64::from(row == column)).widened(most)
     });
-    Some(near_identity.times(&transposed))
+    Some(near_identity.times(&near))
 }
 
 #[cfg(test)]

@@ -119,6 +119,15 @@ pub(crate) fn dot(a: &[Enclosure], b: impl Iterator<Item = Enclosure>) -> Enclos
     products.fold(Enclosure::ZERO, sum)
 }
 
+/// An upper bound of the largest sum of absolute values of a row.
+pub(crate) fn row_norm(matrix: &Matrix) -> f64 {
+    let sum = |row| {
+        let sizes = matrix.row(row).iter().map(|x| Enclosure::from(x.magnitude()));
+        sizes.fold(Enclosure::ZERO, |sum, x| sum + x).high
+    };
+    (0..matrix.rows()).map(sum).fold(0.0, f64::max)
+}
+
 /// a + b, exactly if one of them is 0.
 pub(crate) fn sum(a: Enclosure, b: Enclosure) -> Enclosure {
     if a == Enclosure::ZERO {

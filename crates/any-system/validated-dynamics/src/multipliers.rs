@@ -1,6 +1,6 @@
 //! Eigenvalues of all matrices of an enclosure.
 
-use crate::matrix::Matrix;
+use crate::matrix::{Matrix, row_norm};
 use interval_arithmetic::Enclosure;
 use nalgebra::DMatrix;
 
@@ -83,15 +83,6 @@ fn distance(
     found.high.is_finite().then_some(found.high)
 }
 
-/// An upper bound of the largest sum of absolute values of a row.
-pub(crate) fn row_norm(matrix: &Matrix) -> f64 {
-    let sum = |row| {
-        let sizes = matrix.row(row).iter().map(|x| Enclosure::from(x.magnitude()));
-        sizes.fold(Enclosure::ZERO, |sum, x| sum + x).high
-    };
-    (0..matrix.rows()).map(sum).fold(0.0, f64::max)
-}
-
 /// The eigenvalues of a matrix of blocks.
 fn eigenvalues(blocks: &DMatrix<f64>) -> Vec<(f64, f64)> {
     let size = blocks.nrows();
@@ -121,7 +112,7 @@ fn refined(found: &DMatrix<f64>, blocks: &DMatrix<f64>) -> DMatrix<f64> {
 }
 
 /// Approximate eigenvectors as columns, and the blocks: of a pair a ± ib the real and the imaginary part of a vector.
-fn eigenbasis(matrix: &DMatrix<f64>) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
+pub(crate) fn eigenbasis(matrix: &DMatrix<f64>) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
     let size = matrix.nrows();
     let mut values: Vec<(f64, f64)> = matrix
         .clone()

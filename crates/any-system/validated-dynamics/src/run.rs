@@ -22,11 +22,13 @@ pub struct Limits {
     pub events: usize,
     /// The latest time since the start.
     pub time: f64,
+    /// The largest width of a component: wider sets are undecided at once, before they need many short steps.
+    pub width: f64,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits { steps: 10_000, events: 1000, time: f64::INFINITY }
+        Limits { steps: 10_000, events: 1000, time: f64::INFINITY, width: f64::INFINITY }
     }
 }
 
@@ -204,6 +206,10 @@ impl<'s> ValidatedRun<'s> {
         }
         if self.steps == self.limits.steps {
             return self.undecided(Reason::Steps { steps: self.limits.steps });
+        }
+        let width = self.set.hull().iter().map(Enclosure::width).fold(0.0, f64::max);
+        if width > self.limits.width {
+            return self.undecided(Reason::Wide { width, limit: self.limits.width });
         }
         self.steps += 1;
         let left = end.map(|end| end - self.time);

@@ -45,6 +45,17 @@ impl AffineSet {
         &self.centre
     }
 
+    /// The directions in which the set is wide, as columns, and its radii in them.
+    pub(crate) fn directions(&self) -> (DMatrix<f64>, Vec<f64>) {
+        let (rows, shaped) = (self.centre.len(), self.start.len());
+        let columns = DMatrix::from_fn(rows, shaped + rows, |row, column| match column < shaped {
+            true => self.shape[(row, column)],
+            false => self.frame.directions[(row, column - shaped)],
+        });
+        let all = self.start.iter().chain(&self.errors);
+        (columns, all.map(Enclosure::magnitude).collect())
+    }
+
     /// The values of a map on the set, from its value at the centre and its derivatives on the set: f(c) + Df (x − c), along the set's own
     /// directions and along the axes, whichever is narrower.
     pub(crate) fn values(

@@ -1,5 +1,6 @@
 //! Where runs begin: at numbers, in boxes, on charts.
 
+use crate::enclosed_map::StartSet;
 use crate::run::{ValidatedRun, carried};
 use crate::set::{AffineSet, Chain};
 use crate::system::ValidatedSystem;
@@ -58,12 +59,17 @@ impl ValidatedSystem {
     /// [`Error::Argument`] for another number of enclosures than variables, and for one without bounds; [`Error::Formula`] for a
     /// formula without a value.
     pub fn start_on(&self, chart: &Chart, variables: &[Enclosure]) -> Result<ValidatedRun<'_>, Error> {
-        let names = &chart.states.names().states;
-        check_box(names, variables)?;
-        let size = variables.len();
-        let start = AffineSet::of_box(variables);
-        let identity = Some(Chain::identity(size));
-        let (set, chain) = carried(&start, identity, (&chart.states, &chart.slopes))?;
+        self.start_set(chart, StartSet::of_box(variables))
+    }
+
+    /// The same of a set.
+    pub(crate) fn start_set(
+        &self,
+        chart: &Chart,
+        start: StartSet,
+    ) -> Result<ValidatedRun<'_>, Error> {
+        check_box(&chart.states.names().states, start.set.hull())?;
+        let (set, chain) = carried(&start.set, start.chain, (&chart.states, &chart.slopes))?;
         Ok(ValidatedRun::new(self, chart.mode, set, chain, chart.on.clone()))
     }
 

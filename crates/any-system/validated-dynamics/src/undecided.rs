@@ -80,6 +80,14 @@ pub enum Reason {
         /// The limit.
         steps: usize,
     },
+    /// The states are further apart than the limit.
+    #[error("the states are {width} apart, above the limit {limit}: take a smaller set, or raise `Limits::width`")]
+    Wide {
+        /// The largest width of a component.
+        width: f64,
+        /// The limit.
+        limit: f64,
+    },
     /// The events are used up. Their times may have a limit (Zeno).
     #[error("{events} events were not enough, the last one at {surface}: their times may have a limit; else raise `Limits::events`")]
     Events {

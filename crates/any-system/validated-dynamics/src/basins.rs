@@ -1,0 +1,404 @@
+//! Basins that are proved cell by cell.
+
+use crate::cells::{Cells, Place, part_of};
+use crate::enclosed_map::{EnclosedMap, StartSet};
+use crate::oriented_box::OrientedBox;
+use crate::trap::Trap;
+use crate::undecided::{Error, Reason};
+use hybrid_system::Label;
+use interval_arithmetic::Enclosure;
+use std::collections::{BTreeMap, HashMap};
+use std::ops::ControlFlow;
+
+/// The most halvings of a window: cells of 2⁻³⁰ of its sides, below which memory would be the limit anyway.
+const DEEPEST: u32 = 30;
+
+/// The fate of a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ProvedFate {
+    /// All points converge to the fixed point of this trap, by its place in the list.
+    Trap(usize),
+    /// An event at this surface ends the execution of all points.
+    Stopped(Label),
+}
+
+/// What is known of a cell.
+#[derive(Debug, Clone)]
+enum Known {
+    Fate(ProvedFate),
+    /// Its image, if it has one.
+    Open(Option<OrientedBox>),
+}
+
+/// A cell whose image is to be found.
+struct Fresh {
+    place: Place,
+    window: usize,
+    halvings: u32,
+    points: Vec<Enclosure>,
+}
+
+/// An open cell that may be divided.
+#[derive(Clone)]
+struct Open {
+    window: usize,
+    halvings: u32,
+    points: Vec<Enclosure>,
+}
+
+/// What the image of an open cell meets.
+enum Meets {
+    /// Cells of one fate alone.
+    Fate(ProvedFate),
+    /// Nothing that has a fate: to divide it is of no use yet. Here is an open cell that it meets.
+    Open(Place),
+    /// Cells with a fate, and others, of which here is one that is open.
+    Edge(Option<Place>),
+    /// Nothing in the window: no part of the cell ever gets a fate.
+    Outside,
+}
+
+/// How far cells are divided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Division {
+    /// The first cells have 2^−`first` of the window's sides.
+    pub first: u32,
+    /// The last ones have 2^−`last` of them.
+    pub last: u32,
+    /// The most images.
+    pub images: usize,
+}
+
+/// How far a proof of basins has come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// The images that were computed.
+    pub images: usize,
+    /// The cells that are open.
+    pub open: usize,
+    /// The halvings of the sides of the window in the cells that are divided now.
+    pub halvings: u32,
+    /// The share of the first window that has a fate.
+    pub proved: f64,
+}
+
+/// Basins of the points of windows, proved cell by cell.
+///
+/// A cell has a fate if it is in a trap, or if its map leads all its points into cells of this fate. So one image of each cell decides, and
+/// no orbit is followed. Of open cells the largest are divided first, of those whose images meet cells with a fate.
+pub struct ProvedBasins {
+    traps: Vec<Trap>,
+    cells: Cells<Known>,
+    /// The images that were computed.
+    pub images: usize,
+    /// The open cells.
+    open: HashMap<Place, Open>,
+    /// The open cells that wait for another one, which their images meet.
+    waiting: HashMap<Place, Vec<Place>>,
+    /// The open cells whose division may show more, by their halvings.
+    edge: BTreeMap<u32, Vec<Place>>,
+    area: f64,
+}
+
+impl ProvedBasins {
+    /// The basins of these traps in a window.
+    ///
+    /// ```
+    /// use equations::{Formulas, Names};
+    /// use validated_dynamics::{Division, Enclosure, FormulaMap, ProvedBasins, ProvedFate, Trap, fixed_point};
+    /// // 0 attracts |x| < 1.
+    /// let names = Names::new(&["x"], &[])?;
+    /// let cube = FormulaMap::new(Formulas::from_text(names, &["x^3"])?, 1)?;
+    /// let trap = Trap::new(&cube, &fixed_point(&cube, &[0.1], &[])?, 1000)?;
+    /// let division = Division { first: 4, last: 10, images: 10_000 };
+    /// let window = [Enclosure::between(-2.0, 2.0)?];
+    /// let basins = ProvedBasins::new(&[&cube], vec![trap], &[&window], division)?;
+    /// assert_eq!(basins.fate(0, &[0.9]), Some(ProvedFate::Trap(0)));
+    /// assert_eq!(basins.fate(0, &[1.1]), None);
+    /// assert!(basins.share(ProvedFate::Trap(0)) > 0.49);
+    /// # Ok::<(), validated_dynamics::Error>(())
+    /// ```
+    ///
+    /// Of several maps the first leads from the first window to the second one, and so on, and the last one back to the first: such as
+    /// the maps over parts of a period. Traps are in the first window, and those of all maps together. The images of parts are less
+    /// stretched, so that larger cells are decided.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for another number of windows than maps, for a window of another dimension than its map or without area, and for a
+    /// division whose first cells are not larger than the last ones; an error of formulas. Cells that are not decided are open, and no error.
+    pub fn new<M: EnclosedMap + Sync>(
+        maps: &[&M],
+        traps: Vec<Trap>,
+        windows: &[&[Enclosure]],
+        division: Division,
+    ) -> Result<ProvedBasins, Error> {
+        ProvedBasins::watched(maps, traps, windows, division, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// The same with progress after each round, and an end by [`ControlFlow::Break`]: what is proved until then is kept.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn watched<M: EnclosedMap + Sync>(
+        maps: &[&M],
+        traps: Vec<Trap>,
+        windows: &[&[Enclosure]],
+        division: Division,
+        watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    ) -> Result<ProvedBasins, Error> {
+        check(maps, windows, division)?;
+        let windows: Vec<Vec<Enclosure>> = windows.iter().map(|window| window.to_vec()).collect();
+        let mut basins = ProvedBasins {
+            traps,
+            cells: Cells::new(windows.clone(), &Known::Open(None)),
+            images: 0,
+            open: HashMap::new(),
+            waiting: HashMap::new(),
+            edge: BTreeMap::new(),
+            area: 0.0,
+        };
+        let (mut fresh, mut freed): (Vec<Fresh>, Vec<Place>) = (Vec::new(), Vec::new());
+        for (window, points) in windows.into_iter().enumerate() {
+            fresh.push(Fresh { place: window, window, halvings: 0, points });
+        }
+        for _ in 0..division.first {
+            fresh = fresh.into_iter().flat_map(|cell| basins.divided(&cell)).collect();
+        }
+        loop {
+            fresh.truncate(division.images.saturating_sub(basins.images));
+            basins.take(maps, fresh, freed)?;
+            let halvings = basins.next_edge(division.last);
+            let progress = Progress {
+                images: basins.images,
+                open: basins.open.len(),
+                halvings: halvings.unwrap_or(division.last),
+                proved: basins.area,
+            };
+            let ends = watch(progress).is_break() || basins.images >= division.images;
+            let Some(halvings) = halvings.filter(|_| !ends) else { return Ok(basins) };
+            let places = basins.edge.remove(&halvings).unwrap_or_default();
+            (fresh, freed) = (Vec::new(), Vec::new());
+            for place in places {
+                if let Some(open) = basins.open.remove(&place) {
+                    let Open { window, halvings, points } = open;
+                    fresh.extend(basins.divided(&Fresh { place, window, halvings, points }));
+                    freed.extend(basins.waiting.remove(&place).unwrap_or_default());
+                }
+            }
+        }
+    }
+
+    /// The parts of a cell.
+    fn divided(&mut self, cell: &Fresh) -> Vec<Fresh> {
+        let places = self.cells.divide(cell.place, &Known::Open(None));
+        let part = |(part, place)| Fresh {
+            place,
+            window: cell.window,
+            halvings: cell.halvings + 1,
+            points: part_of(&cell.points, part),
+        };
+        places.enumerate().map(part).collect()
+    }
+
+    /// Finds the images of new cells, on all threads, and the fates that follow: also of cells that have waited for a larger one.
+    fn take<M: EnclosedMap + Sync>(
+        &mut self,
+        maps: &[&M],
+        fresh: Vec<Fresh>,
+        freed: Vec<Place>,
+    ) -> Result<(), Error> {
+        self.images += fresh.len();
+        let found = images(maps, &self.traps, &fresh);
+        let mut looked = Vec::with_capacity(fresh.len() + freed.len());
+        for (cell, known) in fresh.into_iter().zip(found) {
+            let known = known?;
+            let Fresh { place, window, halvings, points } = cell;
+            self.open.insert(place, Open { window, halvings, points });
+            match known {
+                Known::Fate(fate) => self.decide(place, fate),
+                open => {
+                    if let Some(own) = self.cells.get_mut(place) {
+                        *own = open;
+                    }
+                    looked.push(place);
+                }
+            }
+        }
+        looked.into_iter().chain(freed).for_each(|place| self.look(place));
+        Ok(())
+    }
+
+    /// Writes down a fate.
+    fn decide(&mut self, place: Place, fate: ProvedFate) {
+        if let Some(known) = self.cells.get_mut(place) {
+            *known = Known::Fate(fate);
+        }
+        if let Some(open) = self.open.remove(&place)
+            && open.window == 0
+        {
+            self.area += pow_half(open.halvings * open.points.len() as u32);
+        }
+    }
+
+    /// Looks at an open cell, and at those that have waited for it if it has a fate.
+    fn look(&mut self, place: Place) {
+        let mut left = vec![place];
+        while let Some(place) = left.pop() {
+            let Some(open) = self.open.get(&place) else { continue };
+            let halvings = open.halvings;
+            match self.meets(place, open) {
+                Meets::Fate(fate) => {
+                    self.decide(place, fate);
+                    left.extend(self.waiting.remove(&place).unwrap_or_default());
+                }
+                Meets::Open(other) => self.waiting.entry(other).or_default().push(place),
+                Meets::Edge(other) => {
+                    if let Some(other) = other {
+                        self.waiting.entry(other).or_default().push(place);
+                    }
+                    self.edge.entry(halvings).or_default().push(place);
+                }
+                Meets::Outside => {}
+            }
+        }
+    }
+
+    /// What the image of an open cell meets.
+    fn meets(&self, place: Place, own: &Open) -> Meets {
+        // The first cells with a fate are parts of those that meet traps.
+        if own.window == 0 && self.traps.iter().any(|trap| trap.meets(&own.points)) {
+            return Meets::Edge(None);
+        }
+        // Without an image the cell is too large.
+        let Some(Known::Open(Some(image))) = self.cells.get(place) else { return Meets::Edge(None) };
+        let next = (own.window + 1) % self.cells.windows().len();
+        let (mut fate, mut other, mut mixed) = (None, None, false);
+        let enter = &mut |points: &[Enclosure]| !image.misses(points);
+        self.cells.visit(next, enter, &mut |place, known, _| match known {
+            Known::Fate(found) => mixed |= *fate.get_or_insert(*found) != *found,
+            Known::Open(_) => other = Some(place),
+        });
+        let is_inside = |(own, window): (Enclosure, &Enclosure)| own.is_inside(window);
+        let inside = image.hull().zip(&self.cells.windows()[next]).all(is_inside);
+        match (fate, other) {
+            (Some(fate), None) if inside && !mixed => Meets::Fate(fate),
+            (Some(_), other) => Meets::Edge(other),
+            (None, Some(other)) => Meets::Open(other),
+            (None, None) => Meets::Outside,
+        }
+    }
+
+    /// The halvings of the largest cells whose division may show more, down to the last ones.
+    fn next_edge(&mut self, last: u32) -> Option<u32> {
+        let largest = |edge: &BTreeMap<u32, Vec<Place>>| {
+            edge.keys().next().copied().filter(|halvings| *halvings < last)
+        };
+        if largest(&self.edge).is_none() {
+            // What cells that wait meet may have got a fate meanwhile, without the one for which they wait.
+            let mut places: Vec<Place> = self.waiting.drain().flat_map(|(_, places)| places).collect();
+            places.sort_unstable();
+            places.dedup();
+            self.edge.retain(|halvings, _| *halvings >= last);
+            places.into_iter().for_each(|place| self.look(place));
+        }
+        largest(&self.edge)
+    }
+
+    /// The fate of a point of a window, if it is proved.
+    pub fn fate(&self, window: usize, point: &[f64]) -> Option<ProvedFate> {
+        match self.cells.at(window, point)? {
+            Known::Fate(fate) => Some(*fate),
+            Known::Open(_) => None,
+        }
+    }
+
+    /// The share of the first window that has a fate for certain.
+    pub fn share(&self, fate: ProvedFate) -> f64 {
+        let whole = &self.cells.windows()[0];
+        let mut share = 0.0;
+        self.cells.visit(0, &mut |_| true, &mut |_, known, points| {
+            if matches!(known, Known::Fate(found) if *found == fate) {
+                let sides = points.iter().zip(whole).map(|(own, whole)| own.width() / whole.width());
+                share += sides.product::<f64>();
+            }
+        });
+        share
+    }
+
+    /// The traps.
+    pub fn traps(&self) -> &[Trap] {
+        &self.traps
+    }
+}
+
+/// 2^−`halvings`.
+fn pow_half(halvings: u32) -> f64 {
+    0.5f64.powi(halvings as i32)
+}
+
+fn check<M: EnclosedMap>(
+    maps: &[&M],
+    windows: &[&[Enclosure]],
+    division: Division,
+) -> Result<(), Error> {
+    if maps.is_empty() || maps.len() != windows.len() {
+        let given = windows.len();
+        return Error::argument("windows", format!("{given} windows for {} maps", maps.len()));
+    }
+    for (map, window) in maps.iter().zip(windows) {
+        let is_side = |x: &Enclosure| x.low < x.high && x.width().is_finite();
+        let needed = map.dimension();
+        if window.len() != needed || needed != maps[0].dimension() || !window.iter().all(is_side) {
+            return Error::argument("window", format!("{needed} intervals of finite, positive widths are needed"));
+        }
+    }
+    match division.first <= division.last && division.last <= DEEPEST {
+        true => Ok(()),
+        false => Error::argument("division", format!("first ≤ last ≤ {DEEPEST} is needed")),
+    }
+}
+
+/// What the images of cells show, in their order, whatever the number of threads.
+fn images<M: EnclosedMap + Sync>(
+    maps: &[&M],
+    traps: &[Trap],
+    cells: &[Fresh],
+) -> Vec<Result<Known, Error>> {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let share = cells.len().div_ceil(threads).max(1);
+    let of_cell = |cell: &Fresh| known(maps[cell.window], (maps.len(), traps), cell);
+    std::thread::scope(|scope| {
+        let parts: Vec<_> = cells
+            .chunks(share)
+            .map(|part| scope.spawn(move || part.iter().map(of_cell).collect::<Vec<_>>()))
+            .collect();
+        parts.into_iter().flat_map(|part| part.join().unwrap_or_default()).collect()
+    })
+}
+
+/// What one image shows of a cell.
+fn known(
+    map: &impl EnclosedMap,
+    (maps, traps): (usize, &[Trap]),
+    cell: &Fresh,
+) -> Result<Known, Error> {
+    let trapped = traps.iter().position(|trap| cell.window == 0 && trap.contains(&cell.points));
+    if let Some(trap) = trapped {
+        return Ok(Known::Fate(ProvedFate::Trap(trap)));
+    }
+    match map.carry(StartSet::of_box(&cell.points).without_derivatives()) {
+        Ok(carried) => {
+            let leads_to_first = cell.window + 1 == maps;
+            let in_trap = |trap: &Trap| leads_to_first && trap.contains_set(&carried.set);
+            Ok(match traps.iter().position(in_trap) {
+                Some(trap) => Known::Fate(ProvedFate::Trap(trap)),
+                None => Known::Open(Some(OrientedBox::of_set(&carried.set))),
+            })
+        }
+        Err(Error::Undecided(undecided)) => Ok(match undecided.reason {
+            Reason::Stopped { surface } => Known::Fate(ProvedFate::Stopped(surface)),
+            _ => Known::Open(None),
+        }),
+        Err(error) => Err(error),
+    }
+}

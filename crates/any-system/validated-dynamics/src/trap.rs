@@ -1,0 +1,212 @@
+//! Traps: sets that a map leads into themselves, all of whose points converge to a fixed point.
+
+use crate::cells::part_of;
+use crate::enclosed_map::{EnclosedMap, StartSet};
+use crate::fixed_point::ProvedFixedPoint;
+use crate::frame::inverse_of;
+use crate::matrix::{Matrix, exact, middle, offsets, row_norm};
+use crate::multipliers::eigenbasis;
+use crate::set::AffineSet;
+use crate::undecided::{Error, Reason, Undecided};
+use interval_arithmetic::Enclosure;
+use nalgebra::DMatrix;
+
+/// How much larger the next contracting trap is that is tried, and how often. The largest has 10⁹ times the size of the first.
+const LARGER: f64 = 1.5;
+const LARGER_TRIES: usize = 50;
+
+/// How much larger a trap is whose image is to be in the trap before. A fixed point with a multiplier above 1/1.2 has traps that do not grow.
+const GROWN: f64 = 1.2;
+
+/// How often the box of a trap is halved until each part's image is in the trap before. Each time the error of a part's image falls by four, and
+/// their number grows by 2ⁿ.
+const HALVES: u32 = 5;
+
+/// The size of the smallest trap that is tried, as a part of the box in which the fixed point is the only one.
+const FIRST: f64 = 1.0;
+
+/// A trap: the points c + A u with |u_k| ≤ ρ. They all converge to the one fixed point in it: the map is a contraction of a smaller set of this
+/// form, in the coordinates u, and leads the larger ones step by step into smaller ones.
+#[derive(Debug, Clone)]
+pub struct Trap {
+    /// The centre c.
+    pub centre: Vec<f64>,
+    /// The directions A, as columns.
+    pub directions: DMatrix<f64>,
+    /// The size ρ.
+    pub size: f64,
+    /// The size of the contraction.
+    pub contracting: f64,
+    /// A bound of the norm of its derivatives in the coordinates u: distances to the fixed point fall by this factor there, at least.
+    pub contraction: f64,
+    inverse: Matrix,
+}
+
+impl Trap {
+    /// The largest trap about an attracting fixed point that is found with the directions of its eigenvectors.
+    ///
+    /// ```
+    /// use equations::{Formulas, Names};
+    /// use validated_dynamics::{FormulaMap, Trap, fixed_point};
+    /// let names = Names::new(&["x"], &[])?;
+    /// let cosine = FormulaMap::new(Formulas::from_text(names, &["cos(x)"])?, 1)?;
+    /// let trap = Trap::new(&cosine, &fixed_point(&cosine, &[0.7], &[])?, 1000)?;
+    /// assert!(trap.contracting > 0.5 && trap.contraction < 1.0);
+    /// # Ok::<(), validated_dynamics::Error>(())
+    /// ```
+    ///
+    /// It grows until it has used up this many `images`.
+    ///
+    /// # Errors
+    /// [`Error::Undecided`] with [`Reason::NotInside`] if no trap is found: of a fixed point that does not attract, or hardly; what the map does not
+    /// decide.
+    pub fn new(
+        map: &impl EnclosedMap,
+        fixed: &ProvedFixedPoint,
+        images: usize,
+    ) -> Result<Trap, Error> {
+        let count = map.dimension();
+        let own = Matrix::from_fn(count, count, |row, column| fixed.image.derivatives.at(row, column));
+        let basis = eigenbasis(&own.middle()).map(|(basis, _)| basis);
+        let directions = basis.filter(|basis| basis.clone().lu().try_inverse().is_some());
+        let directions = directions.unwrap_or_else(|| DMatrix::identity(count, count));
+        let widths = fixed.unique_in.iter().map(Enclosure::width);
+        let mut size = FIRST * widths.fold(f64::MIN_POSITIVE, f64::max);
+        let centre = middle(&fixed.point);
+        let mut found = None;
+        for _ in 0..LARGER_TRIES {
+            match Trap::proved(map, &centre, &directions, size, &fixed.parameters) {
+                Ok(Some(trap)) => found = Some(trap),
+                // Small traps may be lost in rounding, and large ones are too wide.
+                Ok(None) | Err(Error::Undecided(_)) if found.is_some() => break,
+                Ok(None) | Err(Error::Undecided(_)) => {}
+                Err(error) => return Err(error),
+            }
+            size *= LARGER;
+        }
+        let found = found.ok_or_else(|| {
+            Error::Undecided(Box::new(Undecided {
+                reason: Reason::NotInside { tries: LARGER_TRIES },
+                mode: None,
+                time: Enclosure::ZERO,
+                states: fixed.point.clone(),
+                names: (1..=count).map(|place| format!("variable {place}")).collect(),
+            }))
+        })?;
+        found.grown(map, &fixed.parameters, images)
+    }
+
+    /// The same trap, grown as long as the images of all parts of the larger one are in the one before.
+    fn grown(
+        mut self,
+        map: &impl EnclosedMap,
+        parameters: &[Enclosure],
+        mut images: usize,
+    ) -> Result<Trap, Error> {
+        loop {
+            let size = GROWN * self.size;
+            let all = vec![Enclosure::new(-size, size); self.centre.len()];
+            if !self.receives(map, &all, parameters, HALVES, &mut images)? {
+                return Ok(self);
+            }
+            self.size = size;
+        }
+    }
+
+    /// True if the images of all points with these coordinates are in the trap.
+    fn receives(
+        &self,
+        map: &impl EnclosedMap,
+        u: &[Enclosure],
+        parameters: &[Enclosure],
+        halves: u32,
+        images: &mut usize,
+    ) -> Result<bool, Error> {
+        if *images == 0 {
+            return Ok(false);
+        }
+        *images -= 1;
+        match map.carry(self.start(u, parameters).without_derivatives()) {
+            Ok(carried) if self.contains_set(&carried.set) => return Ok(true),
+            Ok(_) | Err(Error::Undecided(_)) if halves > 0 => {}
+            Ok(_) | Err(Error::Undecided(_)) => return Ok(false),
+            Err(error) => return Err(error),
+        }
+        for part in 0..1 << u.len() {
+            if !self.receives(map, &part_of(u, part), parameters, halves - 1, images)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// The points with these coordinates, and the parameters, which are further coordinates in the direction of themselves.
+    fn start(&self, u: &[Enclosure], parameters: &[Enclosure]) -> StartSet {
+        let (count, more) = (self.directions.ncols(), parameters.len());
+        let all = DMatrix::from_fn(count + more, count + more, |row, column| {
+            match row < count && column < count {
+                true => self.directions[(row, column)],
+                false => f64::from(row == column),
+            }
+        });
+        let at = middle(parameters);
+        let u = [u, &offsets(parameters, &at)].concat();
+        StartSet::of_parallelepiped(&[&self.centre[..], &at].concat(), &all, &u)
+    }
+
+    /// The trap of this centre, these directions and this size, for all values of the parameters; `None` if it is not proved to be one.
+    ///
+    /// # Errors
+    /// What the map does not decide.
+    pub fn proved(
+        map: &impl EnclosedMap,
+        centre: &[f64],
+        directions: &DMatrix<f64>,
+        size: f64,
+        parameters: &[Enclosure],
+    ) -> Result<Option<Trap>, Error> {
+        let count = directions.ncols();
+        let Some(near) = directions.clone().lu().try_inverse() else { return Ok(None) };
+        let Some(inverse) = inverse_of(directions, &near) else { return Ok(None) };
+        let mut trap = Trap {
+            centre: centre.to_vec(),
+            directions: directions.clone(),
+            size,
+            contracting: size,
+            contraction: f64::INFINITY,
+            inverse,
+        };
+        let u = vec![Enclosure::new(-size, size); count];
+        let carried = map.carry(trap.start(&u, parameters))?;
+        let Some(chain) = carried.chain else { return Ok(None) };
+        let slopes = trap.inverse.times(&chain.matrix());
+        let own = Matrix::from_fn(count, count, |row, column| slopes.at(row, column));
+        trap.contraction = row_norm(&own);
+        let inside = trap.coordinates(&carried.set).iter().all(|u| u.magnitude() < size);
+        Ok((trap.contraction < 1.0 && inside).then_some(trap))
+    }
+
+    /// The coordinates u of the points of a set.
+    pub(crate) fn coordinates(&self, set: &AffineSet) -> Vec<Enclosure> {
+        let off = offsets(&exact(set.centre()), &self.centre);
+        set.values(&self.inverse.apply(&off), &self.inverse)
+    }
+
+    /// True if all points of a box are in the trap.
+    pub fn contains(&self, points: &[Enclosure]) -> bool {
+        let coordinates = self.inverse.apply(&offsets(points, &self.centre));
+        points.len() == self.centre.len() && coordinates.iter().all(|u| u.magnitude() <= self.size)
+    }
+
+    /// True unless no point of a box is in the trap, for certain.
+    pub(crate) fn meets(&self, points: &[Enclosure]) -> bool {
+        let coordinates = self.inverse.apply(&offsets(points, &self.centre));
+        coordinates.iter().all(|u| u.low <= self.size && -self.size <= u.high)
+    }
+
+    /// True if all points of a set are in the trap.
+    pub fn contains_set(&self, set: &AffineSet) -> bool {
+        set.centre().len() == self.centre.len()
+            && self.coordinates(set).iter().all(|u| u.magnitude() <= self.size)
+    }
+}
