@@ -25,7 +25,7 @@ fn main() -> Result<(), Error> {
     for guess in [[-1.1, 0.1], [1.1, 0.1]] {
         let found = fixed_point(&map, &guess, &[])?;
         let begin = Instant::now();
-        let trap = Trap::new(&map, &found, 10_000)?;
+        let trap = Trap::new(&map, &found, 60_000)?;
         println!("{:?} trap {} {}", begin.elapsed(), trap.size, trap.contraction); traps.push(trap);
     }
     let window = [Enclosure::new(-2.2, 2.2), Enclosure::new(-2.2, 2.2)];
@@ -35,7 +35,7 @@ fn main() -> Result<(), Error> {
     let begin = Instant::now();
     let maps: Vec<&SectionMap> = maps.iter().collect();
     let mut k = 0;
-    let basins = ProvedBasins::watched(&maps, traps, &windows, Division { first: 4, last, images }, &mut |p| { k += 1; if k % 10 == 0 { println!("{:?} {p:?}", begin.elapsed()); } ControlFlow::Continue(()) })?;
+    let basins = ProvedBasins::watched(&maps, traps, &windows, Division { first: std::env::args().nth(4).map_or(4, |x| x.parse().unwrap()), last, images }, &mut |p| { k += 1; if k % 10 == 0 || true { println!("{:?} {p:?}", begin.elapsed()); } ControlFlow::Continue(()) })?;
     println!("{:?} images {}", begin.elapsed(), basins.images);
     for (k, _) in basins.traps().iter().enumerate() {
         println!("{k} {}", basins.share(ProvedFate::Trap(k)));

@@ -1,11 +1,11 @@
 //! Maps that are enclosed with their derivatives: return maps of systems, and maps that are formulas.
 
-use crate::matrix::{Matrix, exact};
+use crate::matrix::{Matrix, exact, sums};
 use crate::run::{Limits, ProvedEvent, ValidatedRun, carried};
 use crate::set::{AffineSet, Chain};
 use crate::start::{Chart, check_box};
 use crate::system::ValidatedSystem;
-use crate::undecided::{Error, Reason};
+use crate::undecided::{Error, Reason, Undecided};
 use equations::Formulas;
 use hybrid_system::Label;
 use interval_arithmetic::Enclosure;
@@ -57,8 +57,16 @@ impl StartSet {
     /// The points c + A u for all u of a box, with derivatives with respect to u.
     pub fn of_parallelepiped(centre: &[f64], directions: &DMatrix<f64>, u: &[Enclosure]) -> StartSet {
         let directions = Matrix::of_numbers(directions);
-        let set = AffineSet::of_box(u).image(&exact(centre), &directions, None);
+        let set = AffineSet::of_box(u);
+        // The set has its centre in the middle of the box, not at u = 0.
+        let at_centre = sums(&exact(centre), &directions.apply(&set.centre_box()));
+        let set = set.image(&at_centre, &directions, None);
         StartSet { set, chain: Some(Chain::identity(u.len()).then(&directions)) }
+    }
+
+    /// A set, with derivatives with respect to its points.
+    pub fn of_set(set: &AffineSet) -> StartSet {
+        StartSet { set: set.clone(), chain: Some(Chain::identity(set.centre().len())) }
     }
 
     /// The same without derivatives, in less time.
@@ -234,7 +242,8 @@ impl EnclosedMap for FormulaMap {
         let StartSet { mut set, mut chain } = start;
         check_box(&self.formulas.names().states, set.hull())?;
         for _ in 0..self.times {
-            (set, chain) = carried(&set, chain, (&self.formulas, &self.slopes))?;
+            let next = carried(&set, chain, (&self.formulas, &self.slopes));
+            (set, chain) = next.map_err(|error| self.undecided(&set, error))?;
         }
         let (set, chain) = self.variables_of(&set, chain);
         Ok(Carried { set, events: Vec::new(), chain })
@@ -242,6 +251,16 @@ impl EnclosedMap for FormulaMap {
 }
 
 impl FormulaMap {
+    fn undecided(&self, set: &AffineSet, error: equations::Error) -> Error {
+        Error::Undecided(Box::new(Undecided {
+            reason: Reason::Domain(error),
+            mode: None,
+            time: Enclosure::ZERO,
+            states: set.hull().to_vec(),
+            names: self.formulas.names().states.clone(),
+        }))
+    }
+
     /// The variables alone, without the parameters.
     fn variables_of(&self, set: &AffineSet, chain: Option<Chain>) -> (AffineSet, Option<Chain>) {
         let all = set.hull().len();

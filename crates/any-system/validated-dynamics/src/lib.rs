@@ -2,6 +2,7 @@
 
 mod basins;
 mod cells;
+mod division;
 mod enclosed_map;
 mod expansion;
 mod fixed_point;
@@ -22,6 +23,7 @@ mod undecided;
 mod window;
 
 pub use basins::{Division, Progress, ProvedBasins, ProvedFate};
+pub use division::{Budget, Divided, divided, halves};
 pub use enclosed_map::{Carried, EnclosedMap, FormulaMap, MapImage, SectionMap, StartSet};
 pub use fixed_point::{ProvedFixedPoint, fixed_point};
 pub use interval_arithmetic::Enclosure;

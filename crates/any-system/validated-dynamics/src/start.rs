@@ -2,7 +2,6 @@
 
 use crate::enclosed_map::StartSet;
 use crate::run::{ValidatedRun, carried};
-use crate::set::{AffineSet, Chain};
 use crate::system::ValidatedSystem;
 use crate::undecided::Error;
 use equations::{Formulas, Names};
@@ -73,16 +72,23 @@ impl ValidatedSystem {
         Ok(ValidatedRun::new(self, chart.mode, set, chain, chart.on.clone()))
     }
 
+    /// A run from all states of a set, such as that of another run: of the same states without guards, say.
+    ///
+    /// # Errors
+    /// As [`start_on`](Self::start_on).
+    pub fn start_from(&self, mode: &str, start: StartSet) -> Result<ValidatedRun<'_>, Error> {
+        let mode = self.place_of(mode)?;
+        check_box(&self.names.states, start.set.hull())?;
+        let on = vec![false; self.modes[mode].guards.len()];
+        Ok(ValidatedRun::new(self, mode, start.set, start.chain, on))
+    }
+
     /// A run from all states of a box.
     ///
     /// # Errors
     /// As [`start_on`](Self::start_on).
     pub fn start_box(&self, mode: &str, states: &[Enclosure]) -> Result<ValidatedRun<'_>, Error> {
-        let mode = self.place_of(mode)?;
-        check_box(&self.names.states, states)?;
-        let (set, chain) = (AffineSet::of_box(states), Some(Chain::identity(states.len())));
-        let on = vec![false; self.modes[mode].guards.len()];
-        Ok(ValidatedRun::new(self, mode, set, chain, on))
+        self.start_from(mode, StartSet::of_box(states))
     }
 }
 

@@ -15,8 +15,9 @@ use nalgebra::DMatrix;
 const LARGER: f64 = 1.5;
 const LARGER_TRIES: usize = 50;
 
-/// How much larger a trap is whose image is to be in the trap before. A fixed point with a multiplier above 1/1.2 has traps that do not grow.
-const GROWN: f64 = 1.2;
+/// How much larger a trap is whose image is to be in the trap before. A box that turns by an eighth of a turn is √2 times
+/// as wide, so that a pair of multipliers above 1/(1.1 √2) has traps that do not grow.
+const GROWN: f64 = 1.1;
 
 /// How often the box of a trap is halved until each part's image is in the trap before. Each time the error of a part's image falls by four, and
 /// their number grows by 2ⁿ.

@@ -1,0 +1,51 @@
+//! A forced oscillator that hits a stop, ẍ + 0.1ẋ + x = F cos 1.3t with the stop at x = 0.5 and restitution 0.8: the stable orbit with one impact in
+//! each period, for all F from 0.95 to 1.05, and the forcing at which the motion without impacts grazes the stop first.
+
+use hybrid_system::Equations;
+use std::time::Instant;
+use validated_dynamics::{
+    Budget, Enclosure, Error, SectionMap, ValidatedSystem, divided, fixed_point, halves,
+};
+
+fn oscillator(forcing: &str) -> Equations {
+    Equations::new(&["x", "v"], &[("F", forcing)])
+        .mode_text("free", &["v", "F*cos(1.3*t) - 0.1*v - x"])
+        .rising_text("stop", "x - 0.5")
+        .resets_text(&["x", "-0.8*v"])
+}
+
+fn main() -> Result<(), Error> {
+    let begin = Instant::now();
+    let system = ValidatedSystem::new(&oscillator("1"))?;
+    let after = system.chart("free", &["v", "s"], &["0.5", "v", "s"])?;
+    let returns = SectionMap::new(&system, after, "stop", 1, &["v", "t - 2*pi/1.3"])?;
+    let orbit = fixed_point(&returns, &[-1.48, 0.16], &[])?;
+    println!("F = 1: v = {:?}, t = {:?}", orbit.point[0], orbit.point[1]);
+    println!("  multipliers {:?}, {:?}", orbit.multipliers, begin.elapsed());
+
+    // The same for intervals of F, each of which continues the orbit of its neighbour: their unique orbits are the same at common ends.
+    let system = ValidatedSystem::with_interval_parameters(&oscillator("1"), &["F"])?;
+    let after = system.chart("free", &["v", "s", "F"], &["0.5", "v", "s", "F"])?;
+    let returns = SectionMap::new(&system, after, "stop", 1, &["v", "t - 2*pi/1.3"])?;
+    let forcings = [Enclosure::new(0.95, 1.05)];
+    let budget = Budget { boxes: 1000, divisions: 8 };
+    let found = divided(&forcings, budget, halves, |forcings| {
+        let orbit = fixed_point(&returns, &[-1.48, 0.16], forcings)?;
+        Ok(orbit.is_attracting().then_some(orbit))
+    })?;
+    println!("0.95 ≤ F ≤ 1.05: {} intervals, {} open, {:?}", found.decided.len(), found.open.len(), begin.elapsed());
+
+    // Without the stop there is one periodic motion, of period 2π/1.3. Its largest x tells whether it meets the stop.
+    for forcing in ["0.350933688", "0.350933690"] {
+        let free = Equations::new(&["x", "v"], &[("F", forcing)])
+            .mode_text("free", &["v", "F*cos(1.3*t) - 0.1*v - x"])
+            .falling_text("peak", "v");
+        let system = ValidatedSystem::new(&free)?;
+        let start = system.chart("free", &["x", "s"], &["x", "0", "s"])?;
+        let returns = SectionMap::new(&system, start, "peak", 1, &["x", "t - 2*pi/1.3"])?;
+        let orbit = fixed_point(&returns, &[0.5, 2.0], &[])?;
+        println!("F = {forcing}: the largest x is {:?}", orbit.point[0]);
+    }
+    println!("{:?}", begin.elapsed());
+    Ok(())
+}
