@@ -2,18 +2,18 @@
 use hybrid_system::Equations;
 use validated_dynamics::*;
 fn main() -> Result<(), Error> {
-    let eq = Equations::new(&["x", "v"], &[])
-        .mode_text("flow", &["v", "0.2*cos(t) - 0.15*v + x - x^3"])
-        .rising_text("period", "t - 2*pi");
-    let system = ValidatedSystem::new(&eq)?;
-    let chart = system.chart("flow", &["x", "v"], &["x", "v", "0"])?;
-    let map = SectionMap::new(&system, chart, "period", 1, &["x", "v"])?;
-    let side = 4.4 / f64::from(1 << 12);
-    for i in 0..10 {
-        let x = -2.2 + 4.4 * (f64::from(i) * 0.618034).fract();
-        let v = -2.2 + 4.4 * (f64::from(i) * 0.754877).fract();
-        let cell = [Enclosure::new(x, x + side), Enclosure::new(v, v + side)];
-        map.image(&cell)?;
+    let oscillator = Equations::new(&["x", "y"], &[])
+        .mode_text("flow", &["y", "(1 - x^2)*y - x"])
+        .falling_text("right", "y")
+        .only_where_text("x");
+    let system = ValidatedSystem::new(&oscillator)?;
+    let axis = system.chart("flow", &["x"], &["x", "0"])?;
+    let returns = SectionMap::new(&system, axis, "right", 1, &["x"])?;
+    for (a, b) in [(1.8, 1.8001), (1.8, 1.801), (1.8, 1.81), (1.8, 1.83), (1.0, 1.01), (0.5, 0.505), (2.5, 2.51), (3.0, 3.01)] {
+        match returns.carry(StartSet::of_box(&[Enclosure::new(a, b)])) {
+            Ok(c) => println!("{a} {b} {:?} {:?}", c.set.hull(), c.events.len()),
+            Err(e) => println!("{a} {b} {e}"),
+        }
     }
     Ok(())
 }

@@ -15,13 +15,15 @@ use nalgebra::DMatrix;
 const LARGER: f64 = 1.5;
 const LARGER_TRIES: usize = 50;
 
-/// How much larger a trap is whose image is to be in the trap before. A box that turns by an eighth of a turn is √2 times
-/// as wide, so that a pair of multipliers above 1/(1.1 √2) has traps that do not grow.
-const GROWN: f64 = 1.1;
+/// How much larger a trap is, at first, whose image is to be in the trap before. Where it is not, the square root of this factor is tried, down to
+/// the second one, at which growth ends. A box that turns by an eighth of a turn is √2 times as wide, so that a pair of multipliers of size 0.65 allows a
+/// factor of 1.09.
+const GROWN: f64 = 2.0;
+const LEAST_GROWN: f64 = 1.04;
 
 /// How often the box of a trap is halved until each part's image is in the trap before. Each time the error of a part's image falls by four, and
 /// their number grows by 2ⁿ.
-const HALVES: u32 = 5;
+const HALVES: u32 = 10;
 
 /// The size of the smallest trap that is tried, as a part of the box in which the fixed point is the only one.
 const FIRST: f64 = 1.0;
@@ -104,17 +106,19 @@ impl Trap {
         parameters: &[Enclosure],
         mut images: usize,
     ) -> Result<Trap, Error> {
-        loop {
-            let size = GROWN * self.size;
+        let mut factor = GROWN;
+        while factor > LEAST_GROWN {
+            let size = factor * self.size;
             let all = vec![Enclosure::new(-size, size); self.centre.len()];
-            if !self.receives(map, &all, parameters, HALVES, &mut images)? {
-                return Ok(self);
+            match self.receives(map, &all, parameters, HALVES, &mut images)? {
+                true => self.size = size,
+                false => factor = factor.sqrt(),
             }
-            self.size = size;
         }
+        Ok(self)
     }
 
-    /// True if the images of all points with these coordinates are in the trap.
+    /// True if all points with these coordinates, or their images, are in the trap.
     fn receives(
         &self,
         map: &impl EnclosedMap,
@@ -123,6 +127,9 @@ impl Trap {
         halves: u32,
         images: &mut usize,
     ) -> Result<bool, Error> {
+        if u.iter().all(|u| u.magnitude() <= self.size) {
+            return Ok(true);
+        }
         if *images == 0 {
             return Ok(false);
         }

@@ -245,6 +245,8 @@ def test_the_exception_names_its_cause(name, tmp_path, monkeypatch):
 
 
 def test_progress_that_raises_stop_iteration_ends_with_an_error(tmp_path):
+    pytest.importorskip("zarr", reason="stores need zarr")
+
     def stop(done, all):
         raise StopIteration
 

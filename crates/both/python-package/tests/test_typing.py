@@ -9,6 +9,7 @@ import pytest
 
 pytest.importorskip("mypy", reason="SKIPPED types: mypy is not installed")
 pytest.importorskip("pyright", reason="SKIPPED types: pyright is not installed")
+pytest.importorskip("distributed", reason="SKIPPED types: dask.distributed, which the pages import, is not installed")
 ROOT = Path(__file__).resolve().parents[4]
 GALLERY = ROOT / "crates/both/python-package/gallery"
 

@@ -171,8 +171,9 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
                 return Ok(own.get().value(state.as_slice()));
             }
             let found = value.call1((self.array(state),))?;
-            // True and False would be numbers, and one of them the surface itself.
-            if found.is_instance_of::<PyBool>() || found.get_type().name()? == "bool" {
+            // True and False would be numbers, and one of them the surface itself. NumPy's have the second name before version 2.
+            let name = found.get_type().name()?;
+            if found.is_instance_of::<PyBool>() || name == "bool" || name == "bool_" {
                 let text = format!(
                     "{} returned {found}; return a number that is zero on the surface and changes its sign there",
                     what()
