@@ -17,12 +17,13 @@ pub(super) enum CrateClass {
 }
 
 /// Every crate, with its class and the reason for it.
-const CLASSES: [(&str, CrateClass, &str); 18] = [
+const CLASSES: [(&str, CrateClass, &str); 19] = [
     ("hybrid-system", Computing, "executions are functions of the system and its start"),
     ("equations", Computing, "values are functions of formulas, time and state"),
     ("interval-arithmetic", Computing, "enclosures are functions of numbers"),
     ("hopper-proof", Computing, "proofs are functions of a window"),
     ("return-map", Computing, "maps and their fixed points are functions of a system"),
+    ("validated-dynamics", Computing, "proofs are functions of equations and boxes"),
     ("basin-of-attraction", Computing, "random points come from a seed argument"),
     ("passive-hopper", Computing, "hops are functions of α and M"),
     ("hopper-asymptotics", Computing, "expansions are functions of n and M"),
@@ -47,11 +48,12 @@ const CLASSES: [(&str, CrateClass, &str); 18] = [
 ];
 
 /// Crates that any other system could use. They do not contain the word hopper.
-pub(super) const GENERIC: [&str; 7] = [
+pub(super) const GENERIC: [&str; 8] = [
     "hybrid-system",
     "equations",
     "interval-arithmetic",
     "return-map",
+    "validated-dynamics",
     "basin-of-attraction",
     "journal-figures",
     "resumable-job",

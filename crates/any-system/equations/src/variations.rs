@@ -31,7 +31,8 @@ impl Formulas {
         let count = self.names.states.len();
         length("marks of components", count, carried.len())?;
         let mut names = self.names.clone();
-        for (row, column) in (0..count).flat_map(|row| (0..count).map(move |column| (row, column))) {
+        for (row, column) in (0..count).flat_map(|row| (0..count).map(move |column| (row, column)))
+        {
             let mut name = format!("d{row}_{column}");
             while names.all().any(|known| known == name) {
                 name.push('_');
@@ -113,7 +114,7 @@ impl Formulas {
             node => node.clone(),
         };
         let mut graph = Graph::of(self.nodes.iter().map(moved).collect());
-        let added = (first..first + places.len()).filter_map(|component| further(component));
+        let added = (first..first + places.len()).filter_map(further);
         let added: Vec<usize> = added.map(|node| graph.place(node)).collect();
         let outputs = self.outputs.iter().copied().chain(added).collect();
         Ok(Formulas::of(names, graph.into_nodes(), outputs))

@@ -3,6 +3,8 @@
 //! Orbits cross each half of an axis in one direction. The return map of the right half has a trap: an interval all of whose points converge. Points of the
 //! other halves come into it, and each part of the annulus comes to one of the halves.
 
+#![allow(clippy::print_stdout)] // a program
+
 use hybrid_system::Equations;
 use std::time::Instant;
 use validated_dynamics::{
@@ -11,7 +13,7 @@ use validated_dynamics::{
 };
 
 /// The part of each half of an axis of which convergence is shown.
-const HALF: Enclosure = Enclosure::new(0.2, 4.0);
+const HALF: Enclosure = Enclosure::new(0.1, 3.9);
 
 /// The halves of the axes, with their states at a distance r.
 const HALVES: [(&str, [&str; 2]); 4] =
@@ -31,11 +33,15 @@ fn main() -> Result<(), Error> {
 
     let returns = to_the_right(HALVES[0])?.within(limits);
     let cycle = fixed_point(&returns, &[2.0], &[])?;
-    println!("the cycle crosses at {:?}, multiplier {:?}", cycle.point[0], cycle.multipliers[0].real());
+    println!(
+        "the cycle crosses at {:?}, multiplier {:?}",
+        cycle.point[0],
+        cycle.multipliers[0].real()
+    );
     let trap = Trap::new(&returns, &cycle, 20_000)?;
     println!("on the right {HALF:?} converges: {}, {:?}", trap.contains(&[HALF]), begin.elapsed());
 
-    let budget = Budget { boxes: 20_000, divisions: 12 };
+    let budget = Budget { boxes: 50_000, divisions: 12 };
     for half in &HALVES[1..] {
         let map = to_the_right(*half)?.within(limits);
         let found = divided(&[HALF], budget, halves, |part| {
@@ -48,7 +54,7 @@ fn main() -> Result<(), Error> {
 
     // Parts of the annulus that begin on an axis leave it first, for the time ¼.
     let polar = free.chart("flow", &["r", "a"], &["r*cos(a)", "r*sin(a)"])?;
-    let annulus = [Enclosure::new(0.5, 3.0), Enclosure::new(0.0, 6.2832)];
+    let annulus = [Enclosure::new(0.5, 3.0), Enclosure::new(0.0, 6.3)];
     let found = divided(&annulus, budget, halves, |part| {
         let after = |time: f64| {
             let mut run = free.start_on(&polar, part)?.within(limits).without_derivatives();
@@ -61,7 +67,6 @@ fn main() -> Result<(), Error> {
         after(0.0).or_else(|_| after(0.25))
     })?;
     let (decided, open) = (found.decided.len(), found.open.len());
-    for (part, why) in found.open.iter().step_by(400) { println!("{part:?} {:?}", why.as_ref().map(|w| w.reason.to_string())); }
     println!("annulus: {decided} parts come to a half, {open} are open, {:?}", begin.elapsed());
     Ok(())
 }

@@ -1,10 +1,10 @@
 //! Basins that are proved cell by cell.
 
+use crate::cell_images::{Fresh, Known, images};
 use crate::cells::{Cells, Place, part_of};
-use crate::enclosed_map::{EnclosedMap, StartSet};
-use crate::oriented_box::OrientedBox;
+use crate::enclosed_map::EnclosedMap;
 use crate::trap::Trap;
-use crate::undecided::{Error, Reason};
+use crate::undecided::Error;
 use hybrid_system::Label;
 use interval_arithmetic::Enclosure;
 use std::collections::{BTreeMap, HashMap};
@@ -20,22 +20,6 @@ pub enum ProvedFate {
     Trap(usize),
     /// An event at this surface ends the execution of all points.
     Stopped(Label),
-}
-
-/// What is known of a cell.
-#[derive(Debug, Clone)]
-enum Known {
-    Fate(ProvedFate),
-    /// Its image, if it has one.
-    Open(Option<OrientedBox>),
-}
-
-/// A cell whose image is to be found.
-struct Fresh {
-    place: Place,
-    window: usize,
-    halvings: u32,
-    points: Vec<Enclosure>,
 }
 
 /// An open cell that may be divided.
@@ -270,7 +254,9 @@ impl ProvedBasins {
             return Meets::Edge(None);
         }
         // Without an image the cell is too large.
-        let Some(Known::Open(Some(image))) = self.cells.get(place) else { return Meets::Edge(None) };
+        let Some(Known::Open(Some(image))) = self.cells.get(place) else {
+            return Meets::Edge(None);
+        };
         let next = (own.window + 1) % self.cells.windows().len();
         let (mut fate, mut other, mut mixed) = (None, None, false);
         let enter = &mut |points: &[Enclosure]| !image.misses(points);
@@ -295,7 +281,8 @@ impl ProvedBasins {
         };
         if largest(&self.edge).is_none() {
             // What cells that wait meet may have got a fate meanwhile, without the one for which they wait.
-            let mut places: Vec<Place> = self.waiting.drain().flat_map(|(_, places)| places).collect();
+            let mut places: Vec<Place> =
+                self.waiting.drain().flat_map(|(_, places)| places).collect();
             places.sort_unstable();
             places.dedup();
             self.edge.retain(|halvings, _| *halvings >= last);
@@ -318,7 +305,8 @@ impl ProvedBasins {
         let mut share = 0.0;
         self.cells.visit(0, &mut |_| true, &mut |_, known, points| {
             if matches!(known, Known::Fate(found) if *found == fate) {
-                let sides = points.iter().zip(whole).map(|(own, whole)| own.width() / whole.width());
+                let sides =
+                    points.iter().zip(whole).map(|(own, whole)| own.width() / whole.width());
                 share += sides.product::<f64>();
             }
         });
@@ -349,56 +337,14 @@ fn check<M: EnclosedMap>(
         let is_side = |x: &Enclosure| x.low < x.high && x.width().is_finite();
         let needed = map.dimension();
         if window.len() != needed || needed != maps[0].dimension() || !window.iter().all(is_side) {
-            return Error::argument("window", format!("{needed} intervals of finite, positive widths are needed"));
+            return Error::argument(
+                "window",
+                format!("{needed} intervals of finite, positive widths are needed"),
+            );
         }
     }
     match division.first <= division.last && division.last <= DEEPEST {
         true => Ok(()),
         false => Error::argument("division", format!("first ≤ last ≤ {DEEPEST} is needed")),
-    }
-}
-
-/// What the images of cells show, in their order, whatever the number of threads.
-fn images<M: EnclosedMap + Sync>(
-    maps: &[&M],
-    traps: &[Trap],
-    cells: &[Fresh],
-) -> Vec<Result<Known, Error>> {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let share = cells.len().div_ceil(threads).max(1);
-    let of_cell = |cell: &Fresh| known(maps[cell.window], (maps.len(), traps), cell);
-    std::thread::scope(|scope| {
-        let parts: Vec<_> = cells
-            .chunks(share)
-            .map(|part| scope.spawn(move || part.iter().map(of_cell).collect::<Vec<_>>()))
-            .collect();
-        parts.into_iter().flat_map(|part| part.join().unwrap_or_default()).collect()
-    })
-}
-
-/// What one image shows of a cell.
-fn known(
-    map: &impl EnclosedMap,
-    (maps, traps): (usize, &[Trap]),
-    cell: &Fresh,
-) -> Result<Known, Error> {
-    let trapped = traps.iter().position(|trap| cell.window == 0 && trap.contains(&cell.points));
-    if let Some(trap) = trapped {
-        return Ok(Known::Fate(ProvedFate::Trap(trap)));
-    }
-    match map.carry(StartSet::of_box(&cell.points).without_derivatives()) {
-        Ok(carried) => {
-            let leads_to_first = cell.window + 1 == maps;
-            let in_trap = |trap: &Trap| leads_to_first && trap.contains_set(&carried.set);
-            Ok(match traps.iter().position(in_trap) {
-                Some(trap) => Known::Fate(ProvedFate::Trap(trap)),
-                None => Known::Open(Some(OrientedBox::of_set(&carried.set))),
-            })
-        }
-        Err(Error::Undecided(undecided)) => Ok(match undecided.reason {
-            Reason::Stopped { surface } => Known::Fate(ProvedFate::Stopped(surface)),
-            _ => Known::Open(None),
-        }),
-        Err(error) => Err(error),
     }
 }

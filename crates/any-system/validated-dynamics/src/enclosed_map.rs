@@ -1,7 +1,8 @@
 //! Maps that are enclosed with their derivatives: return maps of systems, and maps that are formulas.
 
+use crate::event::{ProvedEvent, carried};
 use crate::matrix::{Matrix, exact, sums};
-use crate::run::{Limits, ProvedEvent, ValidatedRun, carried};
+use crate::run::{Limits, ValidatedRun};
 use crate::set::{AffineSet, Chain};
 use crate::start::{Chart, check_box};
 use crate::system::ValidatedSystem;
@@ -55,7 +56,11 @@ impl StartSet {
     }
 
     /// The points c + A u for all u of a box, with derivatives with respect to u.
-    pub fn of_parallelepiped(centre: &[f64], directions: &DMatrix<f64>, u: &[Enclosure]) -> StartSet {
+    pub fn of_parallelepiped(
+        centre: &[f64],
+        directions: &DMatrix<f64>,
+        u: &[Enclosure],
+    ) -> StartSet {
         let directions = Matrix::of_numbers(directions);
         let set = AffineSet::of_box(u);
         // The set has its centre in the middle of the box, not at u = 0.
@@ -141,12 +146,18 @@ impl<'s> SectionMap<'s> {
         read: &[&str],
     ) -> Result<SectionMap<'s>, Error> {
         if count == 0 {
-            return Error::argument("count", "0, but the map leads to the first event or a later one");
+            return Error::argument(
+                "count",
+                "0, but the map leads to the first event or a later one",
+            );
         }
         let variables = chart.states.names().states.len();
         if read.is_empty() || read.len() > variables {
             let given = read.len();
-            return Error::argument("read", format!("{given} texts for {variables} variables of the chart"));
+            return Error::argument(
+                "read",
+                format!("{given} texts for {variables} variables of the chart"),
+            );
         }
         let read = system.formulas(read)?;
         let read = (read.clone(), read.jacobian()?);
@@ -222,7 +233,10 @@ impl FormulaMap {
     pub fn new(formulas: Formulas, times: usize) -> Result<FormulaMap, Error> {
         let (variables, count) = (formulas.names().states.len(), formulas.count());
         if count == 0 || count > variables {
-            return Error::argument("formulas", format!("{count} of them for {variables} variables"));
+            return Error::argument(
+                "formulas",
+                format!("{count} of them for {variables} variables"),
+            );
         }
         if times == 0 {
             return Error::argument("times", "0, but the map is applied at least once");

@@ -16,7 +16,7 @@ const CONVERGED: f64 = 1e-12;
 /// How much wider than the distance of the fixed point the box is, at first.
 const INFLATION: f64 = 4.0;
 
-/// How often the box is widened. Each time it is [`INFLATION`] times as wide.
+/// How often the box is widened. Each time it is [`INFLATION`] times as wide, at least.
 const TRIES: usize = 8;
 
 /// A fixed point that exists, and is the only one in a box.
@@ -87,10 +87,15 @@ pub fn fixed_point(
     let mut radii: Vec<f64> = step.iter().zip(&centre).map(|(x, c)| about(x, *c)).collect();
     let krawczyk = Krawczyk { map, centre, inverse, step, parameters };
     for _ in 0..TRIES {
-        if let Some((point, unique_in)) = krawczyk.proved(&radii)? {
-            return krawczyk.narrowest(point, unique_in);
+        let (found, all) = krawczyk.boxes(&radii)?;
+        if found.iter().zip(&all).all(|(k, x)| x.low < k.low && k.high < x.high) {
+            return krawczyk.narrowest(found, all);
         }
-        radii.iter_mut().for_each(|radius| *radius *= INFLATION);
+        // As wide as what came out, in each direction (S. M. Rump's inflation).
+        let off = offsets(&found, &krawczyk.centre);
+        for (radius, off) in radii.iter_mut().zip(&off) {
+            *radius = INFLATION * off.magnitude().max(*radius);
+        }
     }
     krawczyk.undecided(Reason::NotInside { tries: TRIES })
 }
@@ -106,14 +111,12 @@ struct Krawczyk<'m, M> {
 }
 
 impl<M: EnclosedMap> Krawczyk<'_, M> {
-    /// Krawczyk's box, and the box with these radii, if the first is inside of the second.
-    fn proved(&self, radii: &[f64]) -> Result<Option<(Vec<Enclosure>, Vec<Enclosure>)>, Error> {
+    /// Krawczyk's box, and the box with these radii from which it comes.
+    fn boxes(&self, radii: &[f64]) -> Result<(Vec<Enclosure>, Vec<Enclosure>), Error> {
         let around = |(centre, radius): (&f64, &f64)| Enclosure::around(*centre, *radius);
         let all: Vec<Enclosure> = self.centre.iter().zip(radii).map(around).collect();
         let image = self.map.image(&[&all[..], self.parameters].concat())?;
-        let found = self.operator(&image, &all);
-        let inside = found.iter().zip(&all).all(|(k, x)| x.low < k.low && k.high < x.high);
-        Ok(inside.then_some((found, all)))
+        Ok((self.operator(&image, &all), all))
     }
 
     /// y − A F(y) + (I − A DF) (X − y).
@@ -125,8 +128,12 @@ impl<M: EnclosedMap> Krawczyk<'_, M> {
         });
         let scaled = Matrix::of_numbers(&self.inverse).times(&slopes);
         let rest = Matrix::identity(size).minus(&scaled).apply(&offsets(all, &self.centre));
-        let newton: Vec<Enclosure> =
-            self.centre.iter().zip(&self.step).map(|(c, step)| Enclosure::from(*c) - *step).collect();
+        let newton: Vec<Enclosure> = self
+            .centre
+            .iter()
+            .zip(&self.step)
+            .map(|(c, step)| Enclosure::from(*c) - *step)
+            .collect();
         sums(&newton, &rest)
     }
 
@@ -165,13 +172,15 @@ fn newton(
     for _ in 0..NEWTON_STEPS {
         let image = map.image(&[exact(&point), at.clone()].concat())?;
         let slopes = image.derivatives.middle().columns(0, size) - DMatrix::identity(size, size);
-        let Some(inverse) = slopes.try_inverse().filter(|found| found.iter().all(|x| x.is_finite()))
+        let Some(inverse) =
+            slopes.try_inverse().filter(|found| found.iter().all(|x| x.is_finite()))
         else {
             return undecided(Reason::Singular, &exact(&point));
         };
         let off = offsets(&image.values, &point).iter().map(Enclosure::middle).collect::<Vec<_>>();
         let step = &inverse * DVector::from_vec(off);
-        let relative = |(step, x): (&f64, &f64)| step.abs() / (x.abs() + f64::MIN_POSITIVE).max(1e-3);
+        let relative =
+            |(step, x): (&f64, &f64)| step.abs() / (x.abs() + f64::MIN_POSITIVE).max(1e-3);
         last = step.iter().zip(&point).map(relative).fold(0.0, f64::max);
         point.iter_mut().zip(&step).for_each(|(x, step)| *x -= step);
         if last < CONVERGED {

@@ -53,13 +53,9 @@ pub fn multipliers(matrices: &Matrix) -> Vec<Multiplier> {
         let radius = distance(matrices, &basis, &inverse, &blocks)?;
         Some((eigenvalues(&blocks), radius))
     });
-    let (values, radius) = near.unwrap_or_else(|| {
-        (vec![(0.0, 0.0); matrices.rows()], row_norm(matrices))
-    });
-    values
-        .into_iter()
-        .map(|(real, imaginary)| Multiplier { real, imaginary, radius })
-        .collect()
+    let (values, radius) =
+        near.unwrap_or_else(|| (vec![(0.0, 0.0); matrices.rows()], row_norm(matrices)));
+    values.into_iter().map(|(real, imaginary)| Multiplier { real, imaginary, radius }).collect()
 }
 
 /// A bound of the norm of B⁻¹ A B − D, for all A of an enclosure: with R ≈ B⁻¹ it is that of (RB)⁻¹ (R A B − R B D).
@@ -88,7 +84,9 @@ fn eigenvalues(blocks: &DMatrix<f64>) -> Vec<(f64, f64)> {
     let size = blocks.nrows();
     let above = |at: usize| if at + 1 < size { blocks[(at, at + 1)] } else { 0.0 };
     let below = |at: usize| if at > 0 { blocks[(at, at - 1)] } else { 0.0 };
-    (0..size).map(|at| (blocks[(at, at)], if above(at) != 0.0 { above(at) } else { below(at) })).collect()
+    (0..size)
+        .map(|at| (blocks[(at, at)], if above(at) != 0.0 { above(at) } else { below(at) }))
+        .collect()
 }
 
 /// The blocks of a matrix in the basis of its eigenvectors, which has more digits than the eigenvalues from which the basis was found.
@@ -159,23 +157,42 @@ fn eigenvectors(
             (true, true) | (false, false) => {
                 matrix[(own, other)] - if own == other { moved } else { 0.0 }
             }
-            (true, false) => if own == other { imaginary } else { 0.0 },
-            (false, true) => if own == other { -imaginary } else { 0.0 },
+            (true, false) => {
+                if own == other {
+                    imaginary
+                } else {
+                    0.0
+                }
+            }
+            (false, true) => {
+                if own == other {
+                    -imaginary
+                } else {
+                    0.0
+                }
+            }
         }
     });
     // Cofactors, which `DMatrix::try_inverse` takes for small matrices, lose all digits of one that is nearly singular.
     let inverse = shifted.lu().try_inverse()?;
     // No eigenvector of a real model is orthogonal to this one, with digits of √2 and √3.
     let mut vector = nalgebra::DVector::from_fn(2 * size, |row, _| {
-        if row < size { 1.0 + 0.414 * row as f64 } else if imaginary != 0.0 { 0.732 } else { 0.0 }
+        if row < size {
+            1.0 + 0.414 * row as f64
+        } else if imaginary != 0.0 {
+            0.732
+        } else {
+            0.0
+        }
     });
     for _ in 0..3 {
         vector = &inverse * vector;
         vector /= vector.norm();
     }
-    vector.iter().all(|x| x.is_finite()).then(|| {
-        (vector.rows(0, size).into_owned(), vector.rows(size, size).into_owned())
-    })
+    vector
+        .iter()
+        .all(|x| x.is_finite())
+        .then(|| (vector.rows(0, size).into_owned(), vector.rows(size, size).into_owned()))
 }
 
 #[cfg(test)]

@@ -1,14 +1,14 @@
 //! A run of a set of states: step after step, event after event.
 
+use crate::event::{ProvedEvent, holds, jumped};
 use crate::matrix::Matrix;
 use crate::piece::Piece;
 use crate::set::{AffineSet, Chain};
 use crate::surface_image::{OnSurface, on_surface};
-use crate::system::{ValidatedGuard, ValidatedMode, ValidatedSystem};
+use crate::system::{ValidatedMode, ValidatedSystem};
 use crate::tube::Tube;
 use crate::undecided::{Error, Reason, Undecided};
 use crate::window::{Crossing, First, Guards};
-use equations::Formulas;
 use hybrid_system::Label;
 use interval_arithmetic::Enclosure;
 use std::ops::ControlFlow;
@@ -30,27 +30,6 @@ impl Default for Limits {
     fn default() -> Self {
         Limits { steps: 10_000, events: 1000, time: f64::INFINITY, width: f64::INFINITY }
     }
-}
-
-/// An event of all states of a set.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ProvedEvent {
-    /// The surface.
-    pub surface: Label,
-    /// The mode before.
-    pub mode: Label,
-    /// The mode after; `None` if the execution ends.
-    pub next: Option<Label>,
-    /// The times since the start.
-    pub time: Enclosure,
-    /// A box of the states before the event, on the surface.
-    pub before: Vec<Enclosure>,
-    /// A box of the states after it.
-    pub after: Vec<Enclosure>,
-    /// The states after it.
-    pub(crate) set: AffineSet,
-    /// Their derivatives with respect to the first ones, if they are wanted.
-    pub(crate) chain: Option<Chain>,
 }
 
 /// A run of all states of a set. Each event that it returns is one of all states, with none before.
@@ -79,7 +58,7 @@ const SOON: f64 = 1e-3;
 /// What a run does in a step.
 enum Moved {
     Flowed,
-    Event(ProvedEvent),
+    Event(Box<ProvedEvent>),
 }
 
 impl<'s> ValidatedRun<'s> {
@@ -150,7 +129,7 @@ impl<'s> ValidatedRun<'s> {
         &self.system.modes[self.mode]
     }
 
-    /// The next event of all states.
+    /// The next event of all states. If it changes nothing, the run is a moment later afterwards: when all states have crossed the surface.
     ///
     /// # Errors
     /// [`Error::Undecided`] with what is not proved, where and when.
@@ -169,7 +148,7 @@ impl<'s> ValidatedRun<'s> {
     ) -> Result<ProvedEvent, Error> {
         loop {
             if let Moved::Event(event) = self.step(None, watch)? {
-                return Ok(event);
+                return Ok(*event);
             }
             if self.time.low > self.limits.time {
                 return self.undecided(Reason::NoEvent { time: self.limits.time });
@@ -183,13 +162,16 @@ impl<'s> ValidatedRun<'s> {
     /// As [`next_event`](Self::next_event); [`Error::Argument`] for a time before that of the states.
     pub fn advance(&mut self, time: Enclosure) -> Result<Vec<ProvedEvent>, Error> {
         if !(time.low >= self.time.high && time.high.is_finite()) {
-            return Error::argument("time", format!("it must be finite, and at or after {}", self.time.high));
+            return Error::argument(
+                "time",
+                format!("it must be finite, and at or after {}", self.time.high),
+            );
         }
         let mut events = Vec::new();
         while self.time != time {
             let moved = self.step(Some(time), &mut |_| ControlFlow::Continue(()))?;
             if let Moved::Event(event) = moved {
-                events.push(event);
+                events.push(*event);
             }
         }
         Ok(events)
@@ -353,7 +335,7 @@ impl<'s> ValidatedRun<'s> {
             self.on.clone_from(&guard.begins_on);
             (self.set, self.chain, self.time) = (set, chain, time);
         }
-        Ok(Moved::Event(event))
+        Ok(Moved::Event(Box::new(event)))
     }
 
     /// The flow goes on behind a surface at which nothing changes: from a time at which all states have crossed it.
@@ -374,36 +356,4 @@ impl<'s> ValidatedRun<'s> {
             names: self.system.names.states.clone(),
         })))
     }
-}
-
-/// True if the condition of an event holds at all of these states.
-fn holds(guard: &ValidatedGuard, states: &[Enclosure]) -> Result<bool, Reason> {
-    let Some(condition) = &guard.condition else { return Ok(true) };
-    let value = condition.enclosures(Enclosure::ZERO, states).map_err(Reason::Domain)?;
-    let sign = value.first().and_then(Enclosure::sign);
-    sign.map(|sign| sign > 0.0).ok_or(Reason::Condition { surface: guard.surface })
-}
-
-/// The states after an event, and their derivatives, if they are wanted.
-fn jumped(
-    guard: &ValidatedGuard,
-    before: &AffineSet,
-    chain: Option<Chain>,
-) -> Result<(AffineSet, Option<Chain>), Reason> {
-    let Some((state, slopes)) = &guard.reset else { return Ok((before.clone(), chain)) };
-    carried(before, chain, (state, slopes)).map_err(Reason::Domain)
-}
-
-/// The image of a set under formulas, with their derivatives, and the derivatives of all.
-pub(crate) fn carried(
-    set: &AffineSet,
-    chain: Option<Chain>,
-    (formulas, slopes): (&Formulas, &Formulas),
-) -> Result<(AffineSet, Option<Chain>), equations::Error> {
-    let at_centre = formulas.enclosures(Enclosure::ZERO, &set.centre_box())?;
-    let entries = slopes.enclosures(Enclosure::ZERO, set.hull())?;
-    let slopes = Matrix::of_rows(at_centre.len(), set.hull().len(), &entries);
-    let bounds = formulas.enclosures(Enclosure::ZERO, set.hull())?;
-    let chain = chain.map(|chain| chain.then(&slopes));
-    Ok((set.image(&at_centre, &slopes, Some(&bounds)), chain))
 }

@@ -58,11 +58,7 @@ impl AffineSet {
 
     /// The values of a map on the set, from its value at the centre and its derivatives on the set: f(c) + Df (x − c), along the set's own
     /// directions and along the axes, whichever is narrower.
-    pub(crate) fn values(
-        &self,
-        at_centre: &[Enclosure],
-        derivatives: &Matrix,
-    ) -> Vec<Enclosure> {
+    pub(crate) fn values(&self, at_centre: &[Enclosure], derivatives: &Matrix) -> Vec<Enclosure> {
         let shaped = derivatives.times(&Matrix::of_numbers(&self.shape)).apply(&self.start);
         let framed = derivatives.times(&self.frame.matrix()).apply(&self.errors);
         let along = sums(at_centre, &sums(&shaped, &framed));

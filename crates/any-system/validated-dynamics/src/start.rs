@@ -1,7 +1,8 @@
 //! Where runs begin: at numbers, in boxes, on charts.
 
 use crate::enclosed_map::StartSet;
-use crate::run::{ValidatedRun, carried};
+use crate::event::carried;
+use crate::run::ValidatedRun;
 use crate::system::ValidatedSystem;
 use crate::undecided::Error;
 use equations::{Formulas, Names};
@@ -29,7 +30,10 @@ impl ValidatedSystem {
         let mode = self.place_of(mode)?;
         if states.len() != self.names.states.len() {
             let names = self.names.states.join(", ");
-            return Error::argument("states", format!("{} given; needed are {names}", states.len()));
+            return Error::argument(
+                "states",
+                format!("{} given; needed are {names}", states.len()),
+            );
         }
         let names = Names {
             states: variables.iter().map(|&name| name.to_owned()).collect(),
@@ -57,7 +61,11 @@ impl ValidatedSystem {
     /// # Errors
     /// [`Error::Argument`] for another number of enclosures than variables, and for one without bounds; [`Error::Formula`] for a
     /// formula without a value.
-    pub fn start_on(&self, chart: &Chart, variables: &[Enclosure]) -> Result<ValidatedRun<'_>, Error> {
+    pub fn start_on(
+        &self,
+        chart: &Chart,
+        variables: &[Enclosure],
+    ) -> Result<ValidatedRun<'_>, Error> {
         self.start_set(chart, StartSet::of_box(variables))
     }
 
@@ -96,11 +104,17 @@ impl ValidatedSystem {
 pub(crate) fn check_box(names: &[String], given: &[Enclosure]) -> Result<(), Error> {
     if names.len() != given.len() {
         let names = names.join(", ");
-        return Error::argument("box", format!("{} enclosures given; needed are {names}", given.len()));
+        return Error::argument(
+            "box",
+            format!("{} enclosures given; needed are {names}", given.len()),
+        );
     }
     for (name, x) in names.iter().zip(given) {
         if !(x.low <= x.high && x.low.is_finite() && x.high.is_finite()) {
-            return Error::argument(name, format!("[{}, {}] is no interval of finite numbers", x.low, x.high));
+            return Error::argument(
+                name,
+                format!("[{}, {}] is no interval of finite numbers", x.low, x.high),
+            );
         }
     }
     Ok(())

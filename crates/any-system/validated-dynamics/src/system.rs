@@ -145,7 +145,10 @@ impl ValidatedSystem {
             Some(known) => Ok(*known),
             None => {
                 let names: Vec<&str> = known.iter().map(Label::as_str).collect();
-                Error::argument(surface, format!("no surface; the surfaces are {}", names.join(", ")))
+                Error::argument(
+                    surface,
+                    format!("no surface; the surfaces are {}", names.join(", ")),
+                )
             }
         }
     }

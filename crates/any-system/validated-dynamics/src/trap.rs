@@ -69,7 +69,8 @@ impl Trap {
         images: usize,
     ) -> Result<Trap, Error> {
         let count = map.dimension();
-        let own = Matrix::from_fn(count, count, |row, column| fixed.image.derivatives.at(row, column));
+        let own =
+            Matrix::from_fn(count, count, |row, column| fixed.image.derivatives.at(row, column));
         let basis = eigenbasis(&own.middle()).map(|(basis, _)| basis);
         let directions = basis.filter(|basis| basis.clone().lu().try_inverse().is_some());
         let directions = directions.unwrap_or_else(|| DMatrix::identity(count, count));

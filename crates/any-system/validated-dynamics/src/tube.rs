@@ -260,7 +260,8 @@ impl Step<'_> {
 
     /// The expansion at all states of the step, if the box of these states is proved to hold the solutions.
     fn bounded(&self, with_derivatives: bool) -> Result<Option<Beyond>, equations::Error> {
-        let states: Vec<Enclosure> = self.varied.states().map(|series| self.guess(series)).collect();
+        let states: Vec<Enclosure> =
+            self.varied.states().map(|series| self.guess(series)).collect();
         if !is_bounded(&states) {
             return Ok(None);
         }

@@ -34,13 +34,17 @@ pub enum Reason {
         surface: Label,
     },
     /// States on a surface, of which the side to which they leave is not known.
-    #[error("the set begins on {surface} or on both sides of it, and may cross it at once: take a smaller set")]
+    #[error(
+        "the set begins on {surface} or on both sides of it, and may cross it at once: take a smaller set"
+    )]
     OnSurface {
         /// The surface.
         surface: Label,
     },
     /// States beyond a surface that bounds the flow, or on it with a flow that leads beyond.
-    #[error("the states are beyond {surface}, or on it with a flow that leads beyond: they rest there, slide, or chatter")]
+    #[error(
+        "the states are beyond {surface}, or on it with a flow that leads beyond: they rest there, slide, or chatter"
+    )]
     Beyond {
         /// The surface.
         surface: Label,
@@ -69,7 +73,9 @@ pub enum Reason {
     #[error("{0}")]
     Domain(equations::Error),
     /// No step, however short, is proved to have a solution.
-    #[error("no solution is proved on a step of {step:e}: the states are too far apart, or the solution ends here")]
+    #[error(
+        "no solution is proved on a step of {step:e}: the states are too far apart, or the solution ends here"
+    )]
     NoSolution {
         /// The shortest step that was tried.
         step: f64,
@@ -81,7 +87,9 @@ pub enum Reason {
         steps: usize,
     },
     /// The states are further apart than the limit.
-    #[error("the states are {width} apart, above the limit {limit}: take a smaller set, or raise `Limits::width`")]
+    #[error(
+        "the states are {width} apart, above the limit {limit}: take a smaller set, or raise `Limits::width`"
+    )]
     Wide {
         /// The largest width of a component.
         width: f64,
@@ -89,7 +97,9 @@ pub enum Reason {
         limit: f64,
     },
     /// The events are used up. Their times may have a limit (Zeno).
-    #[error("{events} events were not enough, the last one at {surface}: their times may have a limit; else raise `Limits::events`")]
+    #[error(
+        "{events} events were not enough, the last one at {surface}: their times may have a limit; else raise `Limits::events`"
+    )]
     Events {
         /// The limit.
         events: usize,
@@ -109,7 +119,9 @@ pub enum Reason {
         surface: Label,
     },
     /// An event may happen before the time at which the states are wanted, or after it.
-    #[error("states may meet {surface} before or after the time that is asked for: take another time, or a smaller set")]
+    #[error(
+        "states may meet {surface} before or after the time that is asked for: take another time, or a smaller set"
+    )]
     EventAtEnd {
         /// The surface.
         surface: Label,
@@ -124,13 +136,17 @@ pub enum Reason {
         tries: usize,
     },
     /// Newton's method found no point.
-    #[error("Newton's method found no fixed point near the start: the last step had the length {step:e}")]
+    #[error(
+        "Newton's method found no fixed point near the start: the last step had the length {step:e}"
+    )]
     NoPoint {
         /// The length of the last step.
         step: f64,
     },
     /// A matrix that must be invertible may be singular.
-    #[error("the derivatives may have the eigenvalue 1: the fixed point may be multiple, or the box too wide")]
+    #[error(
+        "the derivatives may have the eigenvalue 1: the fixed point may be multiple, or the box too wide"
+    )]
     Singular,
 }
 
@@ -158,7 +174,10 @@ pub enum Error {
 }
 
 impl Error {
-    pub(crate) fn argument<T>(what: impl Into<String>, reason: impl Into<String>) -> Result<T, Error> {
+    pub(crate) fn argument<T>(
+        what: impl Into<String>,
+        reason: impl Into<String>,
+    ) -> Result<T, Error> {
         Err(Error::Argument { what: what.into(), reason: reason.into() })
     }
 

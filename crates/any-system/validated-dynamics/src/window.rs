@@ -152,14 +152,19 @@ impl Guards<'_, '_> {
         };
         let is_beyond =
             |time: f64| self.tube.guard_at(guard, Enclosure::from(time)).sign() == Some(side);
-        let pieces = (0..=HALVES).rev().map(|halves| from + self.tube.length / f64::from(1 << halves));
+        let pieces =
+            (0..=HALVES).rev().map(|halves| from + self.tube.length / f64::from(1 << halves));
         let inside = pieces.filter(|time| *time < self.tube.length);
         inside.chain([self.tube.length]).find(|time| is_beyond(*time))
     }
 
     /// Narrower times at which all states cross.
     fn narrower(&self, guard: usize, times: Enclosure) -> Enclosure {
-        newton(times, |time| self.tube.guard_at(guard, time), |time| self.tube.guard_rate_at(guard, time))
+        newton(
+            times,
+            |time| self.tube.guard_at(guard, time),
+            |time| self.tube.guard_rate_at(guard, time),
+        )
     }
 }
 

@@ -1,5 +1,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 //! All tests of this crate in one program.
 
-mod flows;
+mod basins;
+mod closed_forms;
 mod periodic_orbits;
+mod undecided;

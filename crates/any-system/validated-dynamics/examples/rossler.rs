@@ -1,0 +1,24 @@
+//! Rössler's equations with a = b = 0.2, c = 5.7: the periodic orbit that crosses x = 0 once.
+
+#![allow(clippy::print_stdout)] // a program
+
+use hybrid_system::Equations;
+use validated_dynamics::{Error, SectionMap, ValidatedSystem, fixed_point};
+
+fn main() -> Result<(), Error> {
+    let rossler = Equations::new(&["x", "y", "z"], &[("a", "0.2"), ("b", "0.2"), ("c", "5.7")])
+        .mode_text("flow", &["-y - z", "x + a*y", "b + z*(x - c)"])
+        .rising_text("section", "x");
+    let system = ValidatedSystem::new(&rossler)?;
+    // The states of the section, by two variables, and what is read of the state when the orbit comes back.
+    let section = system.chart("flow", &["y", "z"], &["0", "y", "z"])?;
+    let returns = SectionMap::new(&system, section, "section", 1, &["y", "z"])?;
+    let orbit = fixed_point(&returns, &[-8.4, 0.03], &[])?;
+    println!("There is one orbit with y in {:?}, z in {:?}.", orbit.point[0], orbit.point[1]);
+    println!("Its period is in {:?}.", orbit.image.events[0].time);
+    for multiplier in &orbit.multipliers {
+        println!("A multiplier is in {:?}.", multiplier.real());
+    }
+    assert!(orbit.is_saddle());
+    Ok(())
+}
