@@ -11,6 +11,8 @@ use equations::Formulas;
 use hybrid_system::Label;
 use interval_arithmetic::Enclosure;
 use nalgebra::DMatrix;
+use std::fmt;
+use std::ops::ControlFlow;
 
 /// A differentiable map of some variables, which may depend on parameters that are intervals.
 pub trait EnclosedMap {
@@ -105,7 +107,7 @@ pub struct MapImage {
 }
 
 /// The map from a chart to the states after the event number `count` of a surface, of which formulas are read.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct SectionMap<'s> {
     system: &'s ValidatedSystem,
     chart: Chart,
@@ -113,6 +115,14 @@ pub struct SectionMap<'s> {
     count: usize,
     read: (Formulas, Formulas),
     limits: Limits,
+    stop: Option<&'s (dyn Fn() -> bool + Sync)>,
+}
+
+impl fmt::Debug for SectionMap<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let read = self.read.0.texts();
+        write!(formatter, "SectionMap({} times {}, {})", self.count, self.surface, read.join(", "))
+    }
 }
 
 impl<'s> SectionMap<'s> {
@@ -162,13 +172,20 @@ impl<'s> SectionMap<'s> {
         let read = system.formulas(read)?;
         let read = (read.clone(), read.jacobian()?);
         let (surface, limits) = (system.surface(surface)?, Limits::default());
-        Ok(SectionMap { system, chart, surface, count, read, limits })
+        Ok(SectionMap { system, chart, surface, count, read, limits, stop: None })
     }
 
     /// The same map within other limits of its runs.
     #[must_use]
     pub fn within(mut self, limits: Limits) -> Self {
         self.limits = limits;
+        self
+    }
+
+    /// The same map, which is [`Reason::Interrupted`] at the next step after `stop` is true.
+    #[must_use]
+    pub fn stopped_by(mut self, stop: &'s (dyn Fn() -> bool + Sync)) -> Self {
+        self.stop = Some(stop);
         self
     }
 
@@ -191,7 +208,10 @@ impl EnclosedMap for SectionMap<'_> {
         let mut events = Vec::new();
         let mut left = self.count;
         loop {
-            let event = run.next_event()?;
+            let event = run.next_event_watched(&mut |_| match self.stop.is_some_and(|stop| stop()) {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            })?;
             left -= usize::from(event.surface == self.surface);
             let (set, chain) = (event.set.clone(), event.chain.clone());
             events.push(event);

@@ -106,3 +106,16 @@ fn what_is_no_fixed_point_is_not_proved() {
     assert!(fixed_point(&map("x/2"), &[f64::NAN], &[]).is_err());
     assert!(fixed_point(&map("x/2"), &[], &[]).is_err());
 }
+
+#[test]
+fn a_map_is_stopped_by_its_caller() {
+    let oscillator = Equations::new(&["x", "v"], &[])
+        .mode_text("flow", &["v", "-x"])
+        .rising_text("section", "x");
+    let system = ValidatedSystem::new(&oscillator).unwrap();
+    let chart = system.chart("flow", &["v"], &["0", "v"]).unwrap();
+    let stop = || true;
+    let map = SectionMap::new(&system, chart, "section", 1, &["v"]).unwrap().stopped_by(&stop);
+    let error = map.image(&[Enclosure::from(1.0)]).unwrap_err();
+    assert_eq!(error.undecided().unwrap().reason, Reason::Interrupted);
+}

@@ -66,6 +66,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<formulas::Steps>()?;
     module.add_function(wrap_pyfunction!(formulas::_equations, module)?)?;
     module.add_function(wrap_pyfunction!(formulas::_solution, module)?)?;
+    module.add_function(wrap_pyfunction!(formulas::_proved_orbit, module)?)?;
     module.add_class::<hybrid::HybridSystem>()?;
     module.add_class::<hybrid::Guard>()?;
     module.add_class::<hybrid::CFunction>()?;

@@ -27,11 +27,17 @@ def test_the_lines_of_the_readme_run(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize(
     "page, number",
-    [("docs/python.md", 0), ("docs/python.md", 1), ("docs/python.md", 2), ("crates/both/python-package/README.md", 0)],
+    [
+        ("docs/python.md", 0),
+        ("docs/python.md", 1),
+        ("docs/python.md", 2),
+        ("docs/any-model.md", 0),
+        ("crates/both/python-package/README.md", 0),
+    ],
 )
 def test_the_examples_of_the_pages_run(page, number, tmp_path):
     found = blocks(page)
-    assert len(found) == {"docs/python.md": 3, "crates/both/python-package/README.md": 1}[page]
+    assert len(found) == {"docs/python.md": 3, "docs/any-model.md": 1, "crates/both/python-package/README.md": 1}[page]
     if "store=" in found[number]:
         pytest.importorskip("zarr", reason="stores need zarr")
     if "distributed" in found[number]:

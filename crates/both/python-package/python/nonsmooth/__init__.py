@@ -20,6 +20,7 @@ from .basins import attractors_by_features, attractors_of, basins_of, known_attr
 from .boundaries import Boundary, EdgeTrack, FatalShock, boundary_between, minimal_fatal_shock, track_edge
 from .c_functions import c_function
 from .errors import ComputationError, InputError, NonsmoothError, TracingError, UndecidedError
+from .proofs import Multiplier, ProvedEvent, ProvedOrbit, proved_orbit
 from .returns import Bifurcation, Branch, Diagram, Image, Linearized, PeriodicPoint, ReturnMap
 from .runs import Fates, Run
 from .stability import Shock, Stability, Tipping, stability_of, tipping
@@ -50,9 +51,12 @@ __all__ = [
     "Image",
     "InputError",
     "Linearized",
+    "Multiplier",
     "NonsmoothError",
     "Parameters",
     "PeriodicPoint",
+    "ProvedEvent",
+    "ProvedOrbit",
     "ReturnMap",
     "Run",
     "Shock",
@@ -76,6 +80,7 @@ __all__ = [
     "map_steps",
     "minimal_fatal_shock",
     "plots",
+    "proved_orbit",
     "stability_of",
     "tipping",
     "track_edge",

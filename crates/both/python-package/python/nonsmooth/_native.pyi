@@ -660,6 +660,7 @@ def _tipping(
 def _attractors_along(
     steps_at: Callable[[float], Steps], settings: Mapping[str, Any], threads: int | None, progress: Any
 ) -> dict[str, Any]: ...
+def _proved_orbit(equations: Equations, question: Mapping[str, Any]) -> tuple[Any, ...]: ...
 def region_fractions(
     label: Callable[..., NDArray[np.uint16]], window: Sequence[tuple[float, float]], count: int, seed: int
 ) -> dict[int, Interval]:

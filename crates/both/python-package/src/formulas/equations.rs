@@ -58,7 +58,7 @@ impl Equations {
         self.tolerances
     }
 
-    fn equations(&self) -> &hybrid_system::Equations {
+    pub(super) fn equations(&self) -> &hybrid_system::Equations {
         self.model.equations()
     }
 

@@ -3,17 +3,19 @@
 //! ```text
 //!   symbol ─► trace ─► equations ─► solution
 //!                          ├──────► fates
-//!                          └──────► returns ─► steps
+//!                          ├──────► returns ─► steps
+//!                          └──────► proofs
 //! ```
 //!
 //! A `trace` makes `symbols` for the time, the state and the parameters, which `numpy_functions` accept. A function of Python is called once with them, and what it
 //! returns are formulas as JSON. The `equations` of a model are made of them; a run of these is a `solution`, and the ends of many
-//! runs are `fates`. `returns` are the map from a section to itself, and `steps` any map of states, for attractors and basins. No Python runs
+//! runs are `fates`. `returns` are the map from a section to itself, and `steps` any map of states, for attractors and basins. `proofs` shows that a periodic orbit exists. No Python runs
 //! meanwhile.
 
 mod equations;
 mod fates;
 mod numpy_functions;
+mod proofs;
 mod returns;
 mod solution;
 mod steps;
@@ -22,6 +24,7 @@ mod trace;
 
 pub(crate) use equations::{_equations, Equations};
 pub(crate) use fates::Fates;
+pub(crate) use proofs::_proved_orbit;
 pub(crate) use returns::ReturnMap;
 pub(crate) use solution::{_solution, Solution};
 pub(crate) use steps::Steps;
