@@ -38,8 +38,8 @@ fn main() -> Result<(), Error> {
     println!("the gait has its apex at {:?} m", gait.point[0]);
     println!("  multiplier {:?}, {:?}", gait.multipliers[0].real(), begin.elapsed());
     let trap = Trap::new(&map, &gait, 3000)?;
-    let radius = trap.size * trap.directions[(0, 0)].abs();
-    println!("  attracts |h − {}| < {radius}, {:?}", trap.centre[0], begin.elapsed());
+    let radius = trap.size() * trap.directions()[(0, 0)].abs();
+    println!("  attracts |h − {}| < {radius}, {:?}", trap.centre()[0], begin.elapsed());
 
     // From 2 m the runner falls in the third flight.
     let mut run = system.start("flight", &["0", "2", "sqrt(25 + 2*gravity*(1 - 2))", "0"])?;

@@ -1,7 +1,7 @@
 //! Basins that are proved cell by cell.
 
 use crate::cell_images::{Fresh, Known, images};
-use crate::cells::{Cells, Place, part_of};
+use crate::cells::{Cells, MOST_SIDES, Place, part_of};
 use crate::enclosed_map::EnclosedMap;
 use crate::trap::Trap;
 use crate::undecided::Error;
@@ -62,7 +62,7 @@ pub struct Progress {
     pub open: usize,
     /// The halvings of the sides of the window in the cells that are divided now.
     pub halvings: u32,
-    /// The share of the first window that has a fate.
+    /// A lower bound of the share of the first window that has a fate.
     pub proved: f64,
 }
 
@@ -220,7 +220,9 @@ impl ProvedBasins {
         if let Some(open) = self.open.remove(&place)
             && open.window == 0
         {
-            self.area += pow_half(open.halvings * open.points.len() as u32);
+            let window = &self.cells.windows()[0];
+            self.area =
+                (Enclosure::from(self.area) + share_of(&open.points, window)).low.max(self.area);
         }
     }
 
@@ -299,18 +301,16 @@ impl ProvedBasins {
         }
     }
 
-    /// The share of the first window that has a fate for certain.
+    /// A lower bound of the share of the first window that has a fate.
     pub fn share(&self, fate: ProvedFate) -> f64 {
         let whole = &self.cells.windows()[0];
-        let mut share = 0.0;
+        let mut share = Enclosure::ZERO;
         self.cells.visit(0, &mut |_| true, &mut |_, known, points| {
             if matches!(known, Known::Fate(found) if *found == fate) {
-                let sides =
-                    points.iter().zip(whole).map(|(own, whole)| own.width() / whole.width());
-                share += sides.product::<f64>();
+                share = share + share_of(points, whole);
             }
         });
-        share
+        share.low.clamp(0.0, 1.0)
     }
 
     /// The traps.
@@ -319,9 +319,11 @@ impl ProvedBasins {
     }
 }
 
-/// 2^−`halvings`.
-fn pow_half(halvings: u32) -> f64 {
-    0.5f64.powi(halvings as i32)
+/// The share of a window that a cell has.
+fn share_of(points: &[Enclosure], window: &[Enclosure]) -> Enclosure {
+    let width = |x: &Enclosure| Enclosure::from(x.high) - x.low;
+    let sides = points.iter().zip(window).map(|(own, whole)| width(own) / width(whole));
+    sides.fold(Enclosure::ONE, |share, side| share * side)
 }
 
 fn check<M: EnclosedMap>(
@@ -343,8 +345,25 @@ fn check<M: EnclosedMap>(
             );
         }
     }
-    match division.first <= division.last && division.last <= DEEPEST {
+    let sides = maps[0].dimension();
+    if sides == 0 || sides > MOST_SIDES {
+        return Error::argument(
+            "maps",
+            format!("from 1 to {MOST_SIDES} variables are needed, not {sides}"),
+        );
+    }
+    if !(division.first <= division.last && division.last <= DEEPEST) {
+        return Error::argument("division", format!("first ≤ last ≤ {DEEPEST} is needed"));
+    }
+    let cells = interval_arithmetic::pow(2.0, (sides as f64) * f64::from(division.first));
+    match cells * maps.len() as f64 <= division.images as f64 {
         true => Ok(()),
-        false => Error::argument("division", format!("first ≤ last ≤ {DEEPEST} is needed")),
+        false => {
+            let reason = format!(
+                "{} images are fewer than the first {cells} cells of each window",
+                division.images
+            );
+            Error::argument("division", reason)
+        }
     }
 }

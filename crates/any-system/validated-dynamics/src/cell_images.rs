@@ -38,7 +38,11 @@ pub(crate) fn images<M: EnclosedMap + Sync>(
             .chunks(share)
             .map(|part| scope.spawn(move || part.iter().map(of_cell).collect::<Vec<_>>()))
             .collect();
-        parts.into_iter().flat_map(|part| part.join().unwrap_or_default()).collect()
+        parts
+            .into_iter()
+            // A panic of a user's function goes on in the caller: without its part the others would be given to wrong cells.
+            .flat_map(|part| part.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .collect()
     })
 }
 

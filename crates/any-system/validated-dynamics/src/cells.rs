@@ -2,6 +2,9 @@
 
 use interval_arithmetic::Enclosure;
 
+/// The most sides of a box that is divided into 2ⁿ parts: 65 536 of them.
+pub const MOST_SIDES: usize = 16;
+
 /// The place of a cell.
 pub(crate) type Place = usize;
 

@@ -1,6 +1,6 @@
 //! Boxes that are divided until each part is decided.
 
-use crate::cells::part_of;
+use crate::cells::{MOST_SIDES, part_of};
 use crate::undecided::{Error, Undecided};
 use interval_arithmetic::Enclosure;
 
@@ -72,7 +72,18 @@ pub fn divided<T>(
     Ok(found)
 }
 
-/// The 2ⁿ parts of a box with half of its sides.
+/// The 2ⁿ parts of a box with half of its sides; of a box with more than [`MOST_SIDES`] sides the two halves of its longest side.
 pub fn halves(own: &[Enclosure]) -> Vec<Vec<Enclosure>> {
-    (0..1 << own.len()).map(|part| part_of(own, part)).collect()
+    if own.len() <= MOST_SIDES {
+        return (0..1 << own.len()).map(|part| part_of(own, part)).collect();
+    }
+    let longest = (0..own.len()).max_by(|a, b| own[*a].width().total_cmp(&own[*b].width()));
+    let part = |upper: usize| {
+        let mut part = own.to_vec();
+        if let Some(longest) = longest {
+            part[longest] = part_of(&own[longest..=longest], upper)[0];
+        }
+        part
+    };
+    vec![part(0), part(1)]
 }

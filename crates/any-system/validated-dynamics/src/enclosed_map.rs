@@ -5,7 +5,7 @@ use crate::matrix::{Matrix, exact, sums};
 use crate::run::{Limits, ValidatedRun};
 use crate::set::{AffineSet, Chain};
 use crate::start::{Chart, check_box};
-use crate::system::ValidatedSystem;
+use crate::system::{ValidatedSystem, without_time};
 use crate::undecided::{Error, Reason, Undecided};
 use equations::Formulas;
 use hybrid_system::Label;
@@ -169,7 +169,11 @@ impl<'s> SectionMap<'s> {
                 format!("{given} texts for {variables} variables of the chart"),
             );
         }
+        let given = read.len();
         let read = system.formulas(read)?;
+        if read.count() != given {
+            return Error::argument("read", "a definition among the formulas: write it out");
+        }
         let read = (read.clone(), read.jacobian()?);
         let (surface, limits) = (system.surface(surface)?, Limits::default());
         Ok(SectionMap { system, chart, surface, count, read, limits, stop: None })
@@ -208,10 +212,11 @@ impl EnclosedMap for SectionMap<'_> {
         let mut events = Vec::new();
         let mut left = self.count;
         loop {
-            let event = run.next_event_watched(&mut |_| match self.stop.is_some_and(|stop| stop()) {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
-            })?;
+            let event =
+                run.next_event_watched(&mut |_| match self.stop.is_some_and(|stop| stop()) {
+                    true => ControlFlow::Break(()),
+                    false => ControlFlow::Continue(()),
+                })?;
             left -= usize::from(event.surface == self.surface);
             let (set, chain) = (event.set.clone(), event.chain.clone());
             events.push(event);
@@ -261,6 +266,7 @@ impl FormulaMap {
         if times == 0 {
             return Error::argument("times", "0, but the map is applied at least once");
         }
+        let formulas = without_time(formulas, "a map has no time: give it a variable")?;
         // The parameters stay.
         let formulas = formulas.with_last_states(variables - count);
         Ok(FormulaMap { slopes: formulas.jacobian()?, formulas, times, count })

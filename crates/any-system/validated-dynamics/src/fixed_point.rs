@@ -1,7 +1,7 @@
 //! Fixed points that exist: Krawczyk's method.
 
 use crate::enclosed_map::{EnclosedMap, MapImage};
-use crate::matrix::{Matrix, exact, middle, offsets, sums};
+use crate::matrix::{Matrix, common, exact, middle, offsets, sums};
 use crate::multipliers::{Multiplier, multipliers};
 use crate::undecided::{Error, Reason, Undecided};
 use interval_arithmetic::Enclosure;
@@ -28,7 +28,7 @@ pub struct ProvedFixedPoint {
     pub unique_in: Vec<Enclosure>,
     /// The intervals of parameters for each value of which this holds.
     pub parameters: Vec<Enclosure>,
-    /// The image of the box `point`: with the derivatives there, and the events.
+    /// The image of a box that holds `point`: with the derivatives there, and the events.
     pub image: MapImage,
     /// The eigenvalues of the derivatives at the fixed point.
     pub multipliers: Vec<Multiplier>,
@@ -143,11 +143,11 @@ impl<M: EnclosedMap> Krawczyk<'_, M> {
         point: Vec<Enclosure>,
         unique_in: Vec<Enclosure>,
     ) -> Result<ProvedFixedPoint, Error> {
-        let image = self.map.image(&[&point[..], self.parameters].concat())?;
-        let narrower = self.operator(&image, &point);
-        // Both hold it, and so does the image.
-        let common = |(a, b): (&Enclosure, &Enclosure)| a.intersection(b).unwrap_or(*a);
-        let point: Vec<Enclosure> = point.iter().zip(&narrower).map(common).collect();
+        // The derivatives are those between the fixed point and the centre.
+        let about = |(x, c): (&Enclosure, &f64)| x.hull(&Enclosure::from(*c));
+        let all: Vec<Enclosure> = point.iter().zip(&self.centre).map(about).collect();
+        let image = self.map.image(&[&all[..], self.parameters].concat())?;
+        let point = common(&point, &self.operator(&image, &all));
         let size = self.centre.len();
         let own = Matrix::from_fn(size, size, |row, column| image.derivatives.at(row, column));
         let (multipliers, parameters) = (multipliers(&own), self.parameters.to_vec());

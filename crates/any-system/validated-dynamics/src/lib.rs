@@ -78,6 +78,7 @@ mod undecided;
 mod window;
 
 pub use basins::{Division, Progress, ProvedBasins, ProvedFate};
+pub use cells::MOST_SIDES;
 pub use division::{Budget, Divided, divided, halves};
 pub use enclosed_map::{Carried, EnclosedMap, FormulaMap, MapImage, SectionMap, StartSet};
 pub use event::ProvedEvent;

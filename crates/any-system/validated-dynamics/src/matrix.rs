@@ -144,10 +144,9 @@ pub(crate) fn sums(a: &[Enclosure], b: &[Enclosure]) -> Vec<Enclosure> {
     a.iter().zip(b).map(|(a, b)| sum(*a, *b)).collect()
 }
 
-/// The common part of two boxes that hold one point; the first of them in a direction without one, where rounding alone would be
-/// to blame.
+/// The common part of two boxes that hold the same points. Without one, which would be a fault, both.
 pub(crate) fn common(a: &[Enclosure], b: &[Enclosure]) -> Vec<Enclosure> {
-    a.iter().zip(b).map(|(a, b)| a.intersection(b).unwrap_or(*a)).collect()
+    a.iter().zip(b).map(|(a, b)| a.intersection(b).unwrap_or_else(|| a.hull(b))).collect()
 }
 
 /// The distances of the points of a box from a point.

@@ -13,6 +13,8 @@ pub struct Multiplier {
     pub imaginary: f64,
     /// The radius.
     pub radius: f64,
+    /// True if the disc meets no other one: it holds exactly one eigenvalue.
+    pub alone: bool,
 }
 
 impl Multiplier {
@@ -36,7 +38,8 @@ impl Multiplier {
 
     /// Bounds of an eigenvalue that is real for certain: of a disc on the real axis that meets no other one.
     pub fn real(&self) -> Option<Enclosure> {
-        (self.imaginary == 0.0).then(|| Enclosure::from(self.real).widened(self.radius))
+        (self.alone && self.imaginary == 0.0)
+            .then(|| Enclosure::from(self.real).widened(self.radius))
     }
 }
 
@@ -44,8 +47,11 @@ impl Multiplier {
 ///
 /// In the basis of approximate eigenvectors each matrix is D + E, with D of blocks a or (a b; −b a), which is normal. The eigenvalues of
 /// D + E are within the norm of E of those of D, and move with E continuously (F. L. Bauer, C. T. Fike, 1960). Without such a basis
-/// one disc about 0 holds them all.
+/// one disc about 0 holds them all. A matrix that is not square has none.
 pub fn multipliers(matrices: &Matrix) -> Vec<Multiplier> {
+    if matrices.rows() != matrices.columns() {
+        return Vec::new();
+    }
     let middle = matrices.middle();
     let near = eigenbasis(&middle).and_then(|(basis, blocks)| {
         let inverse = basis.clone().try_inverse()?;
@@ -55,7 +61,19 @@ pub fn multipliers(matrices: &Matrix) -> Vec<Multiplier> {
     });
     let (values, radius) =
         near.unwrap_or_else(|| (vec![(0.0, 0.0); matrices.rows()], row_norm(matrices)));
-    values.into_iter().map(|(real, imaginary)| Multiplier { real, imaginary, radius }).collect()
+    let radii = (Enclosure::from(radius) * 2.0).high;
+    let meet = |a: (f64, f64), b: (f64, f64)| {
+        let [real, imaginary] = [(a.0, b.0), (a.1, b.1)].map(|(x, y)| Enclosure::from(x) - y);
+        let apart = (real.squared() + imaginary.squared()).sqrt();
+        !apart.is_some_and(|apart| apart.low > radii)
+    };
+    let disc = |own: usize| {
+        let alone =
+            (0..values.len()).all(|other| other == own || !meet(values[own], values[other]));
+        let (real, imaginary) = values[own];
+        Multiplier { real, imaginary, radius, alone }
+    };
+    (0..values.len()).map(disc).collect()
 }
 
 /// A bound of the norm of B⁻¹ A B − D, for all A of an enclosure: with R ≈ B⁻¹ it is that of (RB)⁻¹ (R A B − R B D).
@@ -111,6 +129,9 @@ fn refined(found: &DMatrix<f64>, blocks: &DMatrix<f64>) -> DMatrix<f64> {
 
 /// Approximate eigenvectors as columns, and the blocks: of a pair a ± ib the real and the imaginary part of a vector.
 pub(crate) fn eigenbasis(matrix: &DMatrix<f64>) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
+    if !matrix.iter().all(|x| x.is_finite()) {
+        return None;
+    }
     let size = matrix.nrows();
     let mut values: Vec<(f64, f64)> = matrix
         .clone()
@@ -220,5 +241,6 @@ mod tests {
         let jordan = DMatrix::from_row_slice(2, 2, &[0.5, 1.0, 0.0, 0.5]);
         let found = multipliers(&Matrix::of_numbers(&jordan));
         assert!(found.iter().all(|found| (found.real - 0.5).abs() <= found.radius));
+        assert!(found.iter().all(|found| !found.alone && found.real().is_none()));
     }
 }

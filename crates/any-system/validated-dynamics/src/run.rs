@@ -44,6 +44,8 @@ pub struct ValidatedRun<'s> {
     time: Enclosure,
     /// For each guard of the mode, true if it is 0 at all states.
     on: Vec<bool>,
+    /// True if the states have had an event that changed them at different times: at one time their derivatives are others then.
+    apart: bool,
     /// True until the guards have been looked at in this arc.
     begins: bool,
     steps: usize,
@@ -79,6 +81,7 @@ impl<'s> ValidatedRun<'s> {
             chain,
             time: Enclosure::ZERO,
             on,
+            apart: false,
             begins: true,
             steps: 0,
             events: 0,
@@ -158,10 +161,13 @@ impl<'s> ValidatedRun<'s> {
 
     /// The states at a time since the start, and the events until then.
     ///
+    /// After an event that changes the states, which happens at different times, they have no derivatives at a common time: these are `None` then. A
+    /// model whose formulas use the time has them at a guard of the time.
+    ///
     /// # Errors
     /// As [`next_event`](Self::next_event); [`Error::Argument`] for a time before that of the states.
     pub fn advance(&mut self, time: Enclosure) -> Result<Vec<ProvedEvent>, Error> {
-        if !(time.low >= self.time.high && time.high.is_finite()) {
+        if !(time.low >= self.time.high && time.low <= time.high && time.high.is_finite()) {
             return Error::argument(
                 "time",
                 format!("it must be finite, and at or after {}", self.time.high),
@@ -173,6 +179,9 @@ impl<'s> ValidatedRun<'s> {
             if let Moved::Event(event) = moved {
                 events.push(*event);
             }
+        }
+        if self.apart {
+            self.chain = None;
         }
         Ok(events)
     }
@@ -195,6 +204,9 @@ impl<'s> ValidatedRun<'s> {
         }
         self.steps += 1;
         let left = end.map(|end| end - self.time);
+        if left.is_some_and(|left| !(left.low > 0.0)) {
+            return self.undecided(Reason::Times { width: self.time.width() });
+        }
         let longest = left.map_or(f64::INFINITY, |left| left.high);
         let set = self.set.clone();
         let mode = self.own();
@@ -221,9 +233,16 @@ impl<'s> ValidatedRun<'s> {
                     Err(reason) => self.undecided(reason),
                 }
             }
+            Ok(First::Cut(time)) if left.is_some_and(|left| time > left.low) => {
+                self.undecided(Reason::Times { width: self.time.width() })
+            }
             Ok(First::Cut(time)) => self.flow(&tube, Enclosure::from(time), None),
             Ok(First::Nothing) => match left.filter(|left| tube.length >= left.high) {
                 Some(left) => self.flow(&tube, left, end),
+                // No step goes beyond the end for some states.
+                None if left.is_some_and(|left| tube.length > left.low) => {
+                    self.undecided(Reason::Times { width: self.time.width() })
+                }
                 None => self.flow(&tube, Enclosure::from(tube.length), None),
             },
         }
@@ -327,11 +346,11 @@ impl<'s> ValidatedRun<'s> {
             set: set.clone(),
             chain: chain.clone(),
         };
-        if guard.observes(self.mode) {
+        if guard.observes(self.mode) && !guard.bounds_flow {
             self.pass(guards, crossing)?;
         } else {
             self.ended = guard.stops.then_some(guard.surface);
-            (self.mode, self.begins) = (guard.mode, true);
+            (self.mode, self.begins, self.apart) = (guard.mode, true, true);
             self.on.clone_from(&guard.begins_on);
             (self.set, self.chain, self.time) = (set, chain, time);
         }

@@ -16,7 +16,8 @@ pub struct AffineSet {
     start: Vec<Enclosure>,
     frame: Frame,
     errors: Vec<Enclosure>,
-    /// A box that holds the set. It may be narrower than the box of the sum.
+    /// A box that holds the states and the centre. It may be narrower than the box of the sum: the states are those of the sum that are in it.
+    /// Both are convex, so that they hold the points between a state and the centre.
     hull: Vec<Enclosure>,
 }
 
@@ -76,6 +77,8 @@ impl AffineSet {
         let centre = middle(at_centre);
         let hull = self.values(at_centre, derivatives);
         let hull = bounds.map_or(hull.clone(), |bounds| common(&hull, bounds));
+        // Derivatives on the hull are taken between the centre and the states: rounding may have put the centre outside.
+        let hull = hull.iter().zip(&centre).map(|(x, c)| x.hull(&Enclosure::from(*c))).collect();
         let shaped = derivatives.times(&Matrix::of_numbers(&self.shape));
         let shape = shaped.middle();
         let lost = shaped.minus(&Matrix::of_numbers(&shape)).apply(&self.start);

@@ -3,8 +3,8 @@
 use crate::enclosed_map::StartSet;
 use crate::event::carried;
 use crate::run::ValidatedRun;
-use crate::system::ValidatedSystem;
-use crate::undecided::Error;
+use crate::system::{ValidatedSystem, without_time};
+use crate::undecided::{Error, Reason, Undecided};
 use equations::{Formulas, Names};
 use interval_arithmetic::Enclosure;
 
@@ -39,7 +39,12 @@ impl ValidatedSystem {
             states: variables.iter().map(|&name| name.to_owned()).collect(),
             ..self.names.clone()
         };
+        let given = states.len();
         let states = Formulas::from_text(names, states)?;
+        let states = without_time(states, "a chart has no time: give it a variable")?;
+        if states.count() != given {
+            return Error::argument("states", "a definition among the formulas: write it out");
+        }
         let slopes = states.jacobian()?;
         let zero = |guard: &crate::system::ValidatedGuard| {
             Ok(guard.function.on(&states)?.vanishes() == [true])
@@ -76,7 +81,16 @@ impl ValidatedSystem {
         start: StartSet,
     ) -> Result<ValidatedRun<'_>, Error> {
         check_box(&chart.states.names().states, start.set.hull())?;
-        let (set, chain) = carried(&start.set, start.chain, (&chart.states, &chart.slopes))?;
+        let found = carried(&start.set, start.chain, (&chart.states, &chart.slopes));
+        let (set, chain) = found.map_err(|error| {
+            Error::Undecided(Box::new(Undecided {
+                reason: Reason::Domain(error),
+                mode: Some(self.modes[chart.mode].name),
+                time: Enclosure::ZERO,
+                states: start.set.hull().to_vec(),
+                names: chart.states.names().states.clone(),
+            }))
+        })?;
         Ok(ValidatedRun::new(self, chart.mode, set, chain, chart.on.clone()))
     }
 

@@ -53,7 +53,7 @@ pub(crate) fn on_surface(
         let along = projection(&field, &gradient, rate);
         let derivatives = along.times(&varied);
         let times_of_all = arrival_times(tube, &gradient, rate, &varied, of_centre);
-        let times = times.intersection(&times_of_all).unwrap_or(times);
+        let times = times.intersection(&times_of_all).unwrap_or_else(|| times.hull(&times_of_all));
         bounds = common(&bounds, &tube.set.values(&at_centre, &derivatives));
         found = Some((derivatives, times));
     }

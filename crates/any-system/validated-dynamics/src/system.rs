@@ -124,7 +124,8 @@ impl ValidatedSystem {
     /// Formulas of the state, from texts in the names of the equations.
     pub(crate) fn formulas(&self, texts: &[&str]) -> Result<Formulas, Error> {
         let intervals: Vec<&str> = self.intervals.iter().map(String::as_str).collect();
-        Ok(self.equations.texts_in_parts(texts, &intervals)?)
+        let found = self.equations.texts_in_parts(texts, &intervals)?;
+        without_time(found, "the model does not use the time: add a state whose rate is 1")
     }
 
     pub(crate) fn place_of(&self, mode: &str) -> Result<usize, Error> {
@@ -197,5 +198,13 @@ impl ValidatedGuard {
             begins_on: after.guards.iter().map(is_zero).collect(),
             reset,
         })
+    }
+}
+
+/// An error for formulas of the time, which has no value where they are used.
+pub(crate) fn without_time(formulas: Formulas, reason: &str) -> Result<Formulas, Error> {
+    match formulas.uses_time() {
+        true => Error::argument("t", reason),
+        false => Ok(formulas),
     }
 }

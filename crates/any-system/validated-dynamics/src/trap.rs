@@ -1,6 +1,6 @@
 //! Traps: sets that a map leads into themselves, all of whose points converge to a fixed point.
 
-use crate::cells::part_of;
+use crate::cells::{MOST_SIDES, part_of};
 use crate::enclosed_map::{EnclosedMap, StartSet};
 use crate::fixed_point::ProvedFixedPoint;
 use crate::frame::inverse_of;
@@ -21,6 +21,9 @@ const LARGER_TRIES: usize = 50;
 const GROWN: f64 = 2.0;
 const LEAST_GROWN: f64 = 1.04;
 
+/// A trap of this size is not grown: its map is linear, or nearly so.
+const LARGEST: f64 = 1e100;
+
 /// How often the box of a trap is halved until each part's image is in the trap before. Each time the error of a part's image falls by four, and
 /// their number grows by 2ⁿ.
 const HALVES: u32 = 10;
@@ -32,20 +35,40 @@ const FIRST: f64 = 1.0;
 /// form, in the coordinates u, and leads the larger ones step by step into smaller ones.
 #[derive(Debug, Clone)]
 pub struct Trap {
-    /// The centre c.
-    pub centre: Vec<f64>,
-    /// The directions A, as columns.
-    pub directions: DMatrix<f64>,
-    /// The size ρ.
-    pub size: f64,
-    /// The size of the contraction.
-    pub contracting: f64,
-    /// A bound of the norm of its derivatives in the coordinates u: distances to the fixed point fall by this factor there, at least.
-    pub contraction: f64,
+    centre: Vec<f64>,
+    directions: DMatrix<f64>,
+    size: f64,
+    contracting: f64,
+    contraction: f64,
     inverse: Matrix,
 }
 
 impl Trap {
+    /// The centre c.
+    pub fn centre(&self) -> &[f64] {
+        &self.centre
+    }
+
+    /// The directions A, as columns.
+    pub fn directions(&self) -> &DMatrix<f64> {
+        &self.directions
+    }
+
+    /// The size ρ.
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// The size of the contraction.
+    pub fn contracting(&self) -> f64 {
+        self.contracting
+    }
+
+    /// A bound of the norm of its derivatives in the coordinates u: distances to the fixed point fall by this factor there, at least.
+    pub fn contraction(&self) -> f64 {
+        self.contraction
+    }
+
     /// The largest trap about an attracting fixed point that is found with the directions of its eigenvectors.
     ///
     /// ```
@@ -54,7 +77,7 @@ impl Trap {
     /// let names = Names::new(&["x"], &[])?;
     /// let cosine = FormulaMap::new(Formulas::from_text(names, &["cos(x)"])?, 1)?;
     /// let trap = Trap::new(&cosine, &fixed_point(&cosine, &[0.7], &[])?, 1000)?;
-    /// assert!(trap.contracting > 0.5 && trap.contraction < 1.0);
+    /// assert!(trap.contracting() > 0.5 && trap.contraction() < 1.0);
     /// # Ok::<(), validated_dynamics::Error>(())
     /// ```
     ///
@@ -69,6 +92,12 @@ impl Trap {
         images: usize,
     ) -> Result<Trap, Error> {
         let count = map.dimension();
+        if fixed.point.len() != count || !(1..=MOST_SIDES).contains(&count) {
+            let given = fixed.point.len();
+            let reason =
+                format!("{given} variables, but the map has {count}, of at most {MOST_SIDES}");
+            return Error::argument("fixed", reason);
+        }
         let own =
             Matrix::from_fn(count, count, |row, column| fixed.image.derivatives.at(row, column));
         let basis = eigenbasis(&own.middle()).map(|(basis, _)| basis);
@@ -108,7 +137,7 @@ impl Trap {
         mut images: usize,
     ) -> Result<Trap, Error> {
         let mut factor = GROWN;
-        while factor > LEAST_GROWN {
+        while factor > LEAST_GROWN && self.size < LARGEST {
             let size = factor * self.size;
             let all = vec![Enclosure::new(-size, size); self.centre.len()];
             match self.receives(map, &all, parameters, HALVES, &mut images)? {
@@ -174,7 +203,14 @@ impl Trap {
         size: f64,
         parameters: &[Enclosure],
     ) -> Result<Option<Trap>, Error> {
-        let count = directions.ncols();
+        let count = map.dimension();
+        let are_square = directions.nrows() == count && directions.ncols() == count;
+        if !are_square || centre.len() != count || !(size > 0.0 && size.is_finite()) {
+            let reason = format!(
+                "a centre of {count} numbers, {count}×{count} directions and a positive size are needed"
+            );
+            return Error::argument("trap", reason);
+        }
         let Some(near) = directions.clone().lu().try_inverse() else { return Ok(None) };
         let Some(inverse) = inverse_of(directions, &near) else { return Ok(None) };
         let mut trap = Trap {

@@ -126,6 +126,14 @@ pub enum Reason {
         /// The surface.
         surface: Label,
     },
+    /// The states have times that are too different for one step to the time at which they are wanted.
+    #[error(
+        "the states have come to their last event at times that are {width:e} apart, too far for one step to the end: take a smaller set, or a later time"
+    )]
+    Times {
+        /// How far the times are apart.
+        width: f64,
+    },
     /// The caller stopped the computation.
     #[error("interrupted")]
     Interrupted,

@@ -1,6 +1,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 //! All tests of this crate in one program.
 
+mod attacked;
 mod basins;
 mod closed_forms;
 mod periodic_orbits;

@@ -18,8 +18,8 @@ fn map_of(names: &[&str], texts: &[&str]) -> FormulaMap {
 fn a_trap_grows_as_far_as_it_leads_into_itself() {
     let map = map_of(&["x"], &["1.5*x - 0.5*x^3"]);
     let trap = Trap::new(&map, &fixed_point(&map, &[0.9], &[]).unwrap(), 10_000).unwrap();
-    assert!(trap.contraction < 1.0 && trap.contracting <= trap.size);
-    assert!(trap.size > 0.5 && trap.size < 0.6, "{}", trap.size);
+    assert!(trap.contraction() < 1.0 && trap.contracting() <= trap.size());
+    assert!(trap.size() > 0.5 && trap.size() < 0.6, "{}", trap.size());
     assert!(trap.contains(&[Enclosure::new(0.55, 1.45)]));
     assert!(!trap.contains(&[Enclosure::new(-0.1, 0.1)]));
 }
@@ -36,15 +36,15 @@ fn a_trap_of_a_turned_parallelepiped_has_no_state_of_another_fate() {
         x.abs() + y.abs()
     };
     for corner in [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0), (0.3, -1.0)] {
-        let size = 0.999 * trap.size;
+        let size = 0.999 * trap.size();
         let at = |row: usize| {
-            let directions = &trap.directions;
-            trap.centre[row]
+            let directions = trap.directions();
+            trap.centre()[row]
                 + size * (directions[(row, 0)] * corner.0 + directions[(row, 1)] * corner.1)
         };
         assert!(orbit(at(0), at(1)) < 1e-9);
     }
-    assert!(trap.size > 0.05);
+    assert!(trap.size() > 0.05);
 }
 
 /// The runner that starts below the height of touchdown falls: no trap of the gait may have such a start.
@@ -83,7 +83,11 @@ fn the_runner_is_attracted_from_heights_above_that_of_touchdown_alone() {
     let trap = Trap::new(&map, &gait, 1000).unwrap();
     // sin 68°.
     let touchdown = 0.927_183_854_566_787;
-    assert!(trap.size > 0.008 && trap.size < 0.940_267_144_379_606 - touchdown, "{}", trap.size);
+    assert!(
+        trap.size() > 0.008 && trap.size() < 0.940_267_144_379_606 - touchdown,
+        "{}",
+        trap.size()
+    );
     // A fall is a fate of all states of a box.
     let error = map.carry(StartSet::of_box(&[Enclosure::new(0.85, 0.86)])).unwrap_err();
     assert!(error.to_string().contains("ground"), "{error}");
