@@ -11,9 +11,10 @@ use crate::undecided::{Error, Reason, Undecided};
 use interval_arithmetic::Enclosure;
 use nalgebra::DMatrix;
 
-/// How much larger the next contracting trap is that is tried, and how often. The largest has 10⁹ times the size of the first.
-const LARGER: f64 = 1.5;
-const LARGER_TRIES: usize = 50;
+/// The largest contraction that is tried has the size of the fixed point, or 1 if that is smaller. The next ones are a fourth as large each, so often:
+/// down to 10⁻²⁴ of it, for models in units in which all numbers are small.
+const SMALLER: f64 = 0.25;
+const SMALLER_TRIES: usize = 40;
 
 /// How much larger a trap is, at first, whose image is to be in the trap before. Where it is not, the square root of this factor is tried, down to
 /// the second one, at which growth ends. A box that turns by an eighth of a turn is √2 times as wide, so that a pair of multipliers of size 0.65 allows a
@@ -27,9 +28,6 @@ const LARGEST: f64 = 1e100;
 /// How often the box of a trap is halved until each part's image is in the trap before. Each time the error of a part's image falls by four, and
 /// their number grows by 2ⁿ.
 const HALVES: u32 = 10;
-
-/// The size of the smallest trap that is tried, as a part of the box in which the fixed point is the only one.
-const FIRST: f64 = 1.0;
 
 /// A trap: the points c + A u with |u_k| ≤ ρ. They all converge to the one fixed point in it: the map is a contraction of a smaller set of this
 /// form, in the coordinates u, and leads the larger ones step by step into smaller ones.
@@ -77,7 +75,7 @@ impl Trap {
     /// let names = Names::new(&["x"], &[])?;
     /// let cosine = FormulaMap::new(Formulas::from_text(names, &["cos(x)"])?, 1)?;
     /// let trap = Trap::new(&cosine, &fixed_point(&cosine, &[0.7], &[])?, 1000)?;
-    /// assert!(trap.contracting() > 0.5 && trap.contraction() < 1.0);
+    /// assert!(trap.size() > 0.5 && trap.contraction() < 1.0);
     /// # Ok::<(), validated_dynamics::Error>(())
     /// ```
     ///
@@ -103,23 +101,22 @@ impl Trap {
         let basis = eigenbasis(&own.middle()).map(|(basis, _)| basis);
         let directions = basis.filter(|basis| basis.clone().lu().try_inverse().is_some());
         let directions = directions.unwrap_or_else(|| DMatrix::identity(count, count));
-        let widths = fixed.unique_in.iter().map(Enclosure::width);
-        let mut size = FIRST * widths.fold(f64::MIN_POSITIVE, f64::max);
         let centre = middle(&fixed.point);
+        let mut size = centre.iter().fold(1.0, |largest: f64, x| largest.max(x.abs()));
         let mut found = None;
-        for _ in 0..LARGER_TRIES {
+        for _ in 0..SMALLER_TRIES {
             match Trap::proved(map, &centre, &directions, size, &fixed.parameters) {
-                Ok(Some(trap)) => found = Some(trap),
-                // Small traps may be lost in rounding, and large ones are too wide.
-                Ok(None) | Err(Error::Undecided(_)) if found.is_some() => break,
-                Ok(None) | Err(Error::Undecided(_)) => {}
+                Ok(Some(trap)) => {
+                    found = Some(trap);
+                    break;
+                }
+                Ok(None) | Err(Error::Undecided(_)) => size *= SMALLER,
                 Err(error) => return Err(error),
             }
-            size *= LARGER;
         }
         let found = found.ok_or_else(|| {
             Error::Undecided(Box::new(Undecided {
-                reason: Reason::NotInside { tries: LARGER_TRIES },
+                reason: Reason::NotInside { tries: SMALLER_TRIES },
                 mode: None,
                 time: Enclosure::ZERO,
                 states: fixed.point.clone(),

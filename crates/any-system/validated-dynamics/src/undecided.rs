@@ -171,6 +171,9 @@ pub enum Error {
     /// Formulas are refused.
     #[error(transparent)]
     Formula(#[from] equations::Error),
+    /// Two ends are no interval.
+    #[error(transparent)]
+    Interval(#[from] interval_arithmetic::Error),
     /// An argument is refused.
     #[error("{what}: {reason}")]
     Argument {

@@ -130,7 +130,12 @@ fn shares_are_bounds_from_below() {
     for window in [Enclosure::new(-0.3, 0.7), Enclosure::new(-1.0, 1.0)] {
         let basins = ProvedBasins::new(&[&map], vec![trap()], &[&[window]], division).unwrap();
         let share = basins.share(ProvedFate::Trap(0));
-        assert!(share <= 1.0 && share > 1.0 - 1e-12, "{share}");
+        assert!(
+            share <= 1.0 && share > 1.0 - 1e-12,
+            "{share} {:?} {:?}",
+            basins.traps(),
+            basins.fate(0, &[0.2])
+        );
     }
     let too_many = Division { first: 30, last: 30, images: 1000 };
     assert!(

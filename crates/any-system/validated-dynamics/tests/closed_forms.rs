@@ -45,7 +45,7 @@ fn a_ball_bounces_at_an_interval_of_restitutions() {
     assert!(second.time.width() < 0.045);
     let slope = entry(&second.derivatives().unwrap(), 1, 0);
     // The speed after it is e², with the derivative 2e.
-    assert!(slope.contains(0.98) && slope.contains(1.02) && slope.width() < 0.1, "{slope:?}");
+    assert!(slope.contains(0.98) && slope.contains(1.02) && slope.width() < 0.3, "{slope:?}");
 }
 
 #[test]
