@@ -4,7 +4,6 @@ use crate::error::Error;
 use crate::formulas::{Formulas, length};
 use crate::graph::Graph;
 use crate::node::{Binary, Node, Unary};
-use interval_arithmetic::Enclosure;
 
 impl Formulas {
     /// The formulas at another time and another state, f(τ(t, x), ξ(t, x)): `inner` has τ first, then each component of ξ.
@@ -46,8 +45,8 @@ impl Formulas {
         Formulas::of_parts(self.names.clone(), graph.into_nodes(), outputs)
     }
 
-    /// For each formula, true if it is 0 at every state by the way in which it is written: as a number, as a − a, or as a product with such a
-    /// factor. A formula that is 0 for another reason may have `false`.
+    /// For each formula, true if it is 0 at every state by the way in which it is written: as a number, as a − a, as a difference of equal numbers, or
+    /// as a product with such a factor. A formula that is 0 for another reason may have `false`.
     ///
     /// ```
     /// use equations::{Formulas, Names};
@@ -56,13 +55,24 @@ impl Formulas {
     /// # Ok::<(), equations::Error>(())
     /// ```
     pub fn vanishes(&self) -> Vec<bool> {
+        // A decimal that is a double is the same number as this double.
+        let number = |place: usize| {
+            let enclosure = match &self.nodes[place] {
+                Node::Constant(constant) => constant.enclosure(),
+                Node::Parameter(at) => self.names.values[*at].enclosure(),
+                _ => return None,
+            };
+            (enclosure.low == enclosure.high).then_some(enclosure.low)
+        };
+        let equal = |a: usize, b: usize| {
+            a == b || number(a).zip(number(b)).is_some_and(|(own, other)| own == other)
+        };
         let mut zero: Vec<bool> = Vec::with_capacity(self.nodes.len());
-        for node in &self.nodes {
+        for (place, node) in self.nodes.iter().enumerate() {
             zero.push(match *node {
-                Node::Constant(ref constant) => constant.enclosure() == Enclosure::ZERO,
-                Node::Parameter(at) => self.names.values[at].enclosure() == Enclosure::ZERO,
+                Node::Constant(_) | Node::Parameter(_) => number(place) == Some(0.0),
                 Node::Unary(Unary::Negative, a) => zero[a],
-                Node::Binary(Binary::Difference, a, b) => a == b || (zero[a] && zero[b]),
+                Node::Binary(Binary::Difference, a, b) => equal(a, b) || (zero[a] && zero[b]),
                 Node::Binary(Binary::Sum, a, b) => zero[a] && zero[b],
                 Node::Binary(Binary::Product, a, b) => zero[a] || zero[b],
                 _ => false,

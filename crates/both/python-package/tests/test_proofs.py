@@ -51,5 +51,5 @@ def test_what_is_not_proved_says_why():
     with pytest.raises(ns.InputError):
         ns.proved_orbit(oscillator(), "stop", guess={"v": np.nan, "s": 0.1}, start=["0.5", "v", "s"])
     with pytest.raises(ns.TracingError, match="no formulas"):
-        called = ns.System(lambda t, x: [1.0 if x[0] > 0 else 2.0], states="x")
+        called = ns.System(lambda t, x, p: [1.0 if x[0] > 0 else 2.0], states="x")
         ns.proved_orbit(called, "stop", guess={"x": 1.0}, start=["x"])
