@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::rounding::{down, up};
+use std::fmt;
 
 /// An interval that holds a number, or all values of a function, for certain.
 ///
@@ -15,6 +16,13 @@ pub struct Enclosure {
     pub low: f64,
     /// Upper bound.
     pub high: f64,
+}
+
+/// The two ends, shortest and exactly: `[0.5, 1]`.
+impl fmt::Display for Enclosure {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "[{}, {}]", self.low, self.high)
+    }
 }
 
 impl From<f64> for Enclosure {

@@ -28,7 +28,7 @@ fn main() -> Result<(), Error> {
     for guess in [[-0.8, 0.0], [1.2, 0.1]] {
         let orbit = fixed_point(&period, &guess, &[])?;
         let trap = Trap::new(&period, &orbit, 20_000)?;
-        println!("{:?}, trap of size {:.3}, {:?}", orbit.point, trap.size(), begin.elapsed());
+        println!("x in {}, trap of size {:.3}, {:?}", orbit.point[0], trap.size(), begin.elapsed());
         traps.push(trap);
     }
     let window = [Enclosure::new(-2.2, 2.2), Enclosure::new(-2.2, 2.2)];

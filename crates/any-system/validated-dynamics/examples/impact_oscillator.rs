@@ -22,8 +22,8 @@ fn main() -> Result<(), Error> {
     let after = system.chart("free", &["v", "s"], &["0.5", "v", "s"])?;
     let returns = SectionMap::new(&system, after, "stop", 1, &["v", "t - 2*pi/1.3"])?;
     let orbit = fixed_point(&returns, &[-1.48, 0.16], &[])?;
-    println!("F = 1: v = {:?}, t = {:?}", orbit.point[0], orbit.point[1]);
-    println!("  multipliers {:?}, {:?}", orbit.multipliers, begin.elapsed());
+    println!("F = 1: v in {}, t in {}", orbit.point[0], orbit.point[1]);
+    println!("  a multiplier in {}, {:?}", orbit.multipliers[0], begin.elapsed());
 
     // The same for intervals of F, each of which continues the orbit of its neighbour: their unique orbits are the same at common ends.
     let system = ValidatedSystem::with_interval_parameters(&oscillator("1"), &["F"])?;
@@ -52,7 +52,7 @@ fn main() -> Result<(), Error> {
         let start = system.chart("free", &["x", "s"], &["x", "0", "s"])?;
         let returns = SectionMap::new(&system, start, "peak", 1, &["x", "t - 2*pi/1.3"])?;
         let orbit = fixed_point(&returns, &[0.5, 2.0], &[])?;
-        println!("F = {forcing}: the largest x is {:?}", orbit.point[0]);
+        println!("F = {forcing}: the largest x is in {}", orbit.point[0]);
     }
     println!("{:?}", begin.elapsed());
     Ok(())

@@ -14,10 +14,10 @@ fn main() -> Result<(), Error> {
     let section = system.chart("flow", &["y", "z"], &["0", "y", "z"])?;
     let returns = SectionMap::new(&system, section, "section", 1, &["y", "z"])?;
     let orbit = fixed_point(&returns, &[-8.4, 0.03], &[])?;
-    println!("There is one orbit with y in {:?}, z in {:?}.", orbit.point[0], orbit.point[1]);
-    println!("Its period is in {:?}.", orbit.image.events[0].time);
+    println!("There is one orbit with y in {}, z in {}.", orbit.point[0], orbit.point[1]);
+    println!("Its period is in {}.", orbit.image.events[0].time);
     for multiplier in &orbit.multipliers {
-        println!("A multiplier is in {:?}.", multiplier.real());
+        println!("A multiplier is in {multiplier}.");
     }
     assert!(orbit.is_saddle());
     Ok(())

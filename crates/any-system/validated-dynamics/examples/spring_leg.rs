@@ -35,8 +35,8 @@ fn main() -> Result<(), Error> {
     let map =
         SectionMap::new(&system, system.chart("flight", &["h"], &apex)?, "apex", 1, &["height"])?;
     let gait = fixed_point(&map, &[0.94], &[])?;
-    println!("the gait has its apex at {:?} m", gait.point[0]);
-    println!("  multiplier {:?}, {:?}", gait.multipliers[0].real(), begin.elapsed());
+    println!("the gait has its apex in {} m", gait.point[0]);
+    println!("  multiplier in {}, {:?}", gait.multipliers[0], begin.elapsed());
     let trap = Trap::new(&map, &gait, 3000)?;
     let radius = trap.size() * trap.directions()[(0, 0)].abs();
     println!("  attracts |h − {}| < {radius}, {:?}", trap.centre()[0], begin.elapsed());
@@ -50,6 +50,6 @@ fn main() -> Result<(), Error> {
             break event;
         }
     };
-    println!("at {:?} s, {:?}", fall.time, begin.elapsed());
+    println!("at {} s, {:?}", fall.time, begin.elapsed());
     Ok(())
 }

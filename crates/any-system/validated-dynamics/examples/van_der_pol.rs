@@ -33,13 +33,9 @@ fn main() -> Result<(), Error> {
 
     let returns = to_the_right(HALVES[0])?.within(limits);
     let cycle = fixed_point(&returns, &[2.0], &[])?;
-    println!(
-        "the cycle crosses at {:?}, multiplier {:?}",
-        cycle.point[0],
-        cycle.multipliers[0].real()
-    );
+    println!("the cycle crosses at {}, multiplier {}", cycle.point[0], cycle.multipliers[0]);
     let trap = Trap::new(&returns, &cycle, 20_000)?;
-    println!("on the right {HALF:?} converges: {}, {:?}", trap.contains(&[HALF]), begin.elapsed());
+    println!("on the right {HALF} converges: {}, {:?}", trap.contains(&[HALF]), begin.elapsed());
 
     let budget = Budget { boxes: 50_000, divisions: 12 };
     for half in &HALVES[1..] {

@@ -3,6 +3,7 @@
 use crate::matrix::{Matrix, row_norm};
 use interval_arithmetic::Enclosure;
 use nalgebra::DMatrix;
+use std::fmt;
 
 /// A disc of the complex plane that holds one eigenvalue of each matrix, or more of them where discs meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +16,19 @@ pub struct Multiplier {
     pub radius: f64,
     /// True if the disc meets no other one: it holds exactly one eigenvalue.
     pub alone: bool,
+}
+
+/// The interval of a real eigenvalue; else the disc.
+impl fmt::Display for Multiplier {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.real() {
+            Some(real) => real.fmt(formatter),
+            None => {
+                let Multiplier { real, imaginary, radius, .. } = self;
+                write!(formatter, "the disc of radius {radius:e} about {real} + {imaginary} i")
+            }
+        }
+    }
 }
 
 impl Multiplier {

@@ -9,7 +9,7 @@ use thiserror::Error;
 ///
 /// Nothing is said about the states of the set then. Smaller sets are often decided: see [`divided`](crate::divided).
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("undecided{} at t in {}, {}: {reason}", mode_of(.mode), Ends(.time), States(.names, .states))]
+#[error("undecided{} at t in {}, {}: {reason}", mode_of(.mode), .time, States(.names, .states))]
 pub struct Undecided {
     /// Why.
     pub reason: Reason,
@@ -205,21 +205,12 @@ fn mode_of(mode: &Option<Label>) -> String {
     mode.map_or(String::new(), |mode| format!(" in mode {mode}"))
 }
 
-/// An enclosure by its ends.
-pub(crate) struct Ends<'e>(pub(crate) &'e Enclosure);
-
-impl fmt::Display for Ends<'_> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "[{}, {}]", self.0.low, self.0.high)
-    }
-}
-
 struct States<'s>(&'s [String], &'s [Enclosure]);
 
 impl fmt::Display for States<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (place, (name, state)) in self.0.iter().zip(self.1).enumerate() {
-            write!(formatter, "{}{name} in {}", if place > 0 { ", " } else { "" }, Ends(state))?;
+            write!(formatter, "{}{name} in {}", if place > 0 { ", " } else { "" }, state)?;
         }
         Ok(())
     }
