@@ -207,6 +207,17 @@ impl Formulas {
         Formulas::of_parts(self.names.clone(), graph.into_nodes(), outputs)
     }
 
+    /// The outputs of all of these formulas with the same names, one after the other; `None` of none.
+    ///
+    /// # Errors
+    /// As [`and`](Self::and).
+    pub fn all_of<'f>(
+        mut all: impl Iterator<Item = &'f Formulas>,
+    ) -> Result<Option<Formulas>, Error> {
+        let Some(first) = all.next() else { return Ok(None) };
+        all.try_fold(first.clone(), |known, more| known.and(more)).map(Some)
+    }
+
     /// True if the time stands in a formula.
     pub fn uses_time(&self) -> bool {
         self.nodes.contains(&Node::Time)
@@ -223,24 +234,6 @@ impl Formulas {
         let moved = |node: &Node| if is_time(node) { Node::State(component) } else { node.clone() };
         let mut graph = Graph::of(self.nodes.iter().map(moved).collect());
         let further = further.map(|node| graph.place(moved(&node)));
-        let outputs = self.outputs.iter().copied().chain(further).collect();
-        Formulas::of(names, graph.into_nodes(), outputs)
-    }
-
-    /// The same formulas with the parameters as further components of the state, and with a `further` formula for each of
-    /// them, if it is given: of a field the number 0.
-    #[must_use]
-    pub fn with_parameters_as_states(&self, further: Option<f64>) -> Formulas {
-        let states = self.names.states.iter().chain(&self.names.parameters).cloned().collect();
-        let (count, added) = (self.names.states.len(), self.names.parameters.len());
-        let names = Names { states, ..Names::default() };
-        let moved = |node: &Node| match node {
-            Node::Parameter(at) => Node::State(count + at),
-            node => node.clone(),
-        };
-        let mut graph = Graph::of(self.nodes.iter().map(moved).collect());
-        let further = further.map(|rate| graph.number(rate));
-        let further = (0..added).filter_map(|_| further);
         let outputs = self.outputs.iter().copied().chain(further).collect();
         Formulas::of(names, graph.into_nodes(), outputs)
     }

@@ -36,8 +36,13 @@ impl JetSeries {
     /// # Errors
     /// As [`Series::new`].
     pub fn new(field: &Formulas, watched: Option<&Formulas>) -> Result<JetSeries, Error> {
-        let field = field.with_parameters_as_states(Some(0.0));
-        let watched = watched.map(|watched| watched.with_parameters_as_states(None));
+        let moved = |formulas: &Formulas, rate: Option<f64>| {
+            let names = &formulas.names.parameters;
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            formulas.with_states_for(&names, |_| rate.map(|rate| Node::Constant(rate.into())))
+        };
+        let watched = watched.map(|watched| moved(watched, None)).transpose()?;
+        let field = moved(field, Some(0.0))?;
         Ok(JetSeries { series: Series::with(&field, watched.as_ref(), false)? })
     }
 

@@ -6,9 +6,9 @@
 //! | [`buck_converter`] | a DC–DC converter with its clock (Fossas and Olivar 1996) | a figure |
 //! | [`eccentric_cylinder`] | a cylinder whose centre of mass is off its axis, bouncing on a floor | an example of `hybrid-system`, a figure |
 //! | [`forced_oscillator`] | the forced oscillator of Sommerer and Ott (1993), as a stroboscopic map | an example of `return-map`, a figure |
-//! | [`impact_oscillator`] | a forced oscillator at its first grazing of a stop (Nordmark 1991) | a figure |
+//! | [`impact_oscillator`] | a forced oscillator at its first grazing of a stop (Nordmark 1991) | a figure, an example of `validated-dynamics` |
 //! | [`scenes`] | small systems in which something happens at once, slides or touches | tests of `hybrid-system`, figures |
-//! | [`spring_leg`] | a runner on a spring leg (Seyfarth and others 2002) | a figure |
+//! | [`spring_leg`] | a runner on a spring leg (Seyfarth and others 2002), who may fall | a figure, an example of `validated-dynamics` |
 //! | [`stick_slip`] | a mass on a belt, with a friction that falls (Leine and others 1998) | a figure |
 //! | [`valve`] | a pressure relief valve whose disc hits its seat | an example and a benchmark of `return-map`, a figure |
 //!

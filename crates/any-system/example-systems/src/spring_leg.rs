@@ -16,15 +16,29 @@ pub const APEX: f64 = 0.940_267_144;
 ///
 /// Touchdown and take-off are crossings: the body may take off below the height of its touchdown.
 pub fn spring_leg() -> Equations {
+    runner(false)
+}
+
+/// The same runner, who may fall: the run ends where the body comes to the ground, in flight at "ground" and in stance at "stumble".
+pub fn spring_leg_that_falls() -> Equations {
+    runner(true)
+}
+
+fn runner(falls: bool) -> Equations {
     let numbers =
         [("mass", "80"), ("stiffness", "2e4"), ("leg", "1"), ("gravity", "9.81"), ("attack", "68")];
-    Equations::new(&["x", "height", "speed", "climb"], &numbers)
+    let ground = |equations: Equations, surface: &str| match falls {
+        true => equations.falling(surface, |_, x, _| x[1]).stops(),
+        false => equations,
+    };
+    let flight = Equations::new(&["x", "height", "speed", "climb"], &numbers)
         .mode("flight", |t, x, p| [x[2], x[3], t.number(0.0), -p["gravity"]])
         .falling("touchdown", |_, x, p| x[1] - p["leg"] * radians(p["attack"]).sin())
         .crossing()
         .resets(|_, x, p| [-p["leg"] * radians(p["attack"]).cos(), x[1], x[2], x[3]])
         .to("stance")
-        .falling("apex", |_, x, _| x[3])
+        .falling("apex", |_, x, _| x[3]);
+    let stance = ground(flight, "ground")
         .mode("stance", |_, x, p| {
             let length = (x[0] * x[0] + x[1] * x[1]).sqrt();
             let push = p["stiffness"] / p["mass"] * (p["leg"] / length - 1.0);
@@ -32,7 +46,8 @@ pub fn spring_leg() -> Equations {
         })
         .rising("take-off", |_, x, p| (x[0] * x[0] + x[1] * x[1]).sqrt() - p["leg"])
         .crossing()
-        .to("flight")
+        .to("flight");
+    ground(stance, "stumble")
 }
 
 /// The angle in radians.

@@ -3,32 +3,26 @@
 
 #![allow(clippy::print_stdout)] // a program
 
+use example_systems::impact_oscillator::impact_oscillator;
 use hybrid_system::Equations;
 use std::time::Instant;
 use validated_dynamics::{
     Budget, Enclosure, Error, SectionMap, ValidatedSystem, divided, fixed_point, halves,
 };
 
-fn oscillator(forcing: &str) -> Equations {
-    Equations::new(&["x", "v"], &[("F", forcing)])
-        .mode_text("free", &["v", "F*cos(1.3*t) - 0.1*v - x"])
-        .rising_text("stop", "x - 0.5")
-        .resets_text(&["x", "-0.8*v"])
-}
-
 fn main() -> Result<(), Error> {
     let begin = Instant::now();
-    let system = ValidatedSystem::new(&oscillator("1"))?;
-    let after = system.chart("free", &["v", "s"], &["0.5", "v", "s"])?;
-    let returns = SectionMap::new(&system, after, "stop", 1, &["v", "t - 2*pi/1.3"])?;
+    let system = ValidatedSystem::new(&impact_oscillator("1"))?;
+    let after = system.chart("free", &["v", "s"], &["stop", "v", "s"])?;
+    let returns = SectionMap::new(&system, after, "stop", 1, &["v", "t - 2*pi/frequency"])?;
     let orbit = fixed_point(&returns, &[-1.48, 0.16], &[])?;
     println!("F = 1: v in {}, t in {}", orbit.point[0], orbit.point[1]);
     println!("  a multiplier in {}, {:?}", orbit.multipliers[0], begin.elapsed());
 
     // The same for intervals of F, each of which continues the orbit of its neighbour: their unique orbits are the same at common ends.
-    let system = ValidatedSystem::with_interval_parameters(&oscillator("1"), &["F"])?;
-    let after = system.chart("free", &["v", "s", "F"], &["0.5", "v", "s", "F"])?;
-    let returns = SectionMap::new(&system, after, "stop", 1, &["v", "t - 2*pi/1.3"])?;
+    let system = ValidatedSystem::with_interval_parameters(&impact_oscillator("1"), &["forcing"])?;
+    let after = system.chart("free", &["v", "s", "forcing"], &["stop", "v", "s", "forcing"])?;
+    let returns = SectionMap::new(&system, after, "stop", 1, &["v", "t - 2*pi/frequency"])?;
     let forcings = [Enclosure::new(0.95, 1.05)];
     let budget = Budget { boxes: 1000, divisions: 8 };
     let found = divided(&forcings, budget, halves, |forcings| {

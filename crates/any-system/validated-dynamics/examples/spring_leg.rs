@@ -3,34 +3,13 @@
 
 #![allow(clippy::print_stdout)] // a program
 
-use hybrid_system::Equations;
+use example_systems::spring_leg::spring_leg_that_falls;
 use std::time::Instant;
 use validated_dynamics::{Error, SectionMap, Trap, ValidatedSystem, fixed_point};
 
 fn main() -> Result<(), Error> {
     let begin = Instant::now();
-    let numbers =
-        [("mass", "80"), ("stiffness", "2e4"), ("leg", "1"), ("gravity", "9.81"), ("attack", "68")];
-    let push = "stiffness/mass*(leg/sqrt(x^2 + height^2) - 1)";
-    let runner = Equations::new(&["x", "height", "speed", "climb"], &numbers)
-        .mode_text("flight", &["speed", "climb", "0", "-gravity"])
-        .falling_text("touchdown", "height - leg*sin(attack*pi/180)")
-        .crossing()
-        .resets_text(&["-leg*cos(attack*pi/180)", "height", "speed", "climb"])
-        .to("stance")
-        .falling_text("apex", "climb")
-        .falling_text("ground", "height")
-        .stops()
-        .mode_text(
-            "stance",
-            &["speed", "climb", &format!("{push}*x"), &format!("{push}*height - gravity")],
-        )
-        .rising_text("take-off", "sqrt(x^2 + height^2) - leg")
-        .crossing()
-        .to("flight")
-        .falling_text("stumble", "height")
-        .stops();
-    let system = ValidatedSystem::new(&runner)?;
+    let system = ValidatedSystem::new(&spring_leg_that_falls())?;
     let apex = ["0", "h", "sqrt(25 + 2*gravity*(1 - h))", "0"];
     let map =
         SectionMap::new(&system, system.chart("flight", &["h"], &apex)?, "apex", 1, &["height"])?;

@@ -1,6 +1,6 @@
 //! Basins that are proved cell by cell.
 
-use crate::cell_images::{Fresh, Known, images};
+use crate::cell_images::{Known, OpenCell, images};
 use crate::cells::{Cells, MOST_SIDES, Place, part_of};
 use crate::enclosed_map::EnclosedMap;
 use crate::trap::Trap;
@@ -20,14 +20,6 @@ pub enum ProvedFate {
     Trap(usize),
     /// An event at this surface ends the execution of all points.
     Stopped(Label),
-}
-
-/// An open cell that may be divided.
-#[derive(Clone)]
-struct Open {
-    window: usize,
-    halvings: u32,
-    points: Vec<Enclosure>,
 }
 
 /// What the image of an open cell meets.
@@ -76,7 +68,7 @@ pub struct ProvedBasins {
     /// The images that were computed.
     pub images: usize,
     /// The open cells.
-    open: HashMap<Place, Open>,
+    open: HashMap<Place, OpenCell>,
     /// The open cells that wait for another one, which their images meet.
     waiting: HashMap<Place, Vec<Place>>,
     /// The open cells whose division may show more, by their halvings.
@@ -141,9 +133,9 @@ impl ProvedBasins {
             edge: BTreeMap::new(),
             area: 0.0,
         };
-        let (mut fresh, mut freed): (Vec<Fresh>, Vec<Place>) = (Vec::new(), Vec::new());
+        let (mut fresh, mut freed): (Vec<OpenCell>, Vec<Place>) = (Vec::new(), Vec::new());
         for (window, points) in windows.into_iter().enumerate() {
-            fresh.push(Fresh { place: window, window, halvings: 0, points });
+            fresh.push(OpenCell { place: window, window, halvings: 0, points });
         }
         for _ in 0..division.first {
             fresh = fresh.into_iter().flat_map(|cell| basins.divided(&cell)).collect();
@@ -164,8 +156,7 @@ impl ProvedBasins {
             (fresh, freed) = (Vec::new(), Vec::new());
             for place in places {
                 if let Some(open) = basins.open.remove(&place) {
-                    let Open { window, halvings, points } = open;
-                    fresh.extend(basins.divided(&Fresh { place, window, halvings, points }));
+                    fresh.extend(basins.divided(&open));
                     freed.extend(basins.waiting.remove(&place).unwrap_or_default());
                 }
             }
@@ -173,9 +164,9 @@ impl ProvedBasins {
     }
 
     /// The parts of a cell.
-    fn divided(&mut self, cell: &Fresh) -> Vec<Fresh> {
+    fn divided(&mut self, cell: &OpenCell) -> Vec<OpenCell> {
         let places = self.cells.divide(cell.place, &Known::Open(None));
-        let part = |(part, place)| Fresh {
+        let part = |(part, place)| OpenCell {
             place,
             window: cell.window,
             halvings: cell.halvings + 1,
@@ -188,7 +179,7 @@ impl ProvedBasins {
     fn take<M: EnclosedMap + Sync>(
         &mut self,
         maps: &[&M],
-        fresh: Vec<Fresh>,
+        fresh: Vec<OpenCell>,
         freed: Vec<Place>,
     ) -> Result<(), Error> {
         self.images += fresh.len();
@@ -196,8 +187,8 @@ impl ProvedBasins {
         let mut looked = Vec::with_capacity(fresh.len() + freed.len());
         for (cell, known) in fresh.into_iter().zip(found) {
             let known = known?;
-            let Fresh { place, window, halvings, points } = cell;
-            self.open.insert(place, Open { window, halvings, points });
+            let place = cell.place;
+            self.open.insert(place, cell);
             match known {
                 Known::Fate(fate) => self.decide(place, fate),
                 open => {
@@ -232,7 +223,7 @@ impl ProvedBasins {
         while let Some(place) = left.pop() {
             let Some(open) = self.open.get(&place) else { continue };
             let halvings = open.halvings;
-            match self.meets(place, open) {
+            match self.meets(open) {
                 Meets::Fate(fate) => {
                     self.decide(place, fate);
                     left.extend(self.waiting.remove(&place).unwrap_or_default());
@@ -250,13 +241,13 @@ impl ProvedBasins {
     }
 
     /// What the image of an open cell meets.
-    fn meets(&self, place: Place, own: &Open) -> Meets {
+    fn meets(&self, own: &OpenCell) -> Meets {
         // The first cells with a fate are parts of those that meet traps.
         if own.window == 0 && self.traps.iter().any(|trap| trap.meets(&own.points)) {
             return Meets::Edge(None);
         }
         // Without an image the cell is too large.
-        let Some(Known::Open(Some(image))) = self.cells.get(place) else {
+        let Some(Known::Open(Some(image))) = self.cells.get(own.place) else {
             return Meets::Edge(None);
         };
         let next = (own.window + 1) % self.cells.windows().len();

@@ -16,8 +16,8 @@ pub(crate) enum Known {
     Open(Option<OrientedBox>),
 }
 
-/// A cell whose image is to be found.
-pub(crate) struct Fresh {
+/// A cell without a fate.
+pub(crate) struct OpenCell {
     pub(crate) place: Place,
     pub(crate) window: usize,
     pub(crate) halvings: u32,
@@ -28,11 +28,11 @@ pub(crate) struct Fresh {
 pub(crate) fn images<M: EnclosedMap + Sync>(
     maps: &[&M],
     traps: &[Trap],
-    cells: &[Fresh],
+    cells: &[OpenCell],
 ) -> Vec<Result<Known, Error>> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let share = cells.len().div_ceil(threads).max(1);
-    let of_cell = |cell: &Fresh| known(maps[cell.window], (maps.len(), traps), cell);
+    let of_cell = |cell: &OpenCell| known(maps[cell.window], (maps.len(), traps), cell);
     std::thread::scope(|scope| {
         let parts: Vec<_> = cells
             .chunks(share)
@@ -50,7 +50,7 @@ pub(crate) fn images<M: EnclosedMap + Sync>(
 fn known(
     map: &impl EnclosedMap,
     (maps, traps): (usize, &[Trap]),
-    cell: &Fresh,
+    cell: &OpenCell,
 ) -> Result<Known, Error> {
     let trapped = traps.iter().position(|trap| cell.window == 0 && trap.contains(&cell.points));
     if let Some(trap) = trapped {

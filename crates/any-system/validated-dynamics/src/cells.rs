@@ -17,8 +17,8 @@ pub(crate) struct Cells<T> {
 
 #[derive(Debug, Clone)]
 enum Cell<T> {
-    /// It has what is known of it, and the number of its halvings.
-    Whole(T, u32),
+    /// It has what is known of it.
+    Whole(T),
     /// Its first part is here, and the others behind it.
     Divided(Place),
 }
@@ -38,7 +38,7 @@ pub(crate) fn part_of(own: &[Enclosure], part: usize) -> Vec<Enclosure> {
 impl<T: Clone> Cells<T> {
     /// The windows, not divided.
     pub(crate) fn new(windows: Vec<Vec<Enclosure>>, known: &T) -> Self {
-        let cells = windows.iter().map(|_| Cell::Whole(known.clone(), 0)).collect();
+        let cells = windows.iter().map(|_| Cell::Whole(known.clone())).collect();
         Cells { windows, cells }
     }
 
@@ -53,24 +53,26 @@ impl<T: Clone> Cells<T> {
     /// What is known of a cell that is not divided.
     pub(crate) fn get(&self, place: Place) -> Option<&T> {
         match &self.cells[place] {
-            Cell::Whole(known, _) => Some(known),
+            Cell::Whole(known) => Some(known),
             Cell::Divided(_) => None,
         }
     }
 
     pub(crate) fn get_mut(&mut self, place: Place) -> Option<&mut T> {
         match &mut self.cells[place] {
-            Cell::Whole(known, _) => Some(known),
+            Cell::Whole(known) => Some(known),
             Cell::Divided(_) => None,
         }
     }
 
     /// Divides a cell, and gives the places of its parts, of which this is known.
     pub(crate) fn divide(&mut self, place: Place, known: &T) -> std::ops::Range<Place> {
-        let Cell::Whole(_, halvings) = self.cells[place] else { return 0..0 };
+        if self.get(place).is_none() {
+            return 0..0;
+        }
         let first = self.cells.len();
         let parts = self.parts();
-        self.cells.extend((0..parts).map(|_| Cell::Whole(known.clone(), halvings + 1)));
+        self.cells.extend((0..parts).map(|_| Cell::Whole(known.clone())));
         self.cells[place] = Cell::Divided(first);
         first..first + parts
     }
@@ -96,7 +98,7 @@ impl<T: Clone> Cells<T> {
             return;
         }
         match &self.cells[place] {
-            Cell::Whole(known, _) => visit(place, known, own),
+            Cell::Whole(known) => visit(place, known, own),
             Cell::Divided(first) => {
                 for part in 0..self.parts() {
                     self.visit_below(first + part, &part_of(own, part), enter, visit);
@@ -115,7 +117,7 @@ impl<T: Clone> Cells<T> {
         let mut place = window;
         loop {
             match &self.cells[place] {
-                Cell::Whole(known, _) => return Some(known),
+                Cell::Whole(known) => return Some(known),
                 Cell::Divided(first) => {
                     let upper = own.iter().zip(point).map(|(x, &p)| usize::from(p > x.middle()));
                     let part = upper.enumerate().map(|(axis, upper)| upper << axis).sum();

@@ -6,7 +6,7 @@ use crate::run::{Limits, ValidatedRun};
 use crate::set::{AffineSet, Chain};
 use crate::start::{Chart, check_box};
 use crate::system::{ValidatedSystem, without_time};
-use crate::undecided::{Error, Reason, Undecided};
+use crate::undecided::{Error, Reason};
 use equations::Formulas;
 use hybrid_system::Label;
 use interval_arithmetic::Enclosure;
@@ -283,7 +283,10 @@ impl EnclosedMap for FormulaMap {
         check_box(&self.formulas.names().states, set.hull())?;
         for _ in 0..self.times {
             let next = carried(&set, chain, (&self.formulas, &self.slopes));
-            (set, chain) = next.map_err(|error| self.undecided(&set, error))?;
+            (set, chain) = next.map_err(|error| {
+                let names = &self.formulas.names().states;
+                Error::not_proved(Reason::Domain(error), None, Enclosure::ZERO, (names, set.hull()))
+            })?;
         }
         let (set, chain) = self.variables_of(&set, chain);
         Ok(Carried { set, events: Vec::new(), chain })
@@ -291,16 +294,6 @@ impl EnclosedMap for FormulaMap {
 }
 
 impl FormulaMap {
-    fn undecided(&self, set: &AffineSet, error: equations::Error) -> Error {
-        Error::Undecided(Box::new(Undecided {
-            reason: Reason::Domain(error),
-            mode: None,
-            time: Enclosure::ZERO,
-            states: set.hull().to_vec(),
-            names: self.formulas.names().states.clone(),
-        }))
-    }
-
     /// The variables alone, without the parameters.
     fn variables_of(&self, set: &AffineSet, chain: Option<Chain>) -> (AffineSet, Option<Chain>) {
         let all = set.hull().len();

@@ -3,7 +3,7 @@
 use crate::enclosed_map::{EnclosedMap, MapImage};
 use crate::matrix::{Matrix, common, exact, middle, offsets, sums};
 use crate::multipliers::{Multiplier, multipliers};
-use crate::undecided::{Error, Reason, Undecided};
+use crate::undecided::{Error, Reason};
 use interval_arithmetic::Enclosure;
 use nalgebra::{DMatrix, DVector};
 
@@ -97,7 +97,7 @@ pub fn fixed_point(
             *radius = INFLATION * off.magnitude().max(*radius);
         }
     }
-    krawczyk.undecided(Reason::NotInside { tries: TRIES })
+    Err(Error::of_variables(Reason::NotInside { tries: TRIES }, &exact(&krawczyk.centre)))
 }
 
 struct Krawczyk<'m, M> {
@@ -153,10 +153,6 @@ impl<M: EnclosedMap> Krawczyk<'_, M> {
         let (multipliers, parameters) = (multipliers(&own), self.parameters.to_vec());
         Ok(ProvedFixedPoint { point, unique_in, parameters, image, multipliers })
     }
-
-    fn undecided<T>(&self, reason: Reason) -> Result<T, Error> {
-        undecided(reason, &exact(&self.centre))
-    }
 }
 
 /// A point near the fixed point and an approximate inverse of Df − I there, by Newton's method in the middle of the parameters.
@@ -175,7 +171,7 @@ fn newton(
         let Some(inverse) =
             slopes.try_inverse().filter(|found| found.iter().all(|x| x.is_finite()))
         else {
-            return undecided(Reason::Singular, &exact(&point));
+            return Err(Error::of_variables(Reason::Singular, &exact(&point)));
         };
         let off = offsets(&image.values, &point).iter().map(Enclosure::middle).collect::<Vec<_>>();
         let step = &inverse * DVector::from_vec(off);
@@ -187,15 +183,5 @@ fn newton(
             return Ok((point, inverse));
         }
     }
-    undecided(Reason::NoPoint { step: last }, &exact(&point))
-}
-
-fn undecided<T>(reason: Reason, states: &[Enclosure]) -> Result<T, Error> {
-    Err(Error::Undecided(Box::new(Undecided {
-        reason,
-        mode: None,
-        time: Enclosure::ZERO,
-        states: states.to_vec(),
-        names: (1..=states.len()).map(|place| format!("variable {place}")).collect(),
-    })))
+    Err(Error::of_variables(Reason::NoPoint { step: last }, &exact(&point)))
 }

@@ -43,6 +43,15 @@ impl Frame {
         }
     }
 
+    /// The frame of directions that a map has moved, with these widths in them; the axes for a map into another number of components,
+    /// which leaves no frame that is worth while.
+    pub(crate) fn of_moved(moved: &Matrix, widths: &[f64]) -> Frame {
+        match moved.rows() == moved.columns() {
+            true => Frame::of_columns(&moved.middle(), widths),
+            false => Frame::axes(moved.rows()),
+        }
+    }
+
     /// The directions, as enclosures.
     pub(crate) fn matrix(&self) -> Matrix {
         Matrix::of_numbers(&self.directions)

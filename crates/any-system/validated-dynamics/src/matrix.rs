@@ -166,8 +166,3 @@ pub(crate) fn middle(all: &[Enclosure]) -> Vec<f64> {
 pub(crate) fn exact(numbers: &[f64]) -> Vec<Enclosure> {
     numbers.iter().map(|&x| Enclosure::from(x)).collect()
 }
-
-/// True if each enclosure is bounded.
-pub(crate) fn is_bounded(all: &[Enclosure]) -> bool {
-    all.iter().all(|x| x.low <= x.high && x.low.is_finite() && x.high.is_finite())
-}

@@ -28,13 +28,7 @@ pub(crate) struct Varied {
 
 impl ModeSeries {
     pub(crate) fn new(mode: &ModeParts) -> Result<ModeSeries, Error> {
-        let mut watched: Option<Formulas> = None;
-        for guard in &mode.guards {
-            watched = Some(match watched {
-                Some(watched) => watched.and(&guard.function)?,
-                None => guard.function.clone(),
-            });
-        }
+        let watched = Formulas::all_of(mode.guards.iter().map(|guard| &guard.function))?;
         let carried = mode.field.carried();
         let varied = watched.as_ref().map(|watched| watched.with_variations(&carried));
         let varied = varied.transpose()?;

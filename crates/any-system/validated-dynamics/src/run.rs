@@ -7,7 +7,7 @@ use crate::set::{AffineSet, Chain};
 use crate::surface_image::{OnSurface, on_surface};
 use crate::system::{ValidatedMode, ValidatedSystem};
 use crate::tube::Tube;
-use crate::undecided::{Error, Reason, Undecided};
+use crate::undecided::{Error, Reason};
 use crate::window::{Crossing, First, Guards};
 use hybrid_system::Label;
 use interval_arithmetic::Enclosure;
@@ -204,8 +204,11 @@ impl<'s> ValidatedRun<'s> {
         }
         self.steps += 1;
         let left = end.map(|end| end - self.time);
+        // No step goes beyond the end for some states.
+        let too_apart = Reason::Times { width: self.time.width() };
+        let is_too_long = |length: f64| left.is_some_and(|left| length > left.low);
         if left.is_some_and(|left| !(left.low > 0.0)) {
-            return self.undecided(Reason::Times { width: self.time.width() });
+            return self.undecided(too_apart);
         }
         let longest = left.map_or(f64::INFINITY, |left| left.high);
         let set = self.set.clone();
@@ -233,16 +236,11 @@ impl<'s> ValidatedRun<'s> {
                     Err(reason) => self.undecided(reason),
                 }
             }
-            Ok(First::Cut(time)) if left.is_some_and(|left| time > left.low) => {
-                self.undecided(Reason::Times { width: self.time.width() })
-            }
+            Ok(First::Cut(time)) if is_too_long(time) => self.undecided(too_apart),
             Ok(First::Cut(time)) => self.flow(&tube, Enclosure::from(time), None),
             Ok(First::Nothing) => match left.filter(|left| tube.length >= left.high) {
                 Some(left) => self.flow(&tube, left, end),
-                // No step goes beyond the end for some states.
-                None if left.is_some_and(|left| tube.length > left.low) => {
-                    self.undecided(Reason::Times { width: self.time.width() })
-                }
+                None if is_too_long(tube.length) => self.undecided(too_apart),
                 None => self.flow(&tube, Enclosure::from(tube.length), None),
             },
         }
@@ -261,13 +259,13 @@ impl<'s> ValidatedRun<'s> {
             }
             Guards { tube, guards: &mode.guards, on: &self.on }.first()
         };
-        let tube = Tube::new(&mode.series, set, longest, self.chain.is_some())?;
-        let first = look(&tube);
-        if self.chain.is_some() || !matches!(first, Ok(First::Crossing(_))) {
-            return Ok((tube, first));
+        let mut tube = Tube::new(&mode.series, set, longest, self.chain.is_some())?;
+        let mut first = look(&tube);
+        // Most often the derivatives are proved for the same step, which has the same event then.
+        if matches!(first, Ok(First::Crossing(_))) && !tube.add_derivatives() {
+            tube = Tube::new(&mode.series, set, tube.length, true)?;
+            first = look(&tube);
         }
-        let tube = Tube::new(&mode.series, set, tube.length, true)?;
-        let first = look(&tube);
         Ok((tube, first))
     }
 
@@ -346,7 +344,7 @@ impl<'s> ValidatedRun<'s> {
             set: set.clone(),
             chain: chain.clone(),
         };
-        if guard.observes(self.mode) && !guard.bounds_flow {
+        if guard.observes {
             self.pass(guards, crossing)?;
         } else {
             self.ended = guard.stops.then_some(guard.surface);
@@ -367,12 +365,7 @@ impl<'s> ValidatedRun<'s> {
 
     /// The error that says what is not proved here.
     pub(crate) fn undecided<T>(&self, reason: Reason) -> Result<T, Error> {
-        Err(Error::Undecided(Box::new(Undecided {
-            reason,
-            mode: Some(self.own().name),
-            time: self.time,
-            states: self.set.hull().to_vec(),
-            names: self.system.names.states.clone(),
-        })))
+        let states = (&self.system.names.states[..], self.set.hull());
+        Err(Error::not_proved(reason, Some(self.own().name), self.time, states))
     }
 }

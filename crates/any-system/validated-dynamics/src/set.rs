@@ -60,9 +60,23 @@ impl AffineSet {
     /// The values of a map on the set, from its value at the centre and its derivatives on the set: f(c) + Df (x − c), along the set's own
     /// directions and along the axes, whichever is narrower.
     pub(crate) fn values(&self, at_centre: &[Enclosure], derivatives: &Matrix) -> Vec<Enclosure> {
-        let shaped = derivatives.times(&Matrix::of_numbers(&self.shape)).apply(&self.start);
-        let framed = derivatives.times(&self.frame.matrix()).apply(&self.errors);
-        let along = sums(at_centre, &sums(&shaped, &framed));
+        self.values_by(at_centre, derivatives, &self.moved(derivatives))
+    }
+
+    /// The directions of the shape and of the frame, as a map with these derivatives moves them.
+    fn moved(&self, derivatives: &Matrix) -> [Matrix; 2] {
+        let shape = Matrix::of_numbers(&self.shape);
+        [derivatives.times(&shape), derivatives.times(&self.frame.matrix())]
+    }
+
+    fn values_by(
+        &self,
+        at_centre: &[Enclosure],
+        derivatives: &Matrix,
+        [shaped, framed]: &[Matrix; 2],
+    ) -> Vec<Enclosure> {
+        let offset = sums(&shaped.apply(&self.start), &framed.apply(&self.errors));
+        let along = sums(at_centre, &offset);
         let plain = sums(at_centre, &derivatives.apply(&offsets(&self.hull, &self.centre)));
         common(&along, &plain)
     }
@@ -74,26 +88,20 @@ impl AffineSet {
         derivatives: &Matrix,
         bounds: Option<&[Enclosure]>,
     ) -> AffineSet {
+        let moved = self.moved(derivatives);
         let centre = middle(at_centre);
-        let hull = self.values(at_centre, derivatives);
+        let hull = self.values_by(at_centre, derivatives, &moved);
         let hull = bounds.map_or(hull.clone(), |bounds| common(&hull, bounds));
         // Derivatives on the hull are taken between the centre and the states: rounding may have put the centre outside.
         let hull = hull.iter().zip(&centre).map(|(x, c)| x.hull(&Enclosure::from(*c))).collect();
-        let shaped = derivatives.times(&Matrix::of_numbers(&self.shape));
+        let [shaped, framed] = moved;
         let shape = shaped.middle();
         let lost = shaped.minus(&Matrix::of_numbers(&shape)).apply(&self.start);
         let new = sums(&offsets(at_centre, &centre), &lost);
-        let moved = derivatives.times(&self.frame.matrix());
-        // A map into another number of components leaves no frame that is worth while.
-        let frame = match moved.rows() == moved.columns() {
-            true => {
-                let widths: Vec<f64> = self.errors.iter().map(Enclosure::width).collect();
-                Frame::of_columns(&moved.middle(), &widths)
-            }
-            false => Frame::axes(moved.rows()),
-        };
+        let widths: Vec<f64> = self.errors.iter().map(Enclosure::width).collect();
+        let frame = Frame::of_moved(&framed, &widths);
         let errors =
-            sums(&frame.inverse.times(&moved).apply(&self.errors), &frame.inverse.apply(&new));
+            sums(&frame.inverse.times(&framed).apply(&self.errors), &frame.inverse.apply(&new));
         AffineSet { centre, shape, start: self.start.clone(), frame, errors, hull }
     }
 
@@ -133,16 +141,11 @@ impl Chain {
         let middle = carried.middle();
         let new = carried.minus(&Matrix::of_numbers(&middle));
         let moved = derivatives.times(&self.frame.matrix());
-        let frame = match moved.rows() == moved.columns() {
-            true => {
-                let widest = |row| self.errors.row(row).iter().map(Enclosure::width);
-                let widths: Vec<f64> = (0..self.errors.rows())
-                    .map(|row| widest(row).fold(f64::MIN_POSITIVE, f64::max))
-                    .collect();
-                Frame::of_columns(&moved.middle(), &widths)
-            }
-            false => Frame::axes(moved.rows()),
-        };
+        let widest = |row| self.errors.row(row).iter().map(Enclosure::width);
+        let widths: Vec<f64> = (0..self.errors.rows())
+            .map(|row| widest(row).fold(f64::MIN_POSITIVE, f64::max))
+            .collect();
+        let frame = Frame::of_moved(&moved, &widths);
         let errors = frame.inverse.times(&moved).times(&self.errors);
         Chain { errors: errors.plus(&frame.inverse.times(&new)), middle, frame }
     }

@@ -3,9 +3,9 @@
 use crate::enclosed_map::StartSet;
 use crate::event::carried;
 use crate::run::ValidatedRun;
-use crate::system::{ValidatedSystem, without_time};
-use crate::undecided::{Error, Reason, Undecided};
-use equations::{Formulas, Names};
+use crate::system::{ValidatedGuard, ValidatedSystem, without_time};
+use crate::undecided::{Error, Reason};
+use equations::{Arithmetic, Formulas, Names};
 use interval_arithmetic::Enclosure;
 
 /// A chart: states as formulas of some variables, in a mode.
@@ -46,9 +46,7 @@ impl ValidatedSystem {
             return Error::argument("states", "a definition among the formulas: write it out");
         }
         let slopes = states.jacobian()?;
-        let zero = |guard: &crate::system::ValidatedGuard| {
-            Ok(guard.function.on(&states)?.vanishes() == [true])
-        };
+        let zero = |guard: &ValidatedGuard| Ok(guard.function.on(&states)?.vanishes() == [true]);
         let on = self.modes[mode].guards.iter().map(zero).collect::<Result<_, Error>>()?;
         Ok(Chart { mode, states, slopes, on })
     }
@@ -83,13 +81,9 @@ impl ValidatedSystem {
         check_box(&chart.states.names().states, start.set.hull())?;
         let found = carried(&start.set, start.chain, (&chart.states, &chart.slopes));
         let (set, chain) = found.map_err(|error| {
-            Error::Undecided(Box::new(Undecided {
-                reason: Reason::Domain(error),
-                mode: Some(self.modes[chart.mode].name),
-                time: Enclosure::ZERO,
-                states: start.set.hull().to_vec(),
-                names: chart.states.names().states.clone(),
-            }))
+            let mode = Some(self.modes[chart.mode].name);
+            let states = (&chart.states.names().states[..], start.set.hull());
+            Error::not_proved(Reason::Domain(error), mode, Enclosure::ZERO, states)
         })?;
         Ok(ValidatedRun::new(self, chart.mode, set, chain, chart.on.clone()))
     }
@@ -124,11 +118,8 @@ pub(crate) fn check_box(names: &[String], given: &[Enclosure]) -> Result<(), Err
         );
     }
     for (name, x) in names.iter().zip(given) {
-        if !(x.low <= x.high && x.low.is_finite() && x.high.is_finite()) {
-            return Error::argument(
-                name,
-                format!("[{}, {}] is no interval of finite numbers", x.low, x.high),
-            );
+        if !x.is_valid() {
+            return Error::argument(name, format!("{x} is no interval of finite numbers"));
         }
     }
     Ok(())

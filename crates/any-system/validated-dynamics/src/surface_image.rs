@@ -6,11 +6,8 @@ use crate::system::ValidatedMode;
 use crate::tube::Tube;
 use crate::undecided::Reason;
 use crate::window::crossing_of_centre;
+use equations::Formulas;
 use interval_arithmetic::Enclosure;
-
-/// How often the derivatives are computed again on the narrower image that they gave. The second time the image is about as narrow
-/// as it gets.
-const ROUNDS: usize = 2;
 
 /// A set on a surface.
 #[derive(Debug)]
@@ -39,27 +36,25 @@ pub(crate) fn on_surface(
     let Some(varied) = tube.derivatives_at(times) else {
         return Err(Reason::Grazing { surface: surface.surface });
     };
-    let mut bounds = tube.states_at(times);
-    let mut found = None;
-    for _ in 0..ROUNDS {
-        let enclosed = |formulas: &equations::Formulas| {
-            formulas.enclosures(Enclosure::ZERO, &bounds).map_err(Reason::Domain)
+    // The derivatives and the times, from a box of the states on the surface.
+    let enclosed = |bounds: &[Enclosure]| {
+        let values = |formulas: &Formulas| {
+            formulas.enclosures(Enclosure::ZERO, bounds).map_err(Reason::Domain)
         };
-        let (field, gradient) = (enclosed(&mode.field)?, enclosed(&surface.gradient)?);
+        let (field, gradient) = (values(&mode.field)?, values(&surface.gradient)?);
         let rate = dot(&gradient, field.iter().copied());
         if rate.sign().is_none() {
             return Err(Reason::Grazing { surface: surface.surface });
         }
-        let along = projection(&field, &gradient, rate);
-        let derivatives = along.times(&varied);
         let times_of_all = arrival_times(tube, &gradient, rate, &varied, of_centre);
         let times = times.intersection(&times_of_all).unwrap_or_else(|| times.hull(&times_of_all));
-        bounds = common(&bounds, &tube.set.values(&at_centre, &derivatives));
-        found = Some((derivatives, times));
-    }
-    let Some((derivatives, times)) = found else {
-        return Err(Reason::Grazing { surface: surface.surface });
+        Ok((projection(&field, &gradient, rate).times(&varied), times))
     };
+    let bounds = tube.states_at(times);
+    // The second time the image is about as narrow as it gets.
+    let (derivatives, _) = enclosed(&bounds)?;
+    let bounds = common(&bounds, &tube.set.values(&at_centre, &derivatives));
+    let (derivatives, times) = enclosed(&bounds)?;
     let set = tube.set.image(&at_centre, &derivatives, Some(&bounds));
     Ok(OnSurface { set, derivatives, times })
 }

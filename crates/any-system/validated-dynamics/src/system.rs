@@ -31,9 +31,11 @@ pub(crate) struct ValidatedMode {
 #[derive(Debug)]
 pub(crate) struct ValidatedGuard {
     pub(crate) surface: Label,
-    pub(crate) direction: Direction,
+    direction: Direction,
     /// True if states beyond the surface cannot flow.
-    pub(crate) bounds_flow: bool,
+    bounds_flow: bool,
+    /// True if the flow goes on through the surface: its events change nothing.
+    pub(crate) observes: bool,
     pub(crate) function: Formulas,
     pub(crate) gradient: Formulas,
     pub(crate) condition: Option<Formulas>,
@@ -44,24 +46,6 @@ pub(crate) struct ValidatedGuard {
     pub(crate) reset: Option<(Formulas, Formulas)>,
     /// For each guard of the mode after the event, true if it is 0 there because this guard is.
     pub(crate) begins_on: Vec<bool>,
-}
-
-impl ValidatedGuard {
-    /// True if its events change nothing.
-    pub(crate) fn observes(&self, mode: usize) -> bool {
-        !self.stops && self.mode == mode && self.reset.is_none()
-    }
-}
-
-impl ValidatedGuard {
-    /// The sign of the guard beyond its surface, where no state can flow; `None` if states on both sides can.
-    pub(crate) fn side_beyond(&self) -> Option<f64> {
-        match self.direction {
-            Direction::Rising if self.bounds_flow => Some(1.0),
-            Direction::Falling if self.bounds_flow => Some(-1.0),
-            _ => None,
-        }
-    }
 }
 
 impl ValidatedSystem {
@@ -101,7 +85,7 @@ impl ValidatedSystem {
         let mode = |(own, mode): (usize, &ModeParts)| {
             let guard = |guard: &GuardParts| {
                 let after = guard.mode.and_then(place).unwrap_or(own);
-                ValidatedGuard::new(guard, after, &parts[after])
+                ValidatedGuard::new(guard, own, (after, &parts[after]))
             };
             Ok(ValidatedMode {
                 name: mode.name,
@@ -156,12 +140,31 @@ impl ValidatedSystem {
 }
 
 impl ValidatedGuard {
-    fn new(parts: &GuardParts, mode: usize, after: &ModeParts) -> Result<ValidatedGuard, Error> {
+    /// The sign of the guard behind a crossing that counts; `None` if both directions count.
+    pub(crate) fn side_after(&self) -> Option<f64> {
+        match self.direction {
+            Direction::Rising => Some(1.0),
+            Direction::Falling => Some(-1.0),
+            Direction::Either => None,
+        }
+    }
+
+    /// The sign of the guard beyond its surface, where no state can flow; `None` if states on both sides can.
+    pub(crate) fn side_beyond(&self) -> Option<f64> {
+        self.side_after().filter(|_| self.bounds_flow)
+    }
+
+    /// The guard of a mode, whose events lead to the mode with these parts, in this place.
+    fn new(
+        parts: &GuardParts,
+        own: usize,
+        (mode, after): (usize, &ModeParts),
+    ) -> Result<ValidatedGuard, Error> {
         let surface = parts.guard.surface;
-        let observes = !parts.stops && parts.mode.is_none() && parts.state.is_none();
+        let is_without_jump = !parts.stops && parts.mode.is_none() && parts.state.is_none();
         let bounds_flow = match parts.guard.role {
             Role::Contact => true,
-            Role::Switch => !observes,
+            Role::Switch => !is_without_jump,
             Role::Crossing => false,
             Role::Clock => {
                 return Error::argument(
@@ -176,10 +179,8 @@ impl ValidatedGuard {
                 );
             }
         };
-        let reset = match &parts.state {
-            Some(state) => Some((state.clone(), state.jacobian()?)),
-            None => None,
-        };
+        let reset =
+            parts.state.as_ref().map(|state| Ok::<_, Error>((state.clone(), state.jacobian()?)));
         let is_zero = |other: &GuardParts| match &parts.state {
             Some(state) => other.function.on(state).is_ok_and(|composed| {
                 composed.vanishes() == [true] || composed.is_written_as(&parts.function)
@@ -190,13 +191,14 @@ impl ValidatedGuard {
             surface,
             direction: parts.guard.direction,
             bounds_flow,
+            observes: !parts.stops && mode == own && parts.state.is_none() && !bounds_flow,
             gradient: parts.function.jacobian()?,
             function: parts.function.clone(),
             condition: parts.condition.clone(),
             stops: parts.stops,
             mode,
             begins_on: after.guards.iter().map(is_zero).collect(),
-            reset,
+            reset: reset.transpose()?,
         })
     }
 }

@@ -7,7 +7,7 @@ use crate::frame::inverse_of;
 use crate::matrix::{Matrix, exact, middle, offsets, row_norm};
 use crate::multipliers::eigenbasis;
 use crate::set::AffineSet;
-use crate::undecided::{Error, Reason, Undecided};
+use crate::undecided::{Error, Reason};
 use interval_arithmetic::Enclosure;
 use nalgebra::DMatrix;
 
@@ -114,15 +114,8 @@ impl Trap {
                 Err(error) => return Err(error),
             }
         }
-        let found = found.ok_or_else(|| {
-            Error::Undecided(Box::new(Undecided {
-                reason: Reason::NotInside { tries: SMALLER_TRIES },
-                mode: None,
-                time: Enclosure::ZERO,
-                states: fixed.point.clone(),
-                names: (1..=count).map(|place| format!("variable {place}")).collect(),
-            }))
-        })?;
+        let reason = Reason::NotInside { tries: SMALLER_TRIES };
+        let found = found.ok_or_else(|| Error::of_variables(reason, &fixed.point))?;
         found.grown(map, &fixed.parameters, images)
     }
 

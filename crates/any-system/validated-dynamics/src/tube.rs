@@ -1,11 +1,11 @@
 //! One step of a motion: all solutions from a set, with their derivatives, at each time of it.
 
 use crate::expansion::Expansion;
-use crate::matrix::{Matrix, common, exact, is_bounded};
+use crate::matrix::{Matrix, common, exact};
 use crate::mode_series::{ModeSeries, Varied};
 use crate::set::AffineSet;
 use crate::undecided::Reason;
-use equations::Coefficients;
+use equations::{Arithmetic, Coefficients};
 use interval_arithmetic::{Enclosure, pow};
 use pxfm::f_log as ln;
 
@@ -113,6 +113,17 @@ impl<'s> Tube<'s> {
         Expansion { coefficients: &coefficients[..=self.order], rest: beyond }
     }
 
+    /// Proves the derivatives of a step, if it has none; false if they are not proved for its length.
+    pub(crate) fn add_derivatives(&mut self) -> bool {
+        if self.varied_beyond.is_some() {
+            return true;
+        }
+        let (series, order, length) = (self.series, self.order, self.length);
+        let step = Step { series, varied: &self.varied, order, length };
+        self.varied_beyond = step.with_derivatives(&step.guesses()).ok().flatten();
+        self.varied_beyond.is_some()
+    }
+
     /// The states from the centre at the times of an interval of the step.
     pub(crate) fn centre_at(&self, time: Enclosure) -> Vec<Enclosure> {
         let component =
@@ -138,28 +149,23 @@ impl<'s> Tube<'s> {
         }))
     }
 
-    /// The states of all solutions at the times of an interval.
-    pub(crate) fn states_at(&self, time: Enclosure) -> Vec<Enclosure> {
-        self.states_by(time, &self.centre_at(time), &self.slopes_at(time))
+    /// The states of all solutions at the times of an interval, from all states of the set at once.
+    fn plain_states_at(&self, time: Enclosure) -> Vec<Enclosure> {
+        let component =
+            |axis| self.expansion(self.varied.state(axis), last(self.beyond.state(axis))).at(time);
+        (0..self.series.dimension).map(component).collect()
     }
 
-    fn states_by(
-        &self,
-        time: Enclosure,
-        at_centre: &[Enclosure],
-        slopes: &Matrix,
-    ) -> Vec<Enclosure> {
-        let plain =
-            |axis| self.expansion(self.varied.state(axis), last(self.beyond.state(axis))).at(time);
-        let plain: Vec<Enclosure> = (0..self.series.dimension).map(plain).collect();
-        common(&plain, &self.set.values(at_centre, slopes))
+    /// The states of all solutions at the times of an interval.
+    pub(crate) fn states_at(&self, time: Enclosure) -> Vec<Enclosure> {
+        let by_slopes = self.set.values(&self.centre_at(time), &self.slopes_at(time));
+        common(&self.plain_states_at(time), &by_slopes)
     }
 
     /// The set at a time of the step.
     pub(crate) fn set_at(&self, time: Enclosure) -> AffineSet {
-        let (at_centre, slopes) = (self.centre_at(time), self.slopes_at(time));
-        let states = self.states_by(time, &at_centre, &slopes);
-        self.set.image(&at_centre, &slopes, Some(&states))
+        let bounds = self.plain_states_at(time);
+        self.set.image(&self.centre_at(time), &self.slopes_at(time), Some(&bounds))
     }
 
     /// A guard on the solution from the centre.
@@ -260,9 +266,8 @@ impl Step<'_> {
 
     /// The expansion at all states of the step, if the box of these states is proved to hold the solutions.
     fn bounded(&self, with_derivatives: bool) -> Result<Option<Beyond>, equations::Error> {
-        let states: Vec<Enclosure> =
-            self.varied.states().map(|series| self.guess(series)).collect();
-        if !is_bounded(&states) {
+        let states = self.guesses();
+        if !states.iter().all(Enclosure::is_valid) {
             return Ok(None);
         }
         let beyond = self.series.motion(&states, self.order + 1)?;
@@ -272,16 +277,27 @@ impl Step<'_> {
         if !with_derivatives {
             return Ok(Some((beyond, None)));
         }
+        let varied = self.with_derivatives(&states)?;
+        Ok(varied.map(|varied| (beyond, Some(varied))))
+    }
+
+    /// What the states are guessed to be on the step.
+    fn guesses(&self) -> Vec<Enclosure> {
+        self.varied.states().map(|series| self.guess(series)).collect()
+    }
+
+    /// The expansion with derivatives at all of these states, which are proved to be those of the step, if the box of the derivatives is proved too.
+    fn with_derivatives(&self, states: &[Enclosure]) -> Result<Option<Varied>, equations::Error> {
         let size = self.series.dimension;
         let entries: Vec<Enclosure> =
             self.varied.derivatives().map(|series| self.guess(series)).collect();
-        if !is_bounded(&entries) {
+        if !entries.iter().all(Enclosure::is_valid) {
             return Ok(None);
         }
         let derivatives = Matrix::of_rows(size, size, &entries);
-        let varied = self.series.varied(&states, &derivatives, self.order + 1)?;
+        let varied = self.series.varied(states, &derivatives, self.order + 1)?;
         let proved = self.are_inside(self.varied.derivatives(), varied.derivatives(), &entries);
-        Ok(proved.then_some((beyond, Some(varied))))
+        Ok(proved.then_some(varied))
     }
 
     fn at_all_times(&self, coefficients: &[Enclosure], rest: Enclosure) -> Enclosure {

@@ -185,6 +185,24 @@ pub enum Error {
 }
 
 impl Error {
+    /// A statement that is not proved.
+    pub(crate) fn not_proved(
+        reason: Reason,
+        mode: Option<Label>,
+        time: Enclosure,
+        (names, states): (&[String], &[Enclosure]),
+    ) -> Error {
+        let (names, states) = (names.to_vec(), states.to_vec());
+        Error::Undecided(Box::new(Undecided { reason, mode, time, states, names }))
+    }
+
+    /// The same of a map whose variables have no names.
+    pub(crate) fn of_variables(reason: Reason, states: &[Enclosure]) -> Error {
+        let names: Vec<String> =
+            (1..=states.len()).map(|place| format!("variable {place}")).collect();
+        Error::not_proved(reason, None, Enclosure::ZERO, (&names, states))
+    }
+
     pub(crate) fn argument<T>(
         what: impl Into<String>,
         reason: impl Into<String>,

@@ -3,7 +3,6 @@
 use crate::system::ValidatedGuard;
 use crate::tube::Tube;
 use crate::undecided::Reason;
-use hybrid_system::Direction;
 use interval_arithmetic::Enclosure;
 
 /// How often a step is halved where a guard may be zero. The crossing itself is found by Newton's method: halves only show where.
@@ -94,22 +93,14 @@ impl Guards<'_, '_> {
 
     /// True if a crossing with these rates is an event, at every state.
     fn counts(&self, guard: usize, rates: Enclosure) -> bool {
-        match self.guards[guard].direction {
-            Direction::Rising => rates.is_positive(),
-            Direction::Falling => rates.is_negative(),
-            Direction::Either => rates.sign().is_some(),
-        }
+        let side = rates.sign();
+        side.is_some() && self.guards[guard].side_after().is_none_or(|after| side == Some(after))
     }
 
     /// The sign of a guard at a time, if it is that of the side from which crossings that count come.
     fn side_before(&self, guard: usize, time: f64) -> Option<f64> {
-        let value = self.tube.guard_at(guard, Enclosure::from(time));
-        let side = match self.guards[guard].direction {
-            Direction::Rising => -1.0,
-            Direction::Falling => 1.0,
-            Direction::Either => value.sign()?,
-        };
-        (value.sign() == Some(side)).then_some(side)
+        let side = self.tube.guard_at(guard, Enclosure::from(time)).sign();
+        side.filter(|side| self.guards[guard].side_after().is_none_or(|after| *side == -after))
     }
 
     /// True if no state crosses the surface in a direction that counts, at times of the interval beyond its start.
@@ -122,12 +113,9 @@ impl Guards<'_, '_> {
                 return true;
             }
         }
-        let opposite = || match self.guards[guard].direction {
-            Direction::Rising => self.tube.guard_rate_at(guard, times).is_negative(),
-            Direction::Falling => self.tube.guard_rate_at(guard, times).is_positive(),
-            Direction::Either => false,
-        };
-        self.tube.guard_at(guard, times).sign().is_some() || opposite()
+        let goes_back = |after: f64| self.tube.guard_rate_at(guard, times).sign() == Some(-after);
+        self.tube.guard_at(guard, times).sign().is_some()
+            || self.guards[guard].side_after().is_some_and(goes_back)
     }
 
     /// A time before which no state crosses, and after which one may; `None` if none does up to `to`.
@@ -145,11 +133,8 @@ impl Guards<'_, '_> {
 
     /// A time after `from` at which all states are on the other side than at `from`.
     fn time_beyond(&self, guard: usize, from: f64) -> Option<f64> {
-        let side = match self.guards[guard].direction {
-            Direction::Rising => 1.0,
-            Direction::Falling => -1.0,
-            Direction::Either => -self.side_before(guard, from)?,
-        };
+        let after = self.guards[guard].side_after();
+        let side = after.or_else(|| self.side_before(guard, from).map(|before| -before))?;
         let is_beyond =
             |time: f64| self.tube.guard_at(guard, Enclosure::from(time)).sign() == Some(side);
         let pieces =

@@ -4,5 +4,6 @@
 mod attacked;
 mod basins;
 mod closed_forms;
+mod models;
 mod periodic_orbits;
 mod undecided;

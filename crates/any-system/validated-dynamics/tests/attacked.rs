@@ -1,5 +1,6 @@
 //! What a review made false, by name.
 
+use crate::models::{map_of, oscillator};
 use equations::{Formulas, Names};
 use hybrid_system::Equations;
 use nalgebra::DMatrix;
@@ -7,11 +8,6 @@ use validated_dynamics::{
     Division, EnclosedMap, Enclosure, Error, FormulaMap, Matrix, ProvedBasins, ProvedFate, Reason,
     SectionMap, Trap, ValidatedSystem, fixed_point, halves, multipliers,
 };
-
-fn map_of(names: &[&str], texts: &[&str]) -> FormulaMap {
-    let names = Names::new(names, &[]).unwrap();
-    FormulaMap::new(Formulas::from_text(names, texts).unwrap(), 1).unwrap()
-}
 
 fn reason(error: &Error) -> Reason {
     error.undecided().unwrap_or_else(|| panic!("{error}")).reason.clone()
@@ -92,10 +88,7 @@ fn a_fixed_point_is_in_its_box_also_where_newton_ends_early() {
 
 #[test]
 fn the_time_of_a_model_without_time_is_refused() {
-    let oscillator = Equations::new(&["x", "v"], &[])
-        .mode_text("flow", &["v", "-x"])
-        .rising_text("section", "x");
-    let system = ValidatedSystem::new(&oscillator).unwrap();
+    let system = ValidatedSystem::new(&oscillator().rising_text("section", "x")).unwrap();
     let chart = || system.chart("flow", &["v"], &["0", "v"]).unwrap();
     let read = |texts: &[&str]| SectionMap::new(&system, chart(), "section", 1, texts);
     assert!(matches!(read(&["t"]), Err(Error::Argument { .. })));

@@ -1,16 +1,12 @@
 //! Traps and basins that are proved.
 
-use equations::{Formulas, Names};
+use crate::models::map_of;
+use example_systems::spring_leg::spring_leg_that_falls;
 use hybrid_system::Equations;
 use validated_dynamics::{
-    Budget, Division, EnclosedMap, Enclosure, Error, FormulaMap, ProvedBasins, ProvedFate,
-    SectionMap, StartSet, Trap, ValidatedSystem, divided, fixed_point, halves,
+    Budget, Division, EnclosedMap, Enclosure, Error, ProvedBasins, ProvedFate, SectionMap,
+    StartSet, Trap, ValidatedSystem, divided, fixed_point, halves,
 };
-
-fn map_of(names: &[&str], texts: &[&str]) -> FormulaMap {
-    let names = Names::new(names, &[]).unwrap();
-    FormulaMap::new(Formulas::from_text(names, texts).unwrap(), 1).unwrap()
-}
 
 /// x → 1.5x − 0.5x³ attracts to ±1 and repels from 0. The basin of 1 has the part (0, √3) about it; 1.55 is mapped to 0.46, and no interval about 1
 /// that is much larger than 0.55 is mapped into itself.
@@ -50,26 +46,7 @@ fn a_trap_of_a_turned_parallelepiped_has_no_state_of_another_fate() {
 /// The runner that starts below the height of touchdown falls: no trap of the gait may have such a start.
 #[test]
 fn the_runner_is_attracted_from_heights_above_that_of_touchdown_alone() {
-    let numbers =
-        [("mass", "80"), ("stiffness", "2e4"), ("leg", "1"), ("gravity", "9.81"), ("attack", "68")];
-    let push = "stiffness/mass*(leg/sqrt(x^2 + height^2) - 1)";
-    let runner = Equations::new(&["x", "height", "speed", "climb"], &numbers)
-        .mode_text("flight", &["speed", "climb", "0", "-gravity"])
-        .falling_text("touchdown", "height - leg*sin(attack*pi/180)")
-        .crossing()
-        .resets_text(&["-leg*cos(attack*pi/180)", "height", "speed", "climb"])
-        .to("stance")
-        .falling_text("apex", "climb")
-        .falling_text("ground", "height")
-        .stops()
-        .mode_text(
-            "stance",
-            &["speed", "climb", &format!("{push}*x"), &format!("{push}*height - gravity")],
-        )
-        .rising_text("take-off", "sqrt(x^2 + height^2) - leg")
-        .crossing()
-        .to("flight");
-    let system = ValidatedSystem::new(&runner).unwrap();
+    let system = ValidatedSystem::new(&spring_leg_that_falls()).unwrap();
     let apex = ["0", "h", "sqrt(25 + 2*gravity*(1 - h))", "0"];
     let chart = system.chart("flight", &["h"], &apex).unwrap();
     let map = SectionMap::new(&system, chart, "apex", 1, &["height"]).unwrap();

@@ -1,5 +1,6 @@
 //! Flows and events hold what closed forms say.
 
+use crate::models::oscillator;
 use hybrid_system::Equations;
 use proptest::prelude::*;
 use std::ops::ControlFlow;
@@ -50,10 +51,7 @@ fn a_ball_bounces_at_an_interval_of_restitutions() {
 
 #[test]
 fn an_oscillator_comes_back_after_a_turn_whatever_its_speed() {
-    let oscillator = Equations::new(&["x", "v"], &[])
-        .mode_text("flow", &["v", "-x"])
-        .rising_text("section", "x");
-    let system = ValidatedSystem::new(&oscillator).unwrap();
+    let system = ValidatedSystem::new(&oscillator().rising_text("section", "x")).unwrap();
     let chart = system.chart("flow", &["v"], &["0", "v"]).unwrap();
     for radius in [0.0, 1e-6, 1e-3, 0.1] {
         let mut run = system.start_on(&chart, &[Enclosure::around(1.0, radius)]).unwrap();
@@ -104,10 +102,7 @@ proptest! {
     /// Each step holds the states at its inner times.
     #[test]
     fn steps_hold_the_states_between_their_ends(x in 0.2..2.0f64, part in 0.0..1.0f64) {
-        let oscillator = Equations::new(&["x", "v"], &[])
-            .mode_text("flow", &["v", "-x"])
-            .falling_text("turn", "v + 100");
-        let system = ValidatedSystem::new(&oscillator).unwrap();
+        let system = ValidatedSystem::new(&oscillator().falling_text("turn", "v + 100")).unwrap();
         let mut run = system.start_box("flow", &[Enclosure::from(x), Enclosure::ZERO]).unwrap();
         let mut steps = 0;
         let ended = run.next_event_watched(&mut |piece| {

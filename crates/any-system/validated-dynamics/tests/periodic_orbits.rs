@@ -1,6 +1,8 @@
 //! Periodic orbits that exist, of models without closed forms.
 
+use crate::models::oscillator;
 use equations::{Formulas, Names};
+use example_systems::impact_oscillator::impact_oscillator;
 use hybrid_system::Equations;
 use validated_dynamics::{
     EnclosedMap, Enclosure, FormulaMap, Reason, SectionMap, ValidatedSystem, fixed_point,
@@ -28,14 +30,11 @@ fn rossler_has_the_orbit_of_period_one() {
 /// x = A cos(1.3t − φ) + a transient, and the two unknowns follow from the impact law.
 #[test]
 fn an_impact_oscillator_has_a_stable_orbit_also_for_an_interval_of_forcings() {
-    let oscillator = Equations::new(&["x", "v"], &[("F", "1")])
-        .mode_text("free", &["v", "F*cos(1.3*t) - 0.1*v - x"])
-        .rising_text("stop", "x - 0.5")
-        .resets_text(&["x", "-0.8*v"]);
+    let oscillator = impact_oscillator("1");
     let period = 2.0 * std::f64::consts::PI / 1.3;
     let system = ValidatedSystem::new(&oscillator).unwrap();
-    let chart = system.chart("free", &["v", "s"], &["0.5", "v", "s"]).unwrap();
-    let map = SectionMap::new(&system, chart, "stop", 1, &["v", "t - 2*pi/1.3"]).unwrap();
+    let chart = system.chart("free", &["v", "s"], &["stop", "v", "s"]).unwrap();
+    let map = SectionMap::new(&system, chart, "stop", 1, &["v", "t - 2*pi/frequency"]).unwrap();
     let orbit = fixed_point(&map, &[-1.48, 0.16], &[]).unwrap();
     assert!(orbit.is_attracting() && orbit.point.iter().all(|x| x.width() < 1e-12));
     assert!(orbit.image.events[0].time.contains(period));
@@ -49,9 +48,10 @@ fn an_impact_oscillator_has_a_stable_orbit_also_for_an_interval_of_forcings() {
     }
     assert!((orbit.point[0].middle() - speed).abs() < 1e-8);
 
-    let system = ValidatedSystem::with_interval_parameters(&oscillator, &["F"]).unwrap();
-    let chart = system.chart("free", &["v", "s", "F"], &["0.5", "v", "s", "F"]).unwrap();
-    let map = SectionMap::new(&system, chart, "stop", 1, &["v", "t - 2*pi/1.3"]).unwrap();
+    let system = ValidatedSystem::with_interval_parameters(&oscillator, &["forcing"]).unwrap();
+    let chart =
+        system.chart("free", &["v", "s", "forcing"], &["stop", "v", "s", "forcing"]).unwrap();
+    let map = SectionMap::new(&system, chart, "stop", 1, &["v", "t - 2*pi/frequency"]).unwrap();
     let orbits = fixed_point(&map, &[-1.48, 0.16], &[Enclosure::new(0.999, 1.001)]).unwrap();
     assert!(orbits.is_attracting());
     assert!(orbit.point[0].is_inside(&orbits.point[0]));
@@ -109,10 +109,7 @@ fn what_is_no_fixed_point_is_not_proved() {
 
 #[test]
 fn a_map_is_stopped_by_its_caller() {
-    let oscillator = Equations::new(&["x", "v"], &[])
-        .mode_text("flow", &["v", "-x"])
-        .rising_text("section", "x");
-    let system = ValidatedSystem::new(&oscillator).unwrap();
+    let system = ValidatedSystem::new(&oscillator().rising_text("section", "x")).unwrap();
     let chart = system.chart("flow", &["v"], &["0", "v"]).unwrap();
     let stop = || true;
     let map = SectionMap::new(&system, chart, "section", 1, &["v"]).unwrap().stopped_by(&stop);

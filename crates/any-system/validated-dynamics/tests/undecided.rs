@@ -1,5 +1,6 @@
 //! What is not proved has a reason that names the surface, the time and the states.
 
+use crate::models::oscillator;
 use hybrid_system::Equations;
 use std::ops::ControlFlow;
 use validated_dynamics::{
@@ -29,10 +30,6 @@ fn first_undecided(mut run: ValidatedRun<'_>) -> Undecided {
 
 fn reason(equations: &Equations, ends: &[(f64, f64)]) -> Reason {
     undecided(equations, "flow", ends, Limits::default()).reason
-}
-
-fn oscillator() -> Equations {
-    Equations::new(&["x", "v"], &[]).mode_text("flow", &["v", "-x"])
 }
 
 fn names(reason: &Reason, surface: &str) -> bool {

@@ -2,6 +2,7 @@
 
 use super::equations::{Equations, GuardEquations, Jump, ModeEquations};
 use super::label::Label;
+use super::programs::with_time;
 use crate::error::Error;
 use crate::guard::Guard;
 use equations::{Constant, Formulas, Node};
@@ -62,7 +63,7 @@ impl Equations {
         let mode = |mode: &ModeEquations| {
             let one = Node::Constant(Constant::from(1.0));
             let zero = |_| Some(Node::Constant(Constant::from(0.0)));
-            let field = timed(&mode.field, uses_time, Some(one));
+            let field = with_time(&mode.field, uses_time, Some(one));
             let guards = self.everywhere.iter().chain(&mode.guards);
             Ok(ModeParts {
                 name: mode.name,
@@ -81,7 +82,7 @@ impl Equations {
     /// As [`mode_parts`](Self::mode_parts), and [`Error::Formula`] for a text that is no formula.
     pub fn texts_in_parts(&self, texts: &[&str], parameters: &[&str]) -> Result<Formulas, Error> {
         let formulas = Formulas::from_text(self.names.clone(), texts)?;
-        let timed = timed(&formulas, self.uses_time(), None);
+        let timed = with_time(&formulas, self.uses_time(), None);
         Ok(timed.with_states_for(parameters, |_| None)?)
     }
 }
@@ -89,11 +90,11 @@ impl Equations {
 impl GuardEquations {
     fn parts(&self, uses_time: bool, parameters: &[&str]) -> Result<GuardParts, Error> {
         let plain = |formulas: &Formulas| {
-            timed(formulas, uses_time, None).with_states_for(parameters, |_| None)
+            with_time(formulas, uses_time, None).with_states_for(parameters, |_| None)
         };
         let state = self.jump.as_ref().and_then(|jump: &Jump| jump.state.as_ref());
         let state = state.map(|state| {
-            timed(state, uses_time, Some(Node::Time))
+            with_time(state, uses_time, Some(Node::Time))
                 .with_states_for(parameters, |component| Some(Node::State(component)))
         });
         Ok(GuardParts {
@@ -105,9 +106,4 @@ impl GuardEquations {
             state: state.transpose()?,
         })
     }
-}
-
-/// The formulas, with the time as the last component, and its own formula, where it is one.
-fn timed(formulas: &Formulas, uses_time: bool, of_time: Option<Node>) -> Formulas {
-    if uses_time { formulas.with_time_as_state(of_time) } else { formulas.clone() }
 }

@@ -190,7 +190,7 @@ impl Jump {
     }
 
     fn program(&self, uses_time: bool) -> Jump {
-        let timed = |state: &Formulas| with_time(state, uses_time, Node::Time);
+        let timed = |state: &Formulas| with_time(state, uses_time, Some(Node::Time));
         let (state, inverse) = (self.state.as_ref().map(timed), self.inverse.as_ref().map(timed));
         Jump { mode: self.mode, state, inverse }
     }
@@ -205,10 +205,7 @@ impl GuardEquations {
 
     fn program(&self, uses_time: bool) -> GuardProgram {
         let jump = self.jump.as_ref().map(|jump| jump.program(uses_time));
-        let timed = |formulas: &Formulas| match uses_time {
-            true => formulas.with_time_as_state(None),
-            false => formulas.clone(),
-        };
+        let timed = |formulas: &Formulas| with_time(formulas, uses_time, None);
         GuardProgram {
             surface: self.guard.surface,
             function: timed(&self.function),
@@ -231,7 +228,7 @@ impl ModeEquations {
         everywhere: &[GuardEquations],
         uses_time: bool,
     ) -> Result<ModeProgram, Error> {
-        let field = with_time(&self.field, uses_time, Node::Constant(Constant::from(1.0)));
+        let field = with_time(&self.field, uses_time, Some(Node::Constant(Constant::from(1.0))));
         // In the order in which the model lists them.
         let all = everywhere.iter().chain(&self.guards);
         let (clocks, guards): (Vec<_>, Vec<_>) =
@@ -240,13 +237,7 @@ impl ModeEquations {
             guards.into_iter().map(|guard| guard.program(uses_time)).collect();
         let clocks = clocks.into_iter().map(|clock| Ok((clock.program(uses_time), clock.times()?)));
         let clocks = clocks.collect::<Result<_, Error>>()?;
-        let mut watched: Option<Formulas> = None;
-        for guard in &guards {
-            watched = Some(match watched {
-                Some(watched) => watched.and(&guard.function)?,
-                None => guard.function.clone(),
-            });
-        }
+        let watched = Formulas::all_of(guards.iter().map(|guard| &guard.function))?;
         let series = Series::new(&field, watched.as_ref())?;
         let after_limit = self.after_limit.as_ref().map(|jump| jump.program(uses_time));
         let (name, jets, closed_form) = (self.name, Jets::new(), ClosedForm::of(&field));
@@ -269,7 +260,7 @@ fn is_branch(node: &Node) -> bool {
     matches!(node, Node::Binary(Binary::ArcTangent2, ..))
 }
 
-/// The formulas, with the time as the last component and its own formula where it is one.
-fn with_time(formulas: &Formulas, uses_time: bool, of_time: Node) -> Formulas {
-    if uses_time { formulas.with_time_as_state(Some(of_time)) } else { formulas.clone() }
+/// The formulas, with the time as the last component, and with its own formula if there is one, where a model uses it.
+pub(super) fn with_time(formulas: &Formulas, uses_time: bool, of_time: Option<Node>) -> Formulas {
+    if uses_time { formulas.with_time_as_state(of_time) } else { formulas.clone() }
 }

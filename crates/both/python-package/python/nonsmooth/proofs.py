@@ -89,10 +89,7 @@ def proved_orbit(
     """
     variables = list(guess)
     own = dict(intervals or {})
-    for name in own:
-        if name not in system.parameters:
-            known = ", ".join(system.parameters) or "none"
-            raise InputError(f"there is no parameter {name!r}; the parameters are: {known}")
+    system._check_parameters(own)
     for name, (low, high) in own.items():
         if not low <= high:
             raise InputError(f"the interval of {name} is [{low}, {high}]: the first end is the lower one")

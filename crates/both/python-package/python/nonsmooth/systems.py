@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -248,11 +248,14 @@ class System:
             raise InputError(f"there is no mode {mode!r}; the modes are: {', '.join(self.modes)}")
         return mode
 
-    def _parameters(self, changed: Mapping[str, float]) -> dict[str, float]:
-        for name in changed:
+    def _check_parameters(self, names: Iterable[str]) -> None:
+        for name in names:
             if name not in self.parameters:
                 known = ", ".join(self.parameters) or "none"
                 raise InputError(f"there is no parameter {name!r}; the parameters are: {known}")
+
+    def _parameters(self, changed: Mapping[str, float]) -> dict[str, float]:
+        self._check_parameters(changed)
         return {**self.parameters, **{name: float(value) for name, value in changed.items()}}
 
     def __getstate__(self) -> dict[str, Any]:
