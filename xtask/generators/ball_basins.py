@@ -19,6 +19,7 @@ from bisect import bisect_right
 from flint import arb, ctx
 
 from ball_hops import Hop, Undecided, parameter, square_bounds
+from certificate_file import Refuted, Unconfirmed
 from left_of_star import REACH, REACH_LIGHT, rises
 from right_of_star import stays_above
 
@@ -36,14 +37,6 @@ FURTHER_IMAGES = 2
 BITS, MOST_BITS = 128, 1024
 
 GROUNDED = "grounded"
-
-
-class Refuted(Exception):
-    """What the certificate says is false."""
-
-
-class Unconfirmed(Exception):
-    """The checker cannot confirm what the certificate says."""
 
 
 _stars = {}

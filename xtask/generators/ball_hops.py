@@ -21,14 +21,12 @@ import math
 
 from flint import arb, ctx
 
+from certificate_file import Undecided
+
 # Balls narrower than this, relative to their size, are followed as a whole; of wider ones the two extreme corners.
 NARROW = 2.0**-60
 # Most flights of a hop.
 MOST_FLIGHTS = 500
-
-
-class Undecided(Exception):
-    """A sign that the balls leave open: with narrower or longer numbers it may be decided."""
 
 
 def parameter(mass_ratio):

@@ -1,4 +1,4 @@
-"""Checks certificates of `cargo xtask prove`: python check_certificate.py [--sample N] [--seed S] FILE...
+"""Checks certificates of `cargo xtask prove` and of any model: python check_certificate.py [--sample N] [--seed S] FILE...
 
 The format is that of docs/certificates.md. Every line is read, and what joins the lines is checked: their number, that
 strips and boxes leave no gap, the sums of lengths and areas. Each claim (an interval, a point, a box, a trap) is then
@@ -11,8 +11,6 @@ with the reason.
 
 import argparse
 import hashlib
-import json
-import math
 import os
 import random
 import sys
@@ -20,54 +18,14 @@ import time
 
 from flint import ctx
 
-from ball_basins import BITS, Refuted, Unconfirmed
-from ball_hops import Undecided
+from any_model import check as any_model
+from ball_basins import BITS
+from certificate_file import Refuted, Unconfirmed, Undecided, format_of, guarded, lines_of
 from claims import KINDS, wrong_field
 from statements import STATEMENTS, compare, sentence
 from whole_theorems import WHOLE
 
 FORMAT, VERSION = "passive hopper certificate", 2
-
-
-def once(pairs):
-    """An object whose keys differ: of two equal ones a reader may take either."""
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        raise ValueError("a key stands twice")
-    return found
-
-
-def finite(text):
-    number = float(text)
-    if not math.isfinite(number):
-        raise ValueError(f"{text} is no number of a certificate")
-    return number
-
-
-def no_constant(text):
-    raise ValueError(f"{text} is no number of a certificate")
-
-
-def lines_of(path, digest):
-    """The header, then (number of the line, object). All bytes go into the digest."""
-    with open(path, "rb") as file:
-        for number, text in enumerate(file, 1):
-            digest.update(text)
-            try:
-                line = json.loads(
-                    text.decode("utf-8"), object_pairs_hook=once, parse_float=finite, parse_constant=no_constant
-                )
-            except (ValueError, RecursionError) as error:
-                raise Refuted(f"line {number}: no JSON ({error})")
-            if not isinstance(line, dict):
-                raise Refuted(f"line {number}: no object")
-            kind = None if number == 1 else line.get("kind")
-            if number > 1 and not isinstance(kind, str):
-                raise Refuted(f"line {number}: its kind is no text")
-            wrong = wrong_field(kind, line)
-            if wrong:
-                raise Refuted(f"line {number}: {wrong}")
-            yield number, line
 
 
 def read_header(lines):
@@ -79,16 +37,6 @@ def read_header(lines):
     return header
 
 
-def guarded(number, action, *arguments):
-    """`action`, whose errors then name the line."""
-    try:
-        return action(*arguments)
-    except (Refuted, Unconfirmed, Undecided) as error:
-        raise type(error)(f"line {number}: {error}")
-    except (KeyError, TypeError, ValueError, ArithmeticError, IndexError, AttributeError) as error:
-        raise Refuted(f"line {number}: a field is missing or wrong ({type(error).__name__}: {error})")
-
-
 def check(path, sample, seed, found=None):
     """A sentence about the file. Raises an error for the first line that is not confirmed.
 
@@ -96,7 +44,7 @@ def check(path, sample, seed, found=None):
     into `found`.
     """
     digests = [hashlib.sha256(), hashlib.sha256()]
-    lines = lines_of(path, digests[0])
+    lines = lines_of(path, digests[0], wrong_field)
     header = read_header(lines)
     whole = WHOLE[header["theorem"]]()
     counts = []
@@ -125,7 +73,7 @@ def check(path, sample, seed, found=None):
         sample = min(sample, STATEMENTS[header["theorem"]].get("most_sampled", sample))
         chosen = None if sample >= total else sorted(random.Random(seed).sample(range(total), sample))
     confirmed, before, shared = 0, 0, {}
-    lines = lines_of(path, digests[1])
+    lines = lines_of(path, digests[1], wrong_field)
     next(lines)
     at = 0
     for (number, line), count in zip(lines, counts):
@@ -184,7 +132,8 @@ def main():
     for path in options.files:
         begin = time.time()
         try:
-            print(f"{check(path, options.sample, options.seed)}; {time.time() - begin:.1f} s", flush=True)
+            own = any_model.check if format_of(path) == any_model.FORMAT else check
+            print(f"{own(path, options.sample, options.seed)}; {time.time() - begin:.1f} s", flush=True)
         except (Refuted, Unconfirmed, Undecided) as error:
             word = "refuted" if isinstance(error, Refuted) else "not confirmed"
             print(f"{word:9} {path}, {error}", flush=True)

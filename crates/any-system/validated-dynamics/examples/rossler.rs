@@ -1,11 +1,14 @@
 //! Rössler's equations with a = b = 0.2, c = 5.7: the periodic orbit that crosses x = 0 once.
+//!
+//! `cargo run --release --example rossler -- rossler.jsonl` writes a certificate, too.
 
 #![allow(clippy::print_stdout)] // a program
 
 use hybrid_system::Equations;
-use validated_dynamics::{Error, SectionMap, ValidatedSystem, fixed_point};
+use validated_dynamics::{Certificate, SectionMap, ValidatedSystem, fixed_point};
+use std::error::Error;
 
-fn main() -> Result<(), Error> {
+fn main() -> Result<(), Box<dyn Error>> {
     let rossler = Equations::new(&["x", "y", "z"], &[("a", "0.2"), ("b", "0.2"), ("c", "5.7")])
         .mode_text("flow", &["-y - z", "x + a*y", "b + z*(x - c)"])
         .rising_text("section", "x");
@@ -20,5 +23,11 @@ fn main() -> Result<(), Error> {
         println!("A multiplier is in {multiplier}.");
     }
     assert!(orbit.is_saddle());
+    if let Some(file) = std::env::args().nth(1) {
+        let returns = returns.recorded();
+        let mut certificate = Certificate::new();
+        certificate.fixed_point(&returns, &fixed_point(&returns, &[-8.4, 0.03], &[])?)?;
+        std::fs::write(file, certificate.text())?;
+    }
     Ok(())
 }

@@ -74,6 +74,16 @@ pub struct ProvedBasins {
     /// The open cells whose division may show more, by their halvings.
     edge: BTreeMap<u32, Vec<Place>>,
     area: f64,
+    /// The cells with a fate, each one behind those in which its image is.
+    decided: Vec<ProvedCell>,
+}
+
+/// A cell with a fate.
+#[derive(Debug, Clone)]
+pub(crate) struct ProvedCell {
+    pub(crate) window: usize,
+    pub(crate) points: Vec<Enclosure>,
+    pub(crate) fate: ProvedFate,
 }
 
 impl ProvedBasins {
@@ -132,6 +142,7 @@ impl ProvedBasins {
             waiting: HashMap::new(),
             edge: BTreeMap::new(),
             area: 0.0,
+            decided: Vec::new(),
         };
         let (mut fresh, mut freed): (Vec<OpenCell>, Vec<Place>) = (Vec::new(), Vec::new());
         for (window, points) in windows.into_iter().enumerate() {
@@ -208,13 +219,12 @@ impl ProvedBasins {
         if let Some(known) = self.cells.get_mut(place) {
             *known = Known::Fate(fate);
         }
-        if let Some(open) = self.open.remove(&place)
-            && open.window == 0
-        {
-            let window = &self.cells.windows()[0];
-            self.area =
-                (Enclosure::from(self.area) + share_of(&open.points, window)).low.max(self.area);
+        let Some(OpenCell { window, points, .. }) = self.open.remove(&place) else { return };
+        if window == 0 {
+            let share = share_of(&points, &self.cells.windows()[0]);
+            self.area = (Enclosure::from(self.area) + share).low.max(self.area);
         }
+        self.decided.push(ProvedCell { window, points, fate });
     }
 
     /// Looks at an open cell, and at those that have waited for it if it has a fate.
@@ -302,6 +312,16 @@ impl ProvedBasins {
             }
         });
         share.low.clamp(0.0, 1.0)
+    }
+
+    /// The windows.
+    pub(crate) fn windows(&self) -> &[Vec<Enclosure>] {
+        self.cells.windows()
+    }
+
+    /// The cells with a fate, each one behind those in which its image is.
+    pub(crate) fn decided(&self) -> &[ProvedCell] {
+        &self.decided
     }
 
     /// The traps.

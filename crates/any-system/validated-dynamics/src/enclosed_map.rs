@@ -1,5 +1,6 @@
 //! Maps that are enclosed with their derivatives: return maps of systems, and maps that are formulas.
 
+use crate::certificate::Record;
 use crate::event::{ProvedEvent, carried};
 use crate::matrix::{Matrix, exact, sums};
 use crate::run::{Limits, ValidatedRun};
@@ -11,6 +12,7 @@ use equations::Formulas;
 use hybrid_system::Label;
 use interval_arithmetic::Enclosure;
 use nalgebra::DMatrix;
+use serde_json::{Value, json};
 use std::fmt;
 use std::ops::ControlFlow;
 
@@ -25,6 +27,18 @@ pub trait EnclosedMap {
     /// [`Error::Undecided`] where nothing is proved. [`Reason::Stopped`] says that an event that ends the execution comes first, for all
     /// points.
     fn carry(&self, start: StartSet) -> Result<Carried, Error>;
+
+    /// What a certificate says of the map, if one can: the system, if it has one, and the map.
+    #[doc(hidden)]
+    fn as_json(&self) -> Option<(Option<Value>, Value)> {
+        None
+    }
+
+    /// The steps of points whose execution ends, of a map that is recorded.
+    #[doc(hidden)]
+    fn end_of(&self, _start: StartSet) -> Result<Option<Record>, Error> {
+        Ok(None)
+    }
 
     /// The images of all points of a box, with derivatives.
     ///
@@ -93,6 +107,8 @@ pub struct Carried {
     pub events: Vec<ProvedEvent>,
     /// The derivatives, if they are wanted.
     pub(crate) chain: Option<Chain>,
+    /// The steps, of a map that is recorded.
+    pub(crate) record: Option<Record>,
 }
 
 /// The images of a box under a map.
@@ -116,6 +132,7 @@ pub struct SectionMap<'s> {
     read: (Formulas, Formulas),
     limits: Limits,
     stop: Option<&'s (dyn Fn() -> bool + Sync)>,
+    is_recorded: bool,
 }
 
 impl fmt::Debug for SectionMap<'_> {
@@ -176,7 +193,7 @@ impl<'s> SectionMap<'s> {
         }
         let read = (read.clone(), read.jacobian()?);
         let (surface, limits) = (system.surface(surface)?, Limits::default());
-        Ok(SectionMap { system, chart, surface, count, read, limits, stop: None })
+        Ok(SectionMap { system, chart, surface, count, read, limits, stop: None, is_recorded: false })
     }
 
     /// The same map within other limits of its runs.
@@ -190,6 +207,13 @@ impl<'s> SectionMap<'s> {
     #[must_use]
     pub fn stopped_by(mut self, stop: &'s (dyn Fn() -> bool + Sync)) -> Self {
         self.stop = Some(stop);
+        self
+    }
+
+    /// The same map, whose statements can be written into a [`Certificate`](crate::Certificate): with wider sets, in more time.
+    #[must_use]
+    pub fn recorded(mut self) -> Self {
+        self.is_recorded = true;
         self
     }
 
@@ -208,15 +232,11 @@ impl EnclosedMap for SectionMap<'_> {
     }
 
     fn carry(&self, start: StartSet) -> Result<Carried, Error> {
-        let mut run = self.system.start_set(&self.chart, start)?.within(self.limits);
+        let mut run = self.run_of(start)?;
         let mut events = Vec::new();
         let mut left = self.count;
         loop {
-            let event =
-                run.next_event_watched(&mut |_| match self.stop.is_some_and(|stop| stop()) {
-                    true => ControlFlow::Break(()),
-                    false => ControlFlow::Continue(()),
-                })?;
+            let event = self.next_event(&mut run)?;
             left -= usize::from(event.surface == self.surface);
             let (set, chain) = (event.set.clone(), event.chain.clone());
             events.push(event);
@@ -224,10 +244,56 @@ impl EnclosedMap for SectionMap<'_> {
                 continue;
             }
             return match carried(&set, chain, (&self.read.0, &self.read.1)) {
-                Ok((set, chain)) => Ok(Carried { set, events, chain }),
+                Ok((mut set, chain)) => {
+                    let mut record = run.into_record();
+                    if let Some(record) = &mut record {
+                        set = record.read(&set);
+                    }
+                    Ok(Carried { set, events, chain, record })
+                }
                 Err(error) => run.undecided(Reason::Domain(error)),
             };
         }
+    }
+
+    fn as_json(&self) -> Option<(Option<Value>, Value)> {
+        let chart = &self.chart;
+        let map = json!({
+            "kind": "map",
+            "mode": self.system.modes[chart.mode].name.as_str(),
+            "variables": chart.states.names().states,
+            "states": chart.states.texts(),
+            "surface": self.surface.as_str(),
+            "count": self.count,
+            "read": self.read.0.texts(),
+        });
+        Some((Some(self.system.as_json()), map))
+    }
+
+    fn end_of(&self, start: StartSet) -> Result<Option<Record>, Error> {
+        let mut run = self.run_of(start)?;
+        while self.next_event(&mut run)?.next.is_some() {}
+        Ok(run.into_record())
+    }
+}
+
+impl<'s> SectionMap<'s> {
+    /// The run from a set, which is written down if the map is recorded.
+    fn run_of(&self, mut start: StartSet) -> Result<ValidatedRun<'s>, Error> {
+        let record;
+        (record, start.set) = written(self.is_recorded, start.set);
+        let run = self.system.start_set(&self.chart, start)?.within(self.limits);
+        Ok(match record {
+            Some(record) => run.recorded(record),
+            None => run,
+        })
+    }
+
+    fn next_event(&self, run: &mut ValidatedRun<'s>) -> Result<ProvedEvent, Error> {
+        run.next_event_watched(&mut |_| match self.stop.is_some_and(|stop| stop()) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        })
     }
 }
 
@@ -238,6 +304,7 @@ pub struct FormulaMap {
     slopes: Formulas,
     times: usize,
     count: usize,
+    is_recorded: bool,
 }
 
 impl FormulaMap {
@@ -269,7 +336,14 @@ impl FormulaMap {
         let formulas = without_time(formulas, "a map has no time: give it a variable")?;
         // The parameters stay.
         let formulas = formulas.with_last_states(variables - count);
-        Ok(FormulaMap { slopes: formulas.jacobian()?, formulas, times, count })
+        Ok(FormulaMap { slopes: formulas.jacobian()?, formulas, times, count, is_recorded: false })
+    }
+
+    /// The same map, whose statements can be written into a [`Certificate`](crate::Certificate).
+    #[must_use]
+    pub fn recorded(mut self) -> Self {
+        self.is_recorded = true;
+        self
     }
 }
 
@@ -281,15 +355,48 @@ impl EnclosedMap for FormulaMap {
     fn carry(&self, start: StartSet) -> Result<Carried, Error> {
         let StartSet { mut set, mut chain } = start;
         check_box(&self.formulas.names().states, set.hull())?;
+        let mut record;
+        (record, set) = written(self.is_recorded, set);
         for _ in 0..self.times {
             let next = carried(&set, chain, (&self.formulas, &self.slopes));
             (set, chain) = next.map_err(|error| {
                 let names = &self.formulas.names().states;
                 Error::not_proved(Reason::Domain(error), None, Enclosure::ZERO, (names, set.hull()))
             })?;
+            if let Some(record) = &mut record {
+                set = record.applied(&set);
+            }
         }
-        let (set, chain) = self.variables_of(&set, chain);
-        Ok(Carried { set, events: Vec::new(), chain })
+        let (mut set, chain) = self.variables_of(&set, chain);
+        if let Some(record) = &mut record {
+            set = record.read(&set);
+        }
+        Ok(Carried { set, events: Vec::new(), chain, record })
+    }
+
+    fn as_json(&self) -> Option<(Option<Value>, Value)> {
+        let names = self.formulas.names();
+        let values = names.parameters.iter().zip(names.values.iter().map(ToString::to_string));
+        let map = json!({
+            "kind": "map",
+            "variables": names.states,
+            "parameters": values.collect::<Vec<_>>(),
+            "formulas": self.formulas.texts(),
+            "dimension": self.count,
+            "times": self.times,
+        });
+        Some((None, map))
+    }
+}
+
+/// The record of a map that is recorded, and the set at its start: the written one then.
+fn written(is_recorded: bool, set: AffineSet) -> (Option<Record>, AffineSet) {
+    match is_recorded {
+        true => {
+            let (record, set) = Record::from(&set);
+            (Some(record), set)
+        }
+        false => (None, set),
     }
 }
 

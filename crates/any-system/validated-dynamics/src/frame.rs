@@ -43,6 +43,37 @@ impl Frame {
         }
     }
 
+    /// The longest of these columns that do not depend on each other, with length 1, and directions that are orthogonal to them where there
+    /// are fewer than rows.
+    pub(crate) fn independent(columns: &DMatrix<f64>) -> DMatrix<f64> {
+        let size = columns.nrows();
+        let mut left: Vec<Vec<f64>> =
+            columns.column_iter().map(|column| column.iter().copied().collect()).collect();
+        let (mut kept, mut orthogonal): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
+        let norm = |vector: &[f64]| vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+        while orthogonal.len() < size {
+            let beside = |vector: &Vec<f64>| {
+                let part = orthogonal_part(vector.clone(), &orthogonal)?;
+                let along: f64 = part.iter().zip(vector).map(|(x, y)| x * y).sum();
+                Some((part, along))
+            };
+            let found = left.iter().enumerate().filter_map(|(place, own)| Some((place, beside(own)?)));
+            let Some((place, (part, _))) = found.max_by(|a, b| a.1.1.total_cmp(&b.1.1)) else { break };
+            let own = left.swap_remove(place);
+            let length = norm(&own);
+            kept.push(own.iter().map(|x| x / length).collect());
+            orthogonal.push(part);
+        }
+        for axis in 0..size {
+            let unit = (0..size).map(|row| f64::from(row == axis)).collect();
+            if let Some(part) = orthogonal_part(unit, &orthogonal).filter(|_| orthogonal.len() < size) {
+                kept.push(part.clone());
+                orthogonal.push(part);
+            }
+        }
+        DMatrix::from_fn(size, size, |row, column| kept[column][row])
+    }
+
     /// The frame of directions that a map has moved, with these widths in them; the axes for a map into another number of components,
     /// which leaves no frame that is worth while.
     pub(crate) fn of_moved(moved: &Matrix, widths: &[f64]) -> Frame {

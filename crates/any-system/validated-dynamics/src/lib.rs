@@ -56,6 +56,7 @@
 mod basins;
 mod cell_images;
 mod cells;
+mod certificate;
 mod division;
 mod enclosed_map;
 mod event;
@@ -79,6 +80,7 @@ mod window;
 
 pub use basins::{Division, Progress, ProvedBasins, ProvedFate};
 pub use cells::MOST_SIDES;
+pub use certificate::Certificate;
 pub use division::{Budget, Divided, divided, halves};
 pub use enclosed_map::{Carried, EnclosedMap, FormulaMap, MapImage, SectionMap, StartSet};
 pub use event::ProvedEvent;

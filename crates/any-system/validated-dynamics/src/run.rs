@@ -1,5 +1,6 @@
 //! A run of a set of states: step after step, event after event.
 
+use crate::certificate::Record;
 use crate::event::{ProvedEvent, holds, jumped};
 use crate::matrix::Matrix;
 use crate::piece::Piece;
@@ -51,6 +52,8 @@ pub struct ValidatedRun<'s> {
     steps: usize,
     events: usize,
     ended: Option<Label>,
+    /// What a certificate says of the run, if one is wanted.
+    record: Option<Record>,
 }
 
 /// The part of the first step of an arc on which a flow that leads beyond a surface is recognised. A longer part would not recognise one that
@@ -86,7 +89,20 @@ impl<'s> ValidatedRun<'s> {
             steps: 0,
             events: 0,
             ended: None,
+            record: None,
         }
+    }
+
+    /// The same run, which writes each step down. Its sets are the written ones, which are wider.
+    pub(crate) fn recorded(mut self, mut record: Record) -> Self {
+        self.set = record.begin(&self.set);
+        self.record = Some(record);
+        self
+    }
+
+    /// What was written down, without the flow behind the last event.
+    pub(crate) fn into_record(self) -> Option<Record> {
+        self.record
     }
 
     /// The same run within other limits.
@@ -237,11 +253,11 @@ impl<'s> ValidatedRun<'s> {
                 }
             }
             Ok(First::Cut(time)) if is_too_long(time) => self.undecided(too_apart),
-            Ok(First::Cut(time)) => self.flow(&tube, Enclosure::from(time), None),
+            Ok(First::Cut(time)) => self.flow(&tube, time),
             Ok(First::Nothing) => match left.filter(|left| tube.length >= left.high) {
-                Some(left) => self.flow(&tube, left, end),
+                Some(left) => self.flow_until(&tube, left, end),
                 None if is_too_long(tube.length) => self.undecided(too_apart),
-                None => self.flow(&tube, Enclosure::from(tube.length), None),
+                None => self.flow(&tube, tube.length),
             },
         }
     }
@@ -269,8 +285,17 @@ impl<'s> ValidatedRun<'s> {
         Ok((tube, first))
     }
 
-    /// The states after a time of a step; `now` is the time then, if it is known better than by sums.
-    fn flow(
+    /// The states after a time of a step.
+    fn flow(&mut self, tube: &Tube<'_>, time: f64) -> Result<Moved, Error> {
+        let moved = self.flow_until(tube, Enclosure::from(time), None)?;
+        if let Some(record) = &mut self.record {
+            self.set = record.flow(time, &self.set);
+        }
+        Ok(moved)
+    }
+
+    /// The same for an interval of times; `now` is the time then, if it is known better than by sums.
+    fn flow_until(
         &mut self,
         tube: &Tube<'_>,
         time: Enclosure,
@@ -320,7 +345,7 @@ impl<'s> ValidatedRun<'s> {
         let before = found.set.hull().to_vec();
         match holds(guard, &before) {
             Ok(true) => {}
-            Ok(false) => return self.pass(guards, crossing),
+            Ok(false) => return self.pass(guards, crossing, false),
             Err(reason) => return self.undecided(reason),
         }
         if self.events == self.limits.events {
@@ -330,10 +355,13 @@ impl<'s> ValidatedRun<'s> {
         self.events += 1;
         let time = self.time + found.times;
         let arrived = self.chain.as_ref().map(|chain| chain.then(&found.derivatives));
-        let (set, chain) = match jumped(guard, &found.set, arrived) {
+        let (mut set, chain) = match jumped(guard, &found.set, arrived) {
             Ok(after) => after,
             Err(reason) => return self.undecided(reason),
         };
+        if let Some(record) = &mut self.record {
+            set = record.event(guard.surface, crossing.beyond, &set);
+        }
         let event = ProvedEvent {
             surface: guard.surface,
             mode: mode.name,
@@ -345,7 +373,7 @@ impl<'s> ValidatedRun<'s> {
             chain: chain.clone(),
         };
         if guard.observes {
-            self.pass(guards, crossing)?;
+            self.pass(guards, crossing, true)?;
         } else {
             self.ended = guard.stops.then_some(guard.surface);
             (self.mode, self.begins, self.apart) = (guard.mode, true, true);
@@ -356,11 +384,21 @@ impl<'s> ValidatedRun<'s> {
     }
 
     /// The flow goes on behind a surface at which nothing changes: from a time at which all states have crossed it.
-    fn pass(&mut self, guards: &Guards<'_, '_>, crossing: Crossing) -> Result<Moved, Error> {
+    fn pass(
+        &mut self,
+        guards: &Guards<'_, '_>,
+        crossing: Crossing,
+        is_event: bool,
+    ) -> Result<Moved, Error> {
         if let Err(reason) = guards.are_others_clear(crossing.guard, crossing.beyond) {
             return self.undecided(reason);
         }
-        self.flow(guards.tube, Enclosure::from(crossing.beyond), None)
+        let moved = self.flow_until(guards.tube, Enclosure::from(crossing.beyond), None)?;
+        if let Some(record) = &mut self.record {
+            let surface = guards.guards[crossing.guard].surface;
+            self.set = record.pass(surface, (crossing.beyond, &self.set), is_event);
+        }
+        Ok(moved)
     }
 
     /// The error that says what is not proved here.

@@ -36,6 +36,39 @@ impl AffineSet {
         }
     }
 
+    /// The points c + A r with |r_k| at most these radii.
+    pub(crate) fn of_radii(centre: &[f64], directions: &DMatrix<f64>, radii: &[f64]) -> AffineSet {
+        let r: Vec<Enclosure> = radii.iter().map(|radius| Enclosure::around(0.0, *radius)).collect();
+        let hull = sums(&exact(centre), &Matrix::of_numbers(directions).apply(&r));
+        AffineSet {
+            centre: centre.to_vec(),
+            shape: directions.clone(),
+            start: r,
+            frame: Frame::axes(centre.len()),
+            errors: vec![Enclosure::ZERO; centre.len()],
+            hull,
+        }
+    }
+
+    /// Bounds of the coordinates of c + C r₀ + B r in directions with this inverse: of the part C r₀, and of the part B r.
+    pub(crate) fn coordinates(&self, inverse: &Matrix) -> [Vec<f64>; 2] {
+        let bounds = |directions: &Matrix, r: &[Enclosure]| {
+            inverse.times(directions).apply(r).iter().map(Enclosure::magnitude).collect()
+        };
+        [
+            bounds(&Matrix::of_numbers(&self.shape), &self.start),
+            bounds(&self.frame.matrix(), &self.errors),
+        ]
+    }
+
+    /// The directions of the shape, as columns, each one as long as the set is in it.
+    pub(crate) fn shape_directions(&self) -> DMatrix<f64> {
+        let (rows, columns) = (self.shape.nrows(), self.shape.ncols());
+        DMatrix::from_fn(rows, columns, |row, column| {
+            self.shape[(row, column)] * self.start[column].magnitude()
+        })
+    }
+
     /// A box that holds the set.
     pub fn hull(&self) -> &[Enclosure] {
         &self.hull

@@ -3,6 +3,7 @@
 use crate::mode_series::ModeSeries;
 use crate::undecided::Error;
 use equations::{Formulas, Names};
+use serde_json::{Value, json};
 use hybrid_system::{Direction, Equations, GuardParts, Label, ModeParts, Role};
 
 /// A hybrid system, by its [`Equations`], whose flows and events are enclosed.
@@ -103,6 +104,38 @@ impl ValidatedSystem {
     /// The names of the components of the state, and the parameters with their values.
     pub fn names(&self) -> &Names {
         &self.names
+    }
+
+    /// All that statements about the system rest on, as texts and numbers.
+    pub(crate) fn as_json(&self) -> Value {
+        let one = |formulas: &Formulas| formulas.texts().pop();
+        let guard = |guard: &ValidatedGuard| {
+            json!({
+                "surface": guard.surface.as_str(),
+                "guard": one(&guard.function),
+                "side_after": guard.side_after(),
+                "bounds_flow": guard.bounds_flow,
+                "condition": guard.condition.as_ref().map(one),
+                "stops": guard.stops,
+                "mode": self.modes[guard.mode].name.as_str(),
+                "after": guard.reset.as_ref().map(|(after, _)| after.texts()),
+            })
+        };
+        let mode = |mode: &ValidatedMode| {
+            json!({
+                "mode": mode.name.as_str(),
+                "field": mode.field.texts(),
+                "guards": mode.guards.iter().map(guard).collect::<Vec<_>>(),
+            })
+        };
+        let names = &self.names;
+        let values = names.parameters.iter().zip(names.values.iter().map(ToString::to_string));
+        json!({
+            "kind": "system",
+            "states": names.states,
+            "parameters": values.collect::<Vec<_>>(),
+            "modes": self.modes.iter().map(mode).collect::<Vec<_>>(),
+        })
     }
 
     /// Formulas of the state, from texts in the names of the equations.

@@ -39,6 +39,15 @@ pub struct Trap {
     contracting: f64,
     contraction: f64,
     inverse: Matrix,
+    parameters: Vec<Enclosure>,
+    growth: Vec<Growth>,
+}
+
+/// A larger size of a trap, and the parts of it, in its coordinates, whose images are in the trap before.
+#[derive(Debug, Clone)]
+pub(crate) struct Growth {
+    pub(crate) size: f64,
+    pub(crate) parts: Vec<Vec<Enclosure>>,
 }
 
 impl Trap {
@@ -60,6 +69,16 @@ impl Trap {
     /// The size of the contraction.
     pub fn contracting(&self) -> f64 {
         self.contracting
+    }
+
+    /// The parameters, for all of whose values it is a trap.
+    pub fn parameters(&self) -> &[Enclosure] {
+        &self.parameters
+    }
+
+    /// How it grew from the size of the contraction.
+    pub(crate) fn growth(&self) -> &[Growth] {
+        &self.growth
     }
 
     /// A bound of the norm of its derivatives in the coordinates u: distances to the fixed point fall by this factor there, at least.
@@ -116,36 +135,38 @@ impl Trap {
         }
         let reason = Reason::NotInside { tries: SMALLER_TRIES };
         let found = found.ok_or_else(|| Error::of_variables(reason, &fixed.point))?;
-        found.grown(map, &fixed.parameters, images)
+        found.grown(map, images)
     }
 
     /// The same trap, grown as long as the images of all parts of the larger one are in the one before.
     fn grown(
         mut self,
         map: &impl EnclosedMap,
-        parameters: &[Enclosure],
         mut images: usize,
     ) -> Result<Trap, Error> {
         let mut factor = GROWN;
         while factor > LEAST_GROWN && self.size < LARGEST {
             let size = factor * self.size;
             let all = vec![Enclosure::new(-size, size); self.centre.len()];
-            match self.receives(map, &all, parameters, HALVES, &mut images)? {
-                true => self.size = size,
+            let mut parts = Vec::new();
+            match self.receives(map, &all, HALVES, (&mut images, &mut parts))? {
+                true => {
+                    self.size = size;
+                    self.growth.push(Growth { size, parts });
+                }
                 false => factor = factor.sqrt(),
             }
         }
         Ok(self)
     }
 
-    /// True if all points with these coordinates, or their images, are in the trap.
+    /// True if all points with these coordinates, or their images, are in the trap. The parts whose images are go to the list.
     fn receives(
         &self,
         map: &impl EnclosedMap,
         u: &[Enclosure],
-        parameters: &[Enclosure],
         halves: u32,
-        images: &mut usize,
+        (images, parts): (&mut usize, &mut Vec<Vec<Enclosure>>),
     ) -> Result<bool, Error> {
         if u.iter().all(|u| u.magnitude() <= self.size) {
             return Ok(true);
@@ -154,14 +175,18 @@ impl Trap {
             return Ok(false);
         }
         *images -= 1;
-        match map.carry(self.start(u, parameters).without_derivatives()) {
-            Ok(carried) if self.contains_set(&carried.set) => return Ok(true),
+        match map.carry(self.start(u).without_derivatives()) {
+            Ok(carried) if self.contains_set(&carried.set) => {
+                parts.push(u.to_vec());
+                return Ok(true);
+            }
             Ok(_) | Err(Error::Undecided(_)) if halves > 0 => {}
             Ok(_) | Err(Error::Undecided(_)) => return Ok(false),
             Err(error) => return Err(error),
         }
         for part in 0..1 << u.len() {
-            if !self.receives(map, &part_of(u, part), parameters, halves - 1, images)? {
+            let part = part_of(u, part);
+            if !self.receives(map, &part, halves - 1, (&mut *images, &mut *parts))? {
                 return Ok(false);
             }
         }
@@ -169,7 +194,8 @@ impl Trap {
     }
 
     /// The points with these coordinates, and the parameters, which are further coordinates in the direction of themselves.
-    fn start(&self, u: &[Enclosure], parameters: &[Enclosure]) -> StartSet {
+    pub(crate) fn start(&self, u: &[Enclosure]) -> StartSet {
+        let parameters = &self.parameters;
         let (count, more) = (self.directions.ncols(), parameters.len());
         let all = DMatrix::from_fn(count + more, count + more, |row, column| {
             match row < count && column < count {
@@ -210,9 +236,11 @@ impl Trap {
             contracting: size,
             contraction: f64::INFINITY,
             inverse,
+            parameters: parameters.to_vec(),
+            growth: Vec::new(),
         };
         let u = vec![Enclosure::new(-size, size); count];
-        let carried = map.carry(trap.start(&u, parameters))?;
+        let carried = map.carry(trap.start(&u))?;
         let Some(chain) = carried.chain else { return Ok(None) };
         let slopes = trap.inverse.times(&chain.matrix());
         let own = Matrix::from_fn(count, count, |row, column| slopes.at(row, column));

@@ -1,0 +1,243 @@
+//! Certificates: what is proved, in a file that another program confirms.
+
+mod record;
+mod written_set;
+
+pub(crate) use record::Record;
+
+use crate::basins::{ProvedBasins, ProvedFate};
+use crate::enclosed_map::{Carried, EnclosedMap, StartSet};
+use crate::fixed_point::ProvedFixedPoint;
+use crate::matrix::{exact, middle};
+use crate::multipliers::Multiplier;
+use crate::trap::Trap;
+use crate::undecided::Error;
+use interval_arithmetic::Enclosure;
+use serde_json::{Value, json};
+
+/// What the first line of a certificate says.
+const FORMAT: &str = "hybrid system certificate";
+
+/// The version of the format. A reader refuses others.
+const VERSION: u64 = 1;
+
+/// How much larger than the proved discs of multipliers those of a certificate are: another program finds discs of its own inside.
+const WIDER_DISCS: f64 = 16.0;
+
+/// A part of the width of a box by which a certificate's bounds of a fixed point are wider than the proved ones, for the same reason.
+const WIDER_POINT: f64 = 0.5;
+
+/// Statements about maps and the numbers of their proofs, for a file that another program confirms: `check_certificate.py` of this project.
+///
+/// The maps must be [recorded](crate::SectionMap::recorded). The file has the equations as texts, and each run of a proof with the set behind each step,
+/// so that each step is confirmed by itself.
+///
+/// ```
+/// use hybrid_system::Equations;
+/// use validated_dynamics::{Certificate, SectionMap, ValidatedSystem, fixed_point};
+/// let rossler = Equations::new(&["x", "y", "z"], &[("a", "0.2"), ("b", "0.2"), ("c", "5.7")])
+///     .mode_text("flow", &["-y - z", "x + a*y", "b + z*(x - c)"])
+///     .rising_text("section", "x");
+/// let system = ValidatedSystem::new(&rossler)?;
+/// let section = system.chart("flow", &["y", "z"], &["0", "y", "z"])?;
+/// let returns = SectionMap::new(&system, section, "section", 1, &["y", "z"])?.recorded();
+/// let mut certificate = Certificate::new();
+/// certificate.fixed_point(&returns, &fixed_point(&returns, &[-8.4, 0.03], &[])?)?;
+/// assert!(certificate.text().lines().count() == 4);
+/// # Ok::<(), validated_dynamics::Error>(())
+/// ```
+#[derive(Debug, Clone, Default)]
+pub struct Certificate {
+    lines: Vec<Value>,
+    systems: Vec<Value>,
+    maps: Vec<Value>,
+    traps: usize,
+}
+
+impl Certificate {
+    /// A certificate without statements.
+    pub fn new() -> Certificate {
+        Certificate::default()
+    }
+
+    /// The file: a line of JSON for each statement, behind a first line that says what the file is.
+    pub fn text(&self) -> String {
+        let lines = self.lines.len();
+        let header = json!({"format": FORMAT, "version": VERSION, "lines": lines});
+        std::iter::once(&header).chain(&self.lines).map(|line| format!("{line}\n")).collect()
+    }
+
+    /// There is exactly one fixed point in a box, and its multipliers lie in discs.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a map that is not recorded; what the map does not decide.
+    pub fn fixed_point(
+        &mut self,
+        map: &impl EnclosedMap,
+        found: &ProvedFixedPoint,
+    ) -> Result<(), Error> {
+        let number = self.map(map)?;
+        let wide = |x: &Enclosure| x.widened(WIDER_POINT * x.width());
+        let point: Vec<Enclosure> = found.point.iter().map(wide).collect();
+        let centre = middle(&found.unique_in);
+        let run = |variables: &[Enclosure]| {
+            let all = [variables, &found.parameters].concat();
+            recorded(map.carry(StartSet::of_box(&all))?)
+        };
+        let disc = |of: &Multiplier| json!([of.real, of.imaginary, WIDER_DISCS * of.radius]);
+        self.lines.push(json!({
+            "kind": "fixed-point",
+            "map": number,
+            "unique_in": pairs(&found.unique_in),
+            "point": pairs(&point),
+            "parameters": pairs(&found.parameters),
+            "multipliers": found.multipliers.iter().map(disc).collect::<Vec<_>>(),
+            "centre": centre,
+            "at_centre": run(&exact(&centre))?,
+            "in_unique": run(&found.unique_in)?,
+            "at_point": run(&point)?,
+        }));
+        Ok(())
+    }
+
+    /// All points of a trap converge to the one fixed point in it. The number of the trap in the file.
+    ///
+    /// # Errors
+    /// As [`fixed_point`](Self::fixed_point).
+    pub fn trap(&mut self, map: &impl EnclosedMap, trap: &Trap) -> Result<usize, Error> {
+        let number = self.map(map)?;
+        let run = |u: &[Enclosure]| recorded(map.carry(trap.start(u))?);
+        let around = |size: f64| vec![Enclosure::new(-size, size); trap.centre().len()];
+        let mut growth = Vec::new();
+        for larger in trap.growth() {
+            let part = |u: &Vec<Enclosure>| Ok(json!({"box": pairs(u), "run": run(u)?}));
+            let parts = larger.parts.iter().map(part).collect::<Result<Vec<_>, Error>>()?;
+            growth.push(json!({"size": larger.size, "parts": parts}));
+        }
+        let rows: Vec<Vec<f64>> =
+            trap.directions().row_iter().map(|row| row.iter().copied().collect()).collect();
+        self.lines.push(json!({
+            "kind": "trap",
+            "map": number,
+            "centre": trap.centre(),
+            "directions": rows,
+            "parameters": pairs(trap.parameters()),
+            "size": trap.contracting(),
+            "run": run(&around(trap.contracting()))?,
+            "growth": growth,
+        }));
+        self.traps += 1;
+        Ok(self.traps - 1)
+    }
+
+    /// All points of a box are led by a map into a trap of the file, by its number; for `None` they all come to the map's surface. The parts are
+    /// boxes that cover the whole one.
+    ///
+    /// # Errors
+    /// As [`fixed_point`](Self::fixed_point).
+    pub fn leads(
+        &mut self,
+        map: &impl EnclosedMap,
+        whole: &[Enclosure],
+        parts: &[Vec<Enclosure>],
+        trap: Option<usize>,
+    ) -> Result<(), Error> {
+        let number = self.map(map)?;
+        let part = |part: &Vec<Enclosure>| {
+            let run = recorded(map.carry(StartSet::of_box(part).without_derivatives())?)?;
+            Ok(json!({"box": pairs(part), "run": run}))
+        };
+        let parts = parts.iter().map(part).collect::<Result<Vec<_>, Error>>()?;
+        self.lines.push(json!({
+            "kind": "leads",
+            "map": number,
+            "box": pairs(whole),
+            "trap": trap,
+            "parts": parts,
+        }));
+        Ok(())
+    }
+
+    /// The basins of traps of the file, by their numbers: a line for each cell with a fate, behind those in which its image is.
+    ///
+    /// # Errors
+    /// As [`fixed_point`](Self::fixed_point); [`Error::Argument`] for another number of maps or traps than that of the basins.
+    pub fn basins<M: EnclosedMap>(
+        &mut self,
+        maps: &[&M],
+        basins: &ProvedBasins,
+        traps: &[usize],
+    ) -> Result<(), Error> {
+        if maps.len() != basins.windows().len() || traps.len() != basins.traps().len() {
+            let given = format!("{} maps and {} traps", maps.len(), traps.len());
+            return Error::argument("basins", format!("{given}: they are those of the basins"));
+        }
+        let numbers = maps.iter().map(|map| self.map(*map)).collect::<Result<Vec<_>, _>>()?;
+        let windows: Vec<_> = basins.windows().iter().map(|window| pairs(window)).collect();
+        let mut cells = Vec::new();
+        for cell in basins.decided() {
+            let is_inside = |trap: &Trap| cell.window == 0 && trap.contains(&cell.points);
+            let start = || StartSet::of_box(&cell.points).without_derivatives();
+            let map = maps[cell.window];
+            let run = match cell.fate {
+                ProvedFate::Trap(trap) if is_inside(&basins.traps()[trap]) => None,
+                ProvedFate::Trap(_) => Some(recorded(map.carry(start())?)?),
+                ProvedFate::Stopped(_) => {
+                    Some(map.end_of(start())?.ok_or_else(not_recorded)?.as_json())
+                }
+            };
+            let fate = match cell.fate {
+                ProvedFate::Trap(trap) => json!(traps[trap]),
+                ProvedFate::Stopped(surface) => json!(surface.as_str()),
+            };
+            cells.push(json!({
+                "kind": "cell",
+                "window": cell.window,
+                "box": pairs(&cell.points),
+                "fate": fate,
+                "run": run,
+            }));
+        }
+        self.lines.push(json!({
+            "kind": "basins", "maps": numbers, "windows": windows, "cells": cells.len(),
+        }));
+        self.lines.extend(cells);
+        Ok(())
+    }
+
+    /// The number of a map, which is written once.
+    fn map(&mut self, map: &impl EnclosedMap) -> Result<usize, Error> {
+        let Some((system, mut map)) = map.as_json() else {
+            return Error::argument("map", "one of one's own, of which a certificate says nothing");
+        };
+        map["system"] = json!(system.map(|system| self.place(system, |own| &mut own.systems)));
+        Ok(self.place(map, |own| &mut own.maps))
+    }
+
+    /// The place of a line among those of its kind. It is written at its first use.
+    fn place(&mut self, line: Value, of_kind: impl Fn(&mut Self) -> &mut Vec<Value>) -> usize {
+        let known = of_kind(self);
+        if let Some(place) = known.iter().position(|known| *known == line) {
+            return place;
+        }
+        known.push(line.clone());
+        let place = known.len() - 1;
+        self.lines.push(line);
+        place
+    }
+}
+
+fn pairs(all: &[Enclosure]) -> Vec<[f64; 2]> {
+    all.iter().map(|x| [x.low, x.high]).collect()
+}
+
+fn recorded(carried: Carried) -> Result<Value, Error> {
+    Ok(carried.record.ok_or_else(not_recorded)?.as_json())
+}
+
+fn not_recorded() -> Error {
+    Error::Argument {
+        what: "map".to_owned(),
+        reason: "it is not recorded: a certificate needs its steps".to_owned(),
+    }
+}

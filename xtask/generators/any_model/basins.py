@@ -1,0 +1,90 @@
+"""Basins of certificates: cells of a window, each of which is led into cells of its fate that stand before it."""
+
+from flint import arb
+
+from certificate_file import Refuted, Unconfirmed
+
+from .boxes import Cells
+from .runs import Run, box_of, check_start
+
+
+class Basins:
+    """The cells of a window, and what is read of them so far."""
+
+    FIELDS = "maps windows cells".split()
+
+    def __init__(self, line, maps):
+        if len(line["maps"]) != 1 or len(line["windows"]) != 1:
+            raise Refuted("basins of more than one map")
+        self.number, self.map = line["maps"][0], maps[line["maps"][0]]
+        self.window, self.wanted = box_of(line["windows"][0]), line["cells"]
+        if len(self.window) != self.map.dimension or self.map.dimension != len(self.map.variables):
+            raise Refuted("a window in other variables than its map")
+        self.cells, self.areas = Cells(self.window), {}
+
+    def add(self, cell):
+        """Writes down a cell, whose image must be in cells of its fate."""
+        if self.cells.count == self.wanted:
+            raise Refuted("more cells than the line of the basins says")
+        image = cell.image
+        if image is not None and not cell.is_led_in:
+            if not self.cells.hold(*image, cell.fate):
+                raise Refuted("a cell whose image may be outside of the cells of its fate that stand before it")
+        self.cells.add(cell.box, cell.fate)
+        area = arb(1)
+        for (low, high), (first, last) in zip(cell.box, self.window):
+            area *= (arb(high) - arb(low)) / (arb(last) - arb(first))
+        self.areas[cell.fate] = self.areas.get(cell.fate, arb(0)) + area
+
+    def end(self):
+        if self.cells.count != self.wanted:
+            raise Refuted(f"{self.cells.count} cells, and the line of the basins says {self.wanted}")
+
+    def derived(self):
+        shares = {str(fate): float(area.lower()) for fate, area in self.areas.items()}
+        shown = ", ".join(f"{share:.6f} {fate_text(fate)}" for fate, share in shares.items())
+        window = " x ".join(f"[{low!r}, {high!r}]" for low, high in self.window)
+        return {
+            "claim": "basins",
+            "cells": self.cells.count,
+            "share": float(sum(self.areas.values(), arb(0)).lower()),
+            "text": f"of the points of {window}, by area, by the map {self.map.text()}: {shown}",
+        }
+
+
+def fate_text(fate):
+    return f"converge to the fixed point of trap {fate}" if fate.isdigit() else f"come to an end at {fate}"
+
+
+class Cell:
+    """One cell with a fate: in a trap, led into one, led into cells of its fate, or to the end of the execution."""
+
+    FIELDS = "window box fate run".split()
+
+    def __init__(self, line, basins, traps):
+        self.basins, self.line, self.box, self.fate = basins, line, box_of(line["box"]), line["fate"]
+        if line["window"] != 0 or len(self.box) != len(basins.window):
+            raise Refuted("a cell in other variables than its window")
+        self.trap = None
+        if not isinstance(self.fate, str):
+            self.trap = traps[self.fate]
+            if self.trap.map is not basins.map or self.trap.parameters:
+                raise Refuted("a trap of another map")
+        run = line["run"]
+        self.image = None if run is None or run["image"] is None else tuple(run["image"])
+        self.is_led_in = self.trap is not None and self.image is not None and self.trap.holds_set(*self.image)
+        if run is None and not (self.trap is not None and self.trap.holds(self.box)):
+            raise Refuted("a cell without a run that may be outside of its trap")
+        if run is not None and self.image is None and self.trap is not None:
+            raise Refuted("a cell without an image")
+
+    def confirm(self):
+        if self.line["run"] is None:
+            return
+        run = Run(self.basins.map, self.line["run"])
+        check_start(run, self.box)
+        if isinstance(self.fate, str):
+            if run.stopped != self.fate:
+                raise Unconfirmed(f"the execution does not end at {self.fate}")
+        elif run.stopped is not None:
+            raise Refuted("a cell whose execution ends")

@@ -1,0 +1,263 @@
+"""One step of a flow: power series in balls, with a remainder from Cauchy's estimate.
+
+Solutions from a set stay in complex boxes about it for all complex times up to R: the boxes grow outwards by the largest
+speed on the next ones. They are analytic there, and so are their derivatives with respect to the start, which grow by exp(R M) at
+most for a bound M of the Jacobian. So coefficients fall like R^-k, and what a series of order p leaves is bounded.
+"""
+
+import math
+
+from flint import acb, arb, arb_mat, arb_series, ctx
+
+from certificate_file import Unconfirmed
+
+from .duals import Dual, Duals, Series
+from .formulas import Balls, Complex, evaluate
+from .sets import column, common, identity, list_of
+
+# The radii of the discs, as multiples of a step's length, that are tried: a large one needs few coefficients.
+DISCS = (8, 5, 3.5, 2.5, 2, 1.6, 1.3)
+# The pieces in which a complex box grows. More of them allow larger discs.
+PIECES = 24
+# The least order of a series, and the largest one: a step that needs more is too long.
+LEAST_ORDER, LARGEST_ORDER = 8, 200
+# How often a box of a piece is widened until it holds.
+TRIES = 12
+
+
+class Field:
+    """The formulas of a mode, with the values of the parameters."""
+
+    def __init__(self, states, parameters, field):
+        self.states, self.parameters, self.field = states, parameters, field
+
+    def values(self, trees, x, kind):
+        """The values of trees at a state."""
+        names = {name: kind.number(value) for name, value in self.parameters.items()}
+        names.update(zip(self.states, x))
+        return [evaluate(tree, names, kind) for tree in trees]
+
+    def with_derivatives(self, trees, x, kind=Balls):
+        """Values and derivatives at a state, as lists."""
+        one, zero = kind.number(arb(1)), kind.number(arb(0))
+        size = len(x)
+        duals = [Dual(value, [one if j == i else zero for j in range(size)]) for i, value in enumerate(x)]
+        found = self.values(trees, duals, Duals(kind))
+        values = [own.value if isinstance(own, Dual) else own for own in found]
+        parts = [own.parts if isinstance(own, Dual) else [zero] * size for own in found]
+        return values, parts
+
+
+class Step:
+    """All solutions from a written set for some time."""
+
+    def __init__(self, field, start, length, guards, errors):
+        """A step of this length. `errors` are those that its components may have: the order follows from them."""
+        self.field, self.start, self.length, self.guards = field, start, arb(length), guards
+        self.size = start.size
+        self._bounds(errors)
+        self._series()
+
+    def _bounds(self, errors):
+        """The disc, the complex boxes, and bounds of coefficients."""
+        for multiple in DISCS:
+            radius = self.length * arb(multiple)
+            boxes = self._complex_boxes(radius)
+            if boxes is not None:
+                break
+        else:
+            raise Unconfirmed(f"solutions have no bound for complex times up to {DISCS[-1]} steps")
+        self.disc = radius
+        values, parts = self.field.with_derivatives(self.field.field, boxes, Complex)
+        rates = [spread(value) for value in values]
+        growth = (radius * arb_mat([[size_of(part) for part in row] for row in parts])).exp()
+        growth = arb_mat([[growth[i, j].upper() for j in range(self.size)] for i in range(self.size)])
+        grown = growth - identity(self.size)
+        values, parts = self.field.with_derivatives(self.guards, boxes, Complex)
+        guards = [spread(value) for value in values]
+        slopes = arb_mat([[size_of(part) for part in row] for row in parts]) * growth if self.guards else None
+        q = self.length / radius
+        p = self.order = order_of([float(rate * radius) for rate in rates], errors, float(q))
+        # A solution's coefficient k is at most its speed's variation on the boxes, over k R^(k-1); a guard's is its own over R^k.
+        tail = q ** (p + 1) / (1 - q)
+        slow = radius * tail / (p + 1)
+        rate_tail = q**p * ((p + 1) - p * q) / ((1 - q) ** 2 * radius)
+        self.rest = [around(rate * slow) for rate in rates]
+        self.rest_of_derivatives = [[around(grown[i, j] * tail) for j in range(self.size)] for i in range(self.size)]
+        ranges = range(len(self.guards))
+        self.rest_of_guards = [(around(guards[g] * tail), around(guards[g] * rate_tail)) for g in ranges]
+        self.rest_of_slopes = [
+            [(around(slopes[g, j] * tail), around(slopes[g, j] * rate_tail)) for j in range(self.size)] for g in ranges
+        ]
+
+    def _complex_boxes(self, radius):
+        """Boxes in which all solutions are for complex times up to a radius, or None."""
+        hull = list_of(self.start.hull)
+        reach = [arb(0)] * self.size
+        piece = radius / PIECES
+        try:
+            rates = self.field.values(self.field.field, [acb(x) for x in hull], Complex)
+            for _ in range(PIECES):
+                guess = [r + 2 * piece * size_of(rate) for r, rate in zip(reach, rates)]
+                for _ in range(TRIES):
+                    boxes = [acb(x + around(r), around(r)) for x, r in zip(hull, guess)]
+                    rates = self.field.values(self.field.field, boxes, Complex)
+                    found = [(r + piece * size_of(rate)).upper() for r, rate in zip(reach, rates)]
+                    if all(new <= old for new, old in zip(found, guess)):
+                        break
+                    guess = [arb.max(1.2 * new, old) for new, old in zip(found, guess)]
+                else:
+                    return None
+                reach = found
+        except Unconfirmed:
+            return None
+        return [acb(x + around(r), around(r)) for x, r in zip(hull, reach)]
+
+    def _series(self):
+        """The coefficients from the centre, from all states, and those of the guards."""
+        trees, size = self.field.field, self.size
+        centre, hull = list_of(self.start.centre), list_of(self.start.hull)
+        ctx.cap = self.order + 1
+        self.centre = coefficients(lambda x: self.field.values(trees, x, Series), centre, self.order)
+        self.varied = coefficients_with_derivatives(
+            lambda x: self.field.values(trees, x, Duals(Series)), hull, self.order
+        )
+        guards_of_centre = self.field.values(self.guards, self.centre, Series)
+        guards = self.field.values(self.guards, self.varied, Duals(Series))
+        self.guards_of_centre = [terms(own, self.order) for own in guards_of_centre]
+        zero = Dual(arb(0), [arb(0)] * size)
+        guards = [own if isinstance(own, Dual) else zero + own for own in guards]
+        self.guards_of_all = [terms(own.value, self.order) for own in guards]
+        self.slopes_of_guards = [[terms(part, self.order) for part in own.parts] for own in guards]
+        self.centre = [terms(own, self.order) for own in self.centre]
+        self.states = [terms(own.value, self.order) for own in self.varied]
+        self.derivatives = [[terms(part, self.order) for part in own.parts] for own in self.varied]
+
+    def centre_at(self, time):
+        return column([horner(own, time) + rest for own, rest in zip(self.centre, self.rest)])
+
+    def derivatives_at(self, time):
+        return arb_mat(
+            [
+                [horner(own, time) + rest for own, rest in zip(row, rests)]
+                for row, rests in zip(self.derivatives, self.rest_of_derivatives)
+            ]
+        )
+
+    def states_at(self, time):
+        """A box of all states at the times of a ball."""
+        plain = [horner(own, time) + rest for own, rest in zip(self.states, self.rest)]
+        spread_of = self.derivatives_at(time) * self.start.directions * self.start.offsets
+        by_mean = list_of(self.centre_at(time) + spread_of)
+        return column([common(a, b) for a, b in zip(plain, by_mean)])
+
+    def guard_at(self, guard, time):
+        return self._guard(guard, time, horner, 0)
+
+    def guard_rate_at(self, guard, time):
+        return self._guard(guard, time, horner_of_rate, 1)
+
+    def guard_of_centre(self, guard, time):
+        return horner(self.guards_of_centre[guard], time) + self.rest_of_guards[guard][0]
+
+    def guard_rate_of_centre(self, guard, time):
+        return horner_of_rate(self.guards_of_centre[guard], time) + self.rest_of_guards[guard][1]
+
+    def _guard(self, guard, time, of, which):
+        rest, rests = self.rest_of_guards[guard][which], self.rest_of_slopes[guard]
+        plain = of(self.guards_of_all[guard], time) + rest
+        if plain != 0:
+            return plain
+        slopes = [of(own, time) + own_rest[which] for own, own_rest in zip(self.slopes_of_guards[guard], rests)]
+        offset = arb_mat([slopes]) * self.start.directions * self.start.offsets
+        return common(plain, of(self.guards_of_centre[guard], time) + rest + offset[0, 0])
+
+    def guard_over_time(self, guard, time):
+        """A guard that is 0 at the time 0, divided by the time: its coefficients from the first on."""
+        # The remainder at a time is at most that at the end, by a power of the time of at least one.
+        rest = self.rest_of_guards[guard][0] / self.length
+        return horner(self.guards_of_all[guard][1:], time) + rest
+
+
+def order_of(sizes, errors, q):
+    """The order at which what is left of each component is smaller than its error."""
+    order = LEAST_ORDER
+    for size, error in zip(sizes, errors):
+        if size > 0 and error > 0:
+            order = max(order, math.ceil(math.log(error * (1 - q) / size) / math.log(q)))
+    if order > LARGEST_ORDER:
+        raise Unconfirmed(f"a series of order {order} would be needed")
+    return order
+
+
+def coefficients(field, start, order):
+    """The power series of a solution, coefficient by coefficient."""
+    x = [arb_series([value], prec=1) for value in start]
+    for k in range(order):
+        ctx.cap = k + 1
+        rates = [terms(rate, k) for rate in field(x)]
+        ctx.cap = k + 2
+        x = [
+            arb_series([value] + [rate[j] / (j + 1) for j in range(k + 1)], prec=k + 2)
+            for value, rate in zip(start, rates)
+        ]
+    return x
+
+
+def coefficients_with_derivatives(field, start, order):
+    """The same with the derivatives with respect to the start."""
+    size = len(start)
+
+    def duals(states, derivatives):
+        return [Dual(state, own) for state, own in zip(states, derivatives)]
+
+    def integral(value, rate, k):
+        return arb_series([value] + [rate[j] / (j + 1) for j in range(k + 1)], prec=k + 2)
+
+    unit = [[arb(int(i == j)) for j in range(size)] for i in range(size)]
+    x = duals(
+        [arb_series([value], prec=1) for value in start],
+        [[arb_series([value], prec=1) for value in row] for row in unit],
+    )
+    for k in range(order):
+        ctx.cap = k + 1
+        rates = field(x)
+        ctx.cap = k + 2
+        x = []
+        for i, rate in enumerate(rates):
+            own = rate if isinstance(rate, Dual) else Dual(rate, [0] * size)
+            state = integral(start[i], terms(own.value, k), k)
+            x.append(Dual(state, [integral(unit[i][j], terms(own.parts[j], k), k) for j in range(size)]))
+    return x
+
+
+def terms(series, order):
+    """The coefficients up to an order."""
+    if isinstance(series, arb_series):
+        return [series[k] for k in range(order + 1)]
+    return [arb(series)] + [arb(0)] * order
+
+
+def horner(own, time):
+    found = arb(0)
+    for c in reversed(own):
+        found = found * time + c
+    return found
+
+
+def horner_of_rate(own, time):
+    return horner([k * c for k, c in enumerate(own)][1:], time)
+
+
+def size_of(x):
+    return abs(x).upper()
+
+
+def spread(x):
+    """How far a function's values on a box of balls are from each other."""
+    return (2 * (x.real.rad() + x.imag.rad())).upper()
+
+
+def around(radius):
+    radius = abs(radius).upper()
+    return (-radius).union(radius)

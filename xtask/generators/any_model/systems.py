@@ -1,0 +1,120 @@
+"""The models of certificates: systems with modes and guards, and maps."""
+
+from certificate_file import Refuted
+
+from .flows import Field
+from .formulas import constant, polynomial, read, substituted
+
+
+class Guard:
+    """A surface of a mode."""
+
+    def __init__(self, line):
+        self.surface = line["surface"]
+        self.text, self.tree = line["guard"], read(line["guard"])
+        self.side_after = line["side_after"]
+        if self.side_after not in (1.0, -1.0, None):
+            raise Refuted(f"no direction of {self.surface}: {self.side_after!r}")
+        self.bounds_flow, self.stops = line["bounds_flow"], line["stops"]
+        if not isinstance(self.bounds_flow, bool) or not isinstance(self.stops, bool):
+            raise Refuted(f"{self.surface} neither bounds its flow nor does not")
+        self.condition = None if line["condition"] is None else read(line["condition"])
+        self.mode = line["mode"]
+        self.after = None if line["after"] is None else [read(text) for text in line["after"]]
+
+    def observes(self, own_mode):
+        """True if its events change nothing."""
+        return not (self.stops or self.bounds_flow) and self.mode == own_mode and self.after is None
+
+
+class System:
+    """A hybrid system. The time and parameters that are intervals are components of the state."""
+
+    def __init__(self, line):
+        self.states = line["states"]
+        self.line = line
+        self.trees = {name: read(text) for name, text in line["parameters"]}
+        self.parameters = {name: constant(tree) for name, tree in self.trees.items()}
+        self.fields, self.guards = {}, {}
+        for mode in line["modes"]:
+            name, field = mode["mode"], [read(text) for text in mode["field"]]
+            if name in self.fields or len(field) != len(self.states):
+                raise Refuted(f"the mode {name} stands twice, or has another number of rates than states")
+            self.fields[name] = Field(self.states, self.parameters, field)
+            self.guards[name] = [Guard(guard) for guard in mode["guards"]]
+        for guard in (guard for guards in self.guards.values() for guard in guards):
+            if guard.mode not in self.fields or guard.after is not None and len(guard.after) != len(self.states):
+                raise Refuted(f"{guard.surface} leads to no mode, or to another number of states")
+
+    def vanishes(self, tree):
+        """True if a formula is 0 for all values of its variables."""
+        return not polynomial(substituted(tree, self.trees))
+
+    def begins_on(self, guard):
+        """For each guard of the mode after an event, whether it is 0 at all states after it because this guard was."""
+        after = dict(zip(self.states, guard.after)) if guard.after is not None else {}
+        own = guard.tree
+        found = []
+        for other in self.guards[guard.mode]:
+            composed = substituted(other.tree, after)
+            found.append(self.vanishes(composed) or self.vanishes(("-", composed, own)))
+        return found
+
+    def text(self):
+        """The equations, in a line."""
+        modes = "; ".join(
+            f"{mode['mode']}: " + ", ".join(f"{x}' = {text}" for x, text in zip(self.states, mode["field"]))
+            for mode in self.line["modes"]
+        )
+        return modes + with_parameters(self.line["parameters"])
+
+
+def with_parameters(parameters):
+    return " with " + ", ".join(f"{name} = {text}" for name, text in parameters) if parameters else ""
+
+
+class SectionMap:
+    """From a chart to the states after an event, of which formulas are read."""
+
+    def __init__(self, line, systems):
+        self.system, self.line = systems[line["system"]], line
+        self.mode, self.variables = line["mode"], line["variables"]
+        if self.mode not in self.system.fields or len(line["states"]) != len(self.system.states):
+            raise Refuted("a chart without its mode, or with another number of states")
+        self.states = [read(text) for text in line["states"]]
+        self.surface, self.count = line["surface"], line["count"]
+        if not isinstance(self.count, int) or self.count < 1:
+            raise Refuted(f"{self.count!r} events")
+        self.read = [read(text) for text in line["read"]]
+        self.dimension = len(self.read)
+        if self.dimension > len(self.variables):
+            raise Refuted("more is read than there are variables")
+        self.chart = Field(self.variables, self.system.parameters, self.states)
+        self.end = Field(self.system.states, self.system.parameters, self.read)
+        chart = dict(zip(self.system.states, self.states))
+        self.on = [self.system.vanishes(substituted(guard.tree, chart)) for guard in self.system.guards[self.mode]]
+
+    def text(self):
+        return (
+            f"from ({', '.join(self.system.states)}) = ({', '.join(self.line['states'])}) to event {self.count} of"
+            f" {self.surface}, read as ({', '.join(self.line['read'])})"
+        )
+
+
+class FormulaMap:
+    """A map that is formulas, applied some times."""
+
+    def __init__(self, line, _systems):
+        self.variables, self.line = line["variables"], line
+        trees = {name: read(text) for name, text in line["parameters"]}
+        self.formulas = [read(text) for text in line["formulas"]]
+        self.dimension, self.times = line["dimension"], line["times"]
+        if len(self.formulas) != len(self.variables) or not 0 < self.dimension <= len(self.variables):
+            raise Refuted("a map with another number of formulas than variables")
+        if not isinstance(self.times, int) or self.times < 1:
+            raise Refuted(f"a map that is applied {self.times!r} times")
+        self.field = Field(self.variables, {name: constant(tree) for name, tree in trees.items()}, self.formulas)
+
+    def text(self):
+        formulas = ", ".join(self.line["formulas"])
+        return f"({', '.join(self.variables)}) -> ({formulas}), {self.times} times{with_parameters(self.line['parameters'])}"
