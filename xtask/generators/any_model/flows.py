@@ -12,7 +12,7 @@ from flint import acb, arb, arb_mat, arb_series, ctx
 from certificate_file import Unconfirmed
 
 from .duals import Dual, Duals, Series
-from .formulas import Balls, Complex, evaluate
+from .formulas import Balls, Complex, Program
 from .sets import column, common, identity, list_of
 
 # The radii of the discs, as multiples of a step's length, that are tried: a large one needs few coefficients.
@@ -30,12 +30,14 @@ class Field:
 
     def __init__(self, states, parameters, field):
         self.states, self.parameters, self.field = states, parameters, field
+        self.programs = {}
 
     def values(self, trees, x, kind):
         """The values of trees at a state."""
-        names = {name: kind.number(value) for name, value in self.parameters.items()}
-        names.update(zip(self.states, x))
-        return [evaluate(tree, names, kind) for tree in trees]
+        key = tuple(trees)
+        if key not in self.programs:
+            self.programs[key] = Program(trees, self.states, self.parameters)
+        return self.programs[key].run(x, kind)
 
     def with_derivatives(self, trees, x, kind=Balls):
         """Values and derivatives at a state, as lists."""
@@ -52,7 +54,7 @@ class Step:
     """All solutions from a written set for some time."""
 
     def __init__(self, field, start, length, guards, errors):
-        """A step of this length. `errors` are those that its components may have: the order follows from them."""
+        """A step of this length. The order follows from the errors that may be made: of each component, of the derivatives, of guards."""
         self.field, self.start, self.length, self.guards = field, start, arb(length), guards
         self.size = start.size
         self._bounds(errors)
@@ -60,28 +62,23 @@ class Step:
 
     def _bounds(self, errors):
         """The disc, the complex boxes, and bounds of coefficients."""
+        best = None
         for multiple in DISCS:
-            radius = self.length * arb(multiple)
-            boxes = self._complex_boxes(radius)
-            if boxes is not None:
+            found = self._bounds_in(self.length * arb(multiple), errors)
+            if found is not None and best is not None and found[0] >= best[0]:
                 break
-        else:
+            best = found if found is not None else best
+        if best is None:
             raise Unconfirmed(f"solutions have no bound for complex times up to {DISCS[-1]} steps")
-        self.disc = radius
-        values, parts = self.field.with_derivatives(self.field.field, boxes, Complex)
-        rates = [spread(value) for value in values]
-        growth = (radius * arb_mat([[size_of(part) for part in row] for row in parts])).exp()
-        growth = arb_mat([[growth[i, j].upper() for j in range(self.size)] for i in range(self.size)])
-        grown = growth - identity(self.size)
-        values, parts = self.field.with_derivatives(self.guards, boxes, Complex)
-        guards = [spread(value) for value in values]
-        slopes = arb_mat([[size_of(part) for part in row] for row in parts]) * growth if self.guards else None
-        q = self.length / radius
-        p = self.order = order_of([float(rate * radius) for rate in rates], errors, float(q))
+        self.order, radius, rates, growth, guards, slopes = best
+        if self.order > LARGEST_ORDER:
+            raise Unconfirmed(f"a series of order {self.order} would be needed")
+        p, q = self.order, self.length / radius
         # A solution's coefficient k is at most its speed's variation on the boxes, over k R^(k-1); a guard's is its own over R^k.
         tail = q ** (p + 1) / (1 - q)
         slow = radius * tail / (p + 1)
         rate_tail = q**p * ((p + 1) - p * q) / ((1 - q) ** 2 * radius)
+        grown = growth - identity(self.size)
         self.rest = [around(rate * slow) for rate in rates]
         self.rest_of_derivatives = [[around(grown[i, j] * tail) for j in range(self.size)] for i in range(self.size)]
         ranges = range(len(self.guards))
@@ -89,6 +86,30 @@ class Step:
         self.rest_of_slopes = [
             [(around(slopes[g, j] * tail), around(slopes[g, j] * rate_tail)) for j in range(self.size)] for g in ranges
         ]
+
+    def _bounds_in(self, radius, errors):
+        """For a disc: the order that is needed, the disc, the boxes, and bounds of speeds and of the growth of derivatives; or None."""
+        boxes = self._complex_boxes(radius)
+        if boxes is None:
+            return None
+        try:
+            values, parts = self.field.with_derivatives(self.field.field, boxes, Complex)
+            guards, slopes = self.field.with_derivatives(self.guards, boxes, Complex)
+        except Unconfirmed:
+            return None
+        rates = [spread(value) for value in values]
+        growth = (radius * arb_mat([[size_of(part) for part in row] for row in parts])).exp()
+        growth = arb_mat([[growth[i, j].upper() for j in range(self.size)] for i in range(self.size)])
+        # The largest growth of a derivative, and how far the error of one may be.
+        largest = max(float(growth[i, j]) for i in range(self.size) for j in range(self.size))
+        guards = [spread(value) for value in guards]
+        slopes = arb_mat([[size_of(part) for part in row] for row in slopes]) * growth if guards else None
+        of_states, of_derivatives, of_guards = errors
+        sizes = [float(rate * radius) for rate in rates] + [largest] + [float(own) for own in guards]
+        if not all(math.isfinite(size) for size in sizes):
+            return None
+        wanted = [*of_states, of_derivatives] + [of_guards] * len(guards)
+        return order_of(sizes, wanted, float(self.length / radius)), radius, rates, growth, guards, slopes
 
     def _complex_boxes(self, radius):
         """Boxes in which all solutions are for complex times up to a radius, or None."""
@@ -183,10 +204,8 @@ def order_of(sizes, errors, q):
     """The order at which what is left of each component is smaller than its error."""
     order = LEAST_ORDER
     for size, error in zip(sizes, errors):
-        if size > 0 and error > 0:
+        if size > 0 and 0 < error < math.inf:
             order = max(order, math.ceil(math.log(error * (1 - q) / size) / math.log(q)))
-    if order > LARGEST_ORDER:
-        raise Unconfirmed(f"a series of order {order} would be needed")
     return order
 
 

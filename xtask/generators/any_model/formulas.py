@@ -1,6 +1,7 @@
 """Formulas as texts: read into trees, evaluated with any numbers, and compared as polynomials.
 
-A tree is ("number", text), ("name", name), ("negative", a), (operator, a, b) with one of + - * / ^, or (function, a).
+A tree is ("number", text), ("name", name), ("negative", a), (operator, a, b) with one of + - * / ^, ("power", a, n) with an
+integer n, or (function, a).
 """
 
 import re
@@ -76,7 +77,9 @@ class _Reader:
     def power(self):
         tree = self.operand()
         if self.sign("^", "**"):
-            return ("^", tree, self.signed())
+            exponent = self.signed()
+            n = whole(exponent)
+            return ("^", tree, exponent) if n is None else ("power", tree, n)
         return tree
 
     def operand(self):
@@ -108,12 +111,14 @@ def substituted(tree, values):
         return values.get(tree[1], tree)
     if tree[0] == "number":
         return tree
+    if tree[0] == "power":
+        return ("power", substituted(tree[1], values), tree[2])
     return (tree[0], *(substituted(part, values) for part in tree[1:]))
 
 
 def constant(tree):
     """The value of a formula without names, as a ball."""
-    return evaluate(tree, {}, Balls)
+    return Program([tree], [], {}).run([], Balls)[0]
 
 
 class Balls:
@@ -169,39 +174,86 @@ class Complex(Balls):
         return value
 
 
-def evaluate(tree, values, kind):
-    """The value of a tree. `values` are those of the names, `kind` the functions of the numbers."""
-    name = tree[0]
-    if name == "number":
-        return kind.number(arb(tree[1]))
-    if name == "double":
-        return kind.number(arb(float(tree[1][1] if tree[1][0] == "number" else "-" + tree[1][1][1])))
-    if name == "name":
-        if tree[1] in values:
-            return values[tree[1]]
-        if tree[1] in ("pi", "π"):
-            return kind.number(arb.pi())
-        if tree[1] == "e":
-            return kind.number(arb.const_e())
-        raise Refuted(f"no variable or parameter has the name {tree[1]}")
-    a = evaluate(tree[1], values, kind)
+class Program:
+    """Trees as a list of operations, in which equal parts stand once and constants are computed once."""
+
+    def __init__(self, trees, variables, constants):
+        self.operations, self.known, self.places = [], {}, {}
+        self.variables, self.constants = {name: place for place, name in enumerate(variables)}, constants
+        self.outputs = [self._place(tree) for tree in trees]
+
+    def _place(self, tree):
+        """The place of a part among the operations."""
+        name = tree[0]
+        if name == "number":
+            return self._constant(arb(tree[1]), tree)
+        if name == "double":
+            sign, number = (-1, tree[1][1]) if tree[1][0] == "negative" else (1, tree[1])
+            if number[0] != "number":
+                raise Refuted("f64 of no number")
+            return self._constant(arb(sign * float(number[1])), tree)
+        if name == "name":
+            if tree[1] in self.variables:
+                return self._new(("variable", self.variables[tree[1]]))
+            known = {"pi": arb.pi, "π": arb.pi, "e": arb.const_e}
+            if tree[1] in self.constants:
+                return self._constant(self.constants[tree[1]], tree)
+            if tree[1] in known:
+                return self._constant(known[tree[1]](), tree)
+            raise Refuted(f"no variable or parameter has the name {tree[1]}")
+        if name == "power":
+            parts = (self._place(tree[1]),)
+            operation = ("power", *parts, tree[2])
+        else:
+            parts = tuple(self._place(part) for part in tree[1:])
+            operation = (name, *parts)
+        if all(part in self.known for part in parts):
+            return self._constant(_value(operation, self.known, Balls), operation)
+        return self._new(operation)
+
+    def _constant(self, value, key):
+        place = self._new(("constant", key))
+        self.known[place] = value
+        return place
+
+    def _new(self, operation):
+        if operation not in self.places:
+            self.places[operation] = len(self.operations)
+            self.operations.append(operation)
+        return self.places[operation]
+
+    def run(self, x, kind):
+        """The values of the trees for values of the variables."""
+        found = []
+        for place, operation in enumerate(self.operations):
+            if place in self.known:
+                found.append(kind.number(self.known[place]))
+            elif operation[0] == "variable":
+                found.append(x[operation[1]])
+            else:
+                found.append(_value(operation, found, kind))
+        return [found[place] for place in self.outputs]
+
+
+def _value(operation, found, kind):
+    """The value of an operation on values before it."""
+    name, a = operation[0], found[operation[1]]
+    if name == "power":
+        return power(a, operation[2], kind)
     if name == "negative":
         return -a
-    if name == "^":
-        exponent = whole(tree[2])
-        if exponent is not None:
-            return power(a, exponent, kind)
-        return kind.function("exp", evaluate(tree[2], values, kind) * kind.function("ln", a))
-    if len(tree) == 2:
+    if len(operation) == 2:
         return kind.function(name, a)
-    b = evaluate(tree[2], values, kind)
+    b = found[operation[2]]
     if name == "+":
         return a + b
     if name == "-":
         return a - b
     if name == "*":
-        return a * a if tree[1] == tree[2] else a * b
-    return kind.quotient(a, b)
+        return a * b
+    if name == "/":
+        return kind.quotient(a, b)
+    return kind.function("exp", b * kind.function("ln", a))
 
 
 def whole(tree):
@@ -248,12 +300,11 @@ def polynomial(tree):
         if set(below) == {()}:
             return _times(polynomial(tree[1]), {(): 1 / below[()]})
         return _times(polynomial(tree[1]), {((("inverse", _key(below)), 1),): Fraction(1)})
-    exponent = whole(tree[2]) if name == "^" else None
-    if exponent is not None and exponent >= 0:
+    if name == "power":
         found = {(): Fraction(1)}
-        for _ in range(exponent):
+        for _ in range(abs(tree[2])):
             found = _times(found, polynomial(tree[1]))
-        return found
+        return found if tree[2] >= 0 else {((("inverse", _key(found)), 1),): Fraction(1)}
     return {(((name, *(_key(polynomial(part)) for part in tree[1:])), 1),): Fraction(1)}
 
 

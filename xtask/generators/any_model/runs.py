@@ -1,5 +1,7 @@
 """Runs of certificates: each step is confirmed by itself, from the set before it into the set behind it."""
 
+import math
+
 from flint import arb, arb_mat
 
 from certificate_file import Refuted, Unconfirmed
@@ -11,7 +13,9 @@ from .sets import WrittenSet, column, list_of
 from .systems import SectionMap
 
 # The errors that are tried for the series of a step, as parts of the width of the set behind it. A wrong step costs all of them.
-ERRORS = (1e-2, 1e-5, 1e-10)
+ERRORS = (1e-2, 1e-4, 1e-8)
+# The errors of derivatives whose product is wanted, as parts of those: multipliers are known to twelve digits then.
+OF_DERIVATIVES = 1e-10
 
 
 class Run:
@@ -109,9 +113,12 @@ class _Replay:
             raise Refuted(f"{where}: a set of another size")
         why = None
         trees, widths = [guard.tree for guard in self.guards], [float(x.rad()) for x in list_of(target.hull)]
+        # The set behind an event is hardly wider than rounding across its surface.
+        least = math.inf if action == self.flow else min(float(radius) for radius in target.radii)
+        slopes = OF_DERIVATIVES if self.run_of.with_derivatives else 1
         for part in ERRORS:
             try:
-                errors = [part * width for width in widths]
+                errors = [part * width for width in widths], part * slopes, part * least
                 step = Step(self.system.fields[self.mode], self.run_of.set, length, trees, errors)
                 seen = Guards(step, self.guards, self.on)
                 if self.begins:

@@ -1,18 +1,23 @@
 //! A runner on a spring leg (80 kg, 1 m, 20 kN/m, an angle of attack of 68°) with the energy of 5 m/s at 1 m: its gait, the apex heights from which it is
 //! attracted, and one from which the runner falls.
+//!
+//! `cargo run --release --example spring_leg -- spring_leg.jsonl` writes a certificate, too.
 
 #![allow(clippy::print_stdout)] // a program
 
 use example_systems::spring_leg::spring_leg_that_falls;
+use std::error::Error;
 use std::time::Instant;
-use validated_dynamics::{Error, SectionMap, Trap, ValidatedSystem, fixed_point};
+use validated_dynamics::{
+    Certificate, EnclosedMap, Enclosure, SectionMap, Trap, ValidatedSystem, fixed_point,
+};
 
-fn main() -> Result<(), Error> {
+fn main() -> Result<(), Box<dyn Error>> {
     let begin = Instant::now();
     let system = ValidatedSystem::new(&spring_leg_that_falls())?;
     let apex = ["0", "h", "sqrt(25 + 2*gravity*(1 - h))", "0"];
-    let map =
-        SectionMap::new(&system, system.chart("flight", &["h"], &apex)?, "apex", 1, &["height"])?;
+    let apexes = system.chart("flight", &["h"], &apex)?;
+    let map = SectionMap::new(&system, apexes.clone(), "apex", 1, &["height"])?.recorded();
     let gait = fixed_point(&map, &[0.94], &[])?;
     println!("the gait has its apex in {} m", gait.point[0]);
     println!("  multiplier in {}, {:?}", gait.multipliers[0], begin.elapsed());
@@ -21,14 +26,22 @@ fn main() -> Result<(), Error> {
     println!("  attracts |h − {}| < {radius}, {:?}", trap.centre()[0], begin.elapsed());
 
     // From 2 m the runner falls in the third flight.
-    let mut run = system.start("flight", &["0", "2", "sqrt(25 + 2*gravity*(1 - 2))", "0"])?;
-    let fall = loop {
-        let event = run.next_event()?;
+    let high = [Enclosure::from(2.0)];
+    let fall = SectionMap::new(&system, apexes, "ground", 1, &["x"])?.recorded();
+    let events = fall.image(&high)?.events;
+    for event in &events {
         print!("{}, ", event.surface);
-        if event.next.is_none() {
-            break event;
-        }
-    };
-    println!("at {} s, {:?}", fall.time, begin.elapsed());
+    }
+    if let Some(event) = events.last() {
+        println!("at {} s, {:?}", event.time, begin.elapsed());
+    }
+
+    if let Some(file) = std::env::args().nth(1) {
+        let mut certificate = Certificate::new();
+        certificate.fixed_point(&map, &gait)?;
+        certificate.trap(&map, &trap)?;
+        certificate.leads(&fall, &high, &[high.to_vec()], None)?;
+        std::fs::write(file, certificate.text())?;
+    }
     Ok(())
 }

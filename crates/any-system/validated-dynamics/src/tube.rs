@@ -10,7 +10,7 @@ use interval_arithmetic::{Enclosure, pow};
 use pxfm::f_log as ln;
 
 /// The smallest error of a step, as a part of the largest component: half of a rounding, which is made anyway.
-const FINEST: f64 = 5e-17;
+pub(crate) const FINEST: f64 = 5e-17;
 
 /// The error of a step as a part of the width of the set. The set's own width grows by this part in each step; larger steps pay for it.
 const OF_WIDTH: f64 = 1e-4;
@@ -61,14 +61,13 @@ pub(crate) struct Tube<'s> {
 }
 
 impl<'s> Tube<'s> {
-    /// A step of at most this length, with derivatives if they are wanted.
+    /// A step of at most this length, with derivatives if they are wanted, that makes about this error, as a part of the largest component.
     pub(crate) fn new(
         series: &'s ModeSeries,
         set: &'s AffineSet,
-        longest: f64,
+        (longest, error): (f64, f64),
         with_derivatives: bool,
     ) -> Result<Tube<'s>, Reason> {
-        let error = wanted_error(set);
         let order = (-0.5 * ln(error)).ceil() as usize + 2;
         let order = order.clamp(ORDERS.0, ORDERS.1);
         let centre = series.motion(&exact(set.centre()), order).map_err(Reason::Domain)?;
@@ -211,7 +210,7 @@ fn last(coefficients: &[Enclosure]) -> Enclosure {
 }
 
 /// The error that a step may make, as a part of the [scale].
-fn wanted_error(set: &AffineSet) -> f64 {
+pub(crate) fn wanted_error(set: &AffineSet) -> f64 {
     let size = set.hull().iter().map(Enclosure::magnitude).fold(0.0, f64::max);
     let width = set.hull().iter().map(Enclosure::width).fold(0.0, f64::max);
     if size > 0.0 { (OF_WIDTH * width / size).clamp(FINEST, COARSEST) } else { FINEST }

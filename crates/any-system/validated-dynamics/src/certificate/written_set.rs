@@ -3,12 +3,17 @@
 use crate::frame::{Frame, inverse_of};
 use crate::matrix::Matrix;
 use crate::set::AffineSet;
+use interval_arithmetic::Enclosure;
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
-/// How much larger the parts of a set are written that came in by nonlinearity and by rounding. A second program, whose balls are wider than
-/// intervals, must find its own image of a step inside: for a larger factor it does so for wider sets, which grow faster.
-const ERRORS: f64 = 1.5;
+/// How much larger the parts of a set are written that came in by nonlinearity and by rounding, for wide sets and for narrow ones. A second program,
+/// whose balls are wider than intervals, must find its own image of a step inside: for a larger factor it does so for wider sets, which grow
+/// faster. What comes in to narrow sets is rounding, of which the other program has less.
+const ERRORS: (f64, f64) = (3.0, 1.5);
+
+/// Sets that are wide by less than this part of their largest component are narrow.
+const NARROW: f64 = 1e-9;
 
 /// The part by which radii are written larger than they are, so that sums that another program rounds differently stay inside.
 const ROUNDING: f64 = 1e-9;
@@ -75,9 +80,11 @@ fn along(set: &AffineSet, directions: DMatrix<f64>) -> Option<WrittenSet> {
 /// The radii of a set in directions with this inverse.
 fn radii(set: &AffineSet, inverse: &Matrix) -> Vec<f64> {
     let size = set.centre().iter().fold(1.0, |largest: f64, x| largest.max(x.abs()));
+    let width = set.hull().iter().map(Enclosure::width).fold(0.0, f64::max);
+    let factor = if width > NARROW * size { ERRORS.0 } else { ERRORS.1 };
     let [shape, errors] = set.coordinates(inverse);
     let radius = |(shape, errors): (f64, f64)| {
-        rounded_up((shape + ERRORS * errors) * (1.0 + ROUNDING) + size * LEAST)
+        rounded_up((shape + factor * errors) * (1.0 + ROUNDING) + size * LEAST)
     };
     shape.into_iter().zip(errors).map(radius).collect()
 }
@@ -97,7 +104,6 @@ fn rounded_up(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use interval_arithmetic::Enclosure;
 
     #[test]
     fn a_written_set_holds_the_set_and_is_hardly_wider() {
