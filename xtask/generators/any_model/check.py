@@ -44,7 +44,7 @@ class Reader:
     """What the lines before have said, and what each line claims."""
 
     def __init__(self):
-        self.systems, self.maps, self.traps, self.basins, self.derived = [], [], [], [], []
+        self.systems, self.maps, self.traps, self.led, self.derived = [], [], [], [], []
         self.open = None
 
     def add(self, line, confirms=True):
@@ -64,13 +64,13 @@ class Reader:
             self.traps.append(claim)
             return 1, lambda _: self.derived.append(claim.confirm())
         elif kind == "leads":
-            claim = Leads(line, self.maps, self.traps)
+            claim = Leads(line, self.maps, self.traps, self.led)
+            self.led.append(claim)
             claim.join()
             self.derived.append(claim.derived())
             return len(claim.boxes), claim.confirm
         elif kind == "basins":
             self.open = Basins(line, self.maps)
-            self.basins.append(self.open)
         else:
             if self.open is None:
                 raise Refuted("a cell without basins")

@@ -197,7 +197,7 @@ class Trap:
 
     def holds_set(self, centre, rows, radii):
         """True if the points c + A r of a set of a line are in the trap."""
-        own = WrittenSet([centre, rows, radii])
+        own = WrittenSet.of_line([centre, rows, radii])
         if own.size != self.count:
             raise Refuted("a set of another size than the trap's")
         middle = self.inverse * (own.centre - self.centre)
@@ -211,16 +211,22 @@ class Trap:
 
 
 class Leads:
-    """All points of a box are led into a trap, or to a surface."""
+    """All points of a box are led into a trap, into the box of such a statement before, or to a surface."""
 
-    FIELDS = "map box trap parts".split()
+    FIELDS = "map box to parts".split()
 
-    def __init__(self, line, maps, traps):
+    def __init__(self, line, maps, traps, led):
         self.map, self.line, self.box = maps[line["map"]], line, box_of(line["box"])
-        self.trap = None if line["trap"] is None else traps[line["trap"]]
         self.boxes = [box_of(part["box"]) for part in line["parts"]]
         if len(self.box) != len(self.map.variables):
             raise Refuted("a box in other variables than its map")
+        kind, number = line["to"] if line["to"] is not None else (None, None)
+        if kind not in ("trap", "box", None):
+            raise Refuted(f"{kind!r} is nothing that points are led to")
+        self.trap = traps[number] if kind == "trap" else None
+        self.target = led[number] if kind == "box" else None
+        if self.target is not None and len(self.target.box) != self.map.dimension:
+            raise Refuted("a box in other variables than the map's")
 
     def join(self):
         if not covers(self.boxes, self.box):
@@ -231,8 +237,20 @@ class Leads:
         check_start(run, self.boxes[part])
         if self.trap is not None:
             self.trap.check_inside(run, self.trap.size)
+        if self.target is not None:
+            for own, (low, high) in zip(list_of(run.image.hull), self.target.box):
+                if not (own >= low and own <= high):
+                    raise Unconfirmed("an image leaves the box into which it is led")
 
     def derived(self):
         shown = ", ".join(f"{name} in [{low!r}, {high!r}]" for name, (low, high) in zip(self.map.variables, self.box))
-        where = "into the trap" if self.trap is not None else f"to {self.map.surface}"
-        return {"claim": "leads", "text": f"all points with {shown} are led {where} by the map {self.map.text()}"}
+        where = f"to {self.map.surface}"
+        if self.trap is not None:
+            where = f"into the trap about {self.trap.line['centre']!r}"
+        if self.target is not None:
+            where = f"into the box {self.target.line['box']!r}"
+        return {
+            "claim": "leads",
+            "box": self.box,
+            "text": f"all points with {shown} are led {where} by the map {self.map.text()}",
+        }

@@ -136,23 +136,44 @@ class Step:
 
     def _series(self):
         """The coefficients from the centre, from all states, and those of the guards."""
-        trees, size = self.field.field, self.size
-        centre, hull = list_of(self.start.centre), list_of(self.start.hull)
-        ctx.cap = self.order + 1
-        self.centre = coefficients(lambda x: self.field.values(trees, x, Series), centre, self.order)
-        self.varied = coefficients_with_derivatives(
-            lambda x: self.field.values(trees, x, Duals(Series)), hull, self.order
-        )
-        guards_of_centre = self.field.values(self.guards, self.centre, Series)
-        guards = self.field.values(self.guards, self.varied, Duals(Series))
-        self.guards_of_centre = [terms(own, self.order) for own in guards_of_centre]
-        zero = Dual(arb(0), [arb(0)] * size)
-        guards = [own if isinstance(own, Dual) else zero + own for own in guards]
-        self.guards_of_all = [terms(own.value, self.order) for own in guards]
-        self.slopes_of_guards = [[terms(part, self.order) for part in own.parts] for own in guards]
-        self.centre = [terms(own, self.order) for own in self.centre]
-        self.states = [terms(own.value, self.order) for own in self.varied]
-        self.derivatives = [[terms(part, self.order) for part in own.parts] for own in self.varied]
+        field, order, size = self.field, self.order, self.size
+        ctx.cap = order + 1
+        centre = self._coefficients(list_of(self.start.centre))
+        states = self._coefficients(list_of(self.start.hull))
+        ctx.cap = order + 1
+        _, jacobian = self._slopes(field.field, states)
+        derivatives = linear_solution(jacobian, order)
+        self.guards_of_centre = [terms(own, order) for own in field.values(self.guards, centre, Series)]
+        values, slopes = self._slopes(self.guards, states)
+        self.guards_of_all = [terms(value, order) for value in values]
+        self.slopes_of_guards = [
+            [terms(sum((row[i] * derivatives[i][j] for i in range(size)), arb_series([0])), order) for j in range(size)]
+            for row in slopes
+        ]
+        self.centre = [terms(own, order) for own in centre]
+        self.states = [terms(own, order) for own in states]
+        self.derivatives = [[terms(own, order) for own in row] for row in derivatives]
+
+    def _coefficients(self, start):
+        """The power series of a solution, coefficient by coefficient: the integral of the speed gains one each time."""
+        x = [arb_series([value], prec=1) for value in start]
+        for k in range(self.order):
+            ctx.cap = k + 1
+            rates = [terms(rate, k) for rate in self.field.values(self.field.field, x, Series)]
+            ctx.cap = k + 2
+            x = [
+                arb_series([value] + [rate[j] / (j + 1) for j in range(k + 1)], prec=k + 2)
+                for value, rate in zip(start, rates)
+            ]
+        return x
+
+    def _slopes(self, trees, states):
+        """The values of trees along solutions, and their derivatives there, as series."""
+        one, zero = arb_series([1]), arb_series([0])
+        duals = [Dual(x, [one if j == i else zero for j in range(self.size)]) for i, x in enumerate(states)]
+        found = self.field.values(trees, duals, Duals(Series))
+        found = [own if isinstance(own, Dual) else Dual(own, [zero] * self.size) for own in found]
+        return [own.value for own in found], [own.parts for own in found]
 
     def centre_at(self, time):
         return column([horner(own, time) + rest for own, rest in zip(self.centre, self.rest)])
@@ -209,45 +230,18 @@ def order_of(sizes, errors, q):
     return order
 
 
-def coefficients(field, start, order):
-    """The power series of a solution, coefficient by coefficient."""
-    x = [arb_series([value], prec=1) for value in start]
+def linear_solution(jacobian, order):
+    """The solution of V' = A V from the identity, as series, by the coefficients of A."""
+    size = len(jacobian)
+    entries = [[terms(own, order) for own in row] for row in jacobian]
+    rates = [arb_mat([[entries[i][j][k] for j in range(size)] for i in range(size)]) for k in range(order)]
+    found = [identity(size)]
     for k in range(order):
-        ctx.cap = k + 1
-        rates = [terms(rate, k) for rate in field(x)]
-        ctx.cap = k + 2
-        x = [
-            arb_series([value] + [rate[j] / (j + 1) for j in range(k + 1)], prec=k + 2)
-            for value, rate in zip(start, rates)
-        ]
-    return x
-
-
-def coefficients_with_derivatives(field, start, order):
-    """The same with the derivatives with respect to the start."""
-    size = len(start)
-
-    def duals(states, derivatives):
-        return [Dual(state, own) for state, own in zip(states, derivatives)]
-
-    def integral(value, rate, k):
-        return arb_series([value] + [rate[j] / (j + 1) for j in range(k + 1)], prec=k + 2)
-
-    unit = [[arb(int(i == j)) for j in range(size)] for i in range(size)]
-    x = duals(
-        [arb_series([value], prec=1) for value in start],
-        [[arb_series([value], prec=1) for value in row] for row in unit],
-    )
-    for k in range(order):
-        ctx.cap = k + 1
-        rates = field(x)
-        ctx.cap = k + 2
-        x = []
-        for i, rate in enumerate(rates):
-            own = rate if isinstance(rate, Dual) else Dual(rate, [0] * size)
-            state = integral(start[i], terms(own.value, k), k)
-            x.append(Dual(state, [integral(unit[i][j], terms(own.parts[j], k), k) for j in range(size)]))
-    return x
+        sum_of = arb_mat(size, size)
+        for j in range(k + 1):
+            sum_of += rates[j] * found[k - j]
+        found.append(sum_of / (k + 1))
+    return [[arb_series([own[i, j] for own in found]) for j in range(size)] for i in range(size)]
 
 
 def terms(series, order):

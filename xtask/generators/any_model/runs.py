@@ -12,10 +12,11 @@ from .formulas import Balls
 from .sets import WrittenSet, column, list_of
 from .systems import SectionMap
 
-# The errors that are tried for the series of a step, as parts of the width of the set behind it. A wrong step costs all of them.
-ERRORS = (1e-2, 1e-4, 1e-8)
-# The errors of derivatives whose product is wanted, as parts of those: multipliers are known to twelve digits then.
-OF_DERIVATIVES = 1e-10
+# The error of a series, as a part of the width of the set behind its step, and that of its derivatives: directions of sets may be nearly
+# the same, so that these must be known well.
+OF_WIDTH, OF_DERIVATIVES = 1e-8, 1e-16
+# How often a set is halved whose image leaves the next one: balls are wider than what they hold, the less so the narrower they are.
+HALVINGS = 3
 
 
 class Run:
@@ -23,14 +24,15 @@ class Run:
 
     def __init__(self, model, line, with_derivatives=False):
         self.model, self.with_derivatives = model, with_derivatives
-        self.start = WrittenSet(line["start"])
+        self.start = WrittenSet.of_line(line["start"])
         if self.start.size != len(model.variables):
             raise Refuted("a run whose start is in other variables than its map")
         # The derivatives of the coordinates along a set's directions with respect to the variables.
         self.chain = self.start.inverse()
         self.stopped = None
         if isinstance(model, SectionMap):
-            self.set = self._applied(model.chart, self.start, WrittenSet(line["begin"]), "begin")
+            self.set = self.start
+            self._apply(model.chart, line["begin"], "begin")
             _Replay(self).run(line["steps"])
             end = model.end
         else:
@@ -40,44 +42,58 @@ class Run:
             for place, step in enumerate(line["steps"]):
                 if len(step) != 2 or step[0] != "applied":
                     raise Refuted("a step that is not one of a map")
-                self.set = self._applied(model.field, self.set, WrittenSet(step[1]), f"step {place}")
+                self._apply(model.field, step[1], f"step {place}")
             end = None
-        if self.stopped is not None and line["image"] is None:
-            self.image = None
-        elif end is not None:
-            self.image = self._applied(end, self.set, WrittenSet(line["image"]), "image")
-        else:
-            self.image = self._first_components(WrittenSet(line["image"]))
+        self.image = None
+        if self.stopped is None or line["image"] is not None:
+            if end is not None:
+                self._apply(end, line["image"], "image")
+            else:
+                self._take_variables(line["image"])
+            self.image = self.set
 
     def derivatives(self):
         """The derivatives of what is read with respect to the variables of the start."""
         return self.image.directions * self.chain
 
-    def carried(self, start, target, at_centre, derivatives, where):
-        """The next set, which holds the image of the one before."""
-        try:
-            target.holds(at_centre, derivatives, start)
-        except Unconfirmed as error:
-            raise Unconfirmed(f"{where}: {error}")
+    def move(self, target, moved):
+        """Goes on from the next set, with the derivatives from the one before along the directions of both."""
         if self.with_derivatives:
-            self.chain = target.inverse() * derivatives * start.directions * self.chain
-        return target
+            self.chain = moved * self.chain
+        self.set = target
 
-    def _applied(self, field, start, target, where):
+    def _apply(self, field, line, where):
         """Formulas, by their value at the centre and their derivatives on the set."""
+        target = WrittenSet.of_line(line)
         if target.size != len(field.field):
             raise Refuted(f"{where}: a set of another size than its formulas")
-        at_centre = column(field.values(field.field, list_of(start.centre), Balls))
-        _, parts = field.with_derivatives(field.field, list_of(start.hull))
-        return self.carried(start, target, at_centre, arb_mat(parts), where)
 
-    def _first_components(self, target):
+        def led(start):
+            at_centre = column(field.values(field.field, list_of(start.centre), Balls))
+            _, parts = field.with_derivatives(field.field, list_of(start.hull))
+            return target.holds(at_centre, arb_mat(parts), start)
+
+        self.move(target, in_parts(led, self.set, where))
+
+    def _take_variables(self, line):
         """The variables without the parameters, which stay behind them."""
-        size, count = self.set.size, self.model.dimension
+        target, size, count = WrittenSet.of_line(line), self.set.size, self.model.dimension
         if target.size != count:
             raise Refuted("image: a set of another size than the map's")
         first = arb_mat([[int(row == other) for other in range(size)] for row in range(count)])
-        return self.carried(self.set, target, first * self.set.centre, first, "image")
+        self.move(target, target.holds(first * self.set.centre, first, self.set))
+
+
+def in_parts(led, start, where, halvings=HALVINGS):
+    """What `led` gives for a set, or for halves of it, and halves of those, where the whole is too wide for balls: the union."""
+    try:
+        return led(start)
+    except Unconfirmed as error:
+        if halvings == 0:
+            raise Unconfirmed(str(error) if str(error).startswith(where) else f"{where}: {error}")
+    first, second = (in_parts(led, half, where, halvings - 1) for half in start.halves())
+    rows, columns = first.nrows(), first.ncols()
+    return arb_mat([[first[i, j].union(second[i, j]) for j in range(columns)] for i in range(rows)])
 
 
 class _Replay:
@@ -95,47 +111,52 @@ class _Replay:
                 raise Refuted(f"{where}: it is behind the end of the run")
             self.guards = self.system.guards[self.mode]
             if line[0] == "flow" and len(line) == 3:
-                self.tried(where, self.flow, line[1], WrittenSet(line[2]))
+                self.tried(where, self.flow, line[1], WrittenSet.of_line(line[2]))
             elif line[0] == "pass" and len(line) == 4:
-                self.tried(where, self.cross, line[2], WrittenSet(line[3]), line[1])
+                self.tried(where, self.cross, line[2], WrittenSet.of_line(line[3]), line[1])
             elif line[0] == "event" and len(line) == 4:
-                self.tried(where, self.event, line[2], WrittenSet(line[3]), line[1])
+                self.tried(where, self.event, line[2], WrittenSet.of_line(line[3]), line[1])
             else:
                 raise Refuted(f"{where}: no step")
         if self.left > 0 and self.run_of.stopped is None:
             raise Refuted(f"the run ends before {self.run_of.model.surface}")
 
     def tried(self, where, action, length, target, *arguments):
-        """A step, with narrower series where wide ones do not do."""
+        """A step, in parts where balls are too wide for the whole."""
         if isinstance(length, bool) or not isinstance(length, (int, float)) or not length > 0:
             raise Refuted(f"{where}: a step of the length {length!r}")
         if target.size != self.run_of.set.size:
             raise Refuted(f"{where}: a set of another size")
-        why = None
         trees, widths = [guard.tree for guard in self.guards], [float(x.rad()) for x in list_of(target.hull)]
         # The set behind an event is hardly wider than rounding across its surface.
         least = math.inf if action == self.flow else min(float(radius) for radius in target.radii)
-        slopes = OF_DERIVATIVES if self.run_of.with_derivatives else 1
-        for part in ERRORS:
-            try:
-                errors = [part * width for width in widths], part * slopes, part * least
-                step = Step(self.system.fields[self.mode], self.run_of.set, length, trees, errors)
-                seen = Guards(step, self.guards, self.on)
-                if self.begins:
-                    seen.check_begin()
-                return action(where, step, seen, target, *arguments)
-            except Unconfirmed as error:
-                why = error
-        raise Unconfirmed(why if str(why).startswith(where) else f"{where}: {why}")
+        errors = [OF_WIDTH * width for width in widths], OF_DERIVATIVES, OF_WIDTH * least
+        after = []
 
-    def flow(self, where, step, seen, target):
+        def led(start):
+            step = Step(self.system.fields[self.mode], start, length, trees, errors)
+            seen = Guards(step, self.guards, self.on)
+            if self.begins:
+                seen.check_begin()
+            moved, then = action(where, step, seen, target, *arguments)
+            after.append(then)
+            return moved
+
+        self.run_of.move(target, in_parts(led, self.run_of.set, where))
+        if any(then != after[0] for then in after):
+            raise Unconfirmed(f"{where}: its parts do different things")
+        self.mode, self.on, self.begins, self.left, self.run_of.stopped = after[0]
+
+    def flow(self, _where, step, seen, target):
         seen.check_clear(step.length)
-        self._flowed(where, step, target)
+        return self._flowed(step, target), self._then(0)
 
-    def _flowed(self, where, step, target):
-        run = self.run_of
-        run.set = run.carried(run.set, target, step.centre_at(step.length), step.derivatives_at(step.length), where)
-        self.on, self.begins = [False] * len(self.guards), False
+    def _flowed(self, step, target):
+        return target.holds(step.centre_at(step.length), step.derivatives_at(step.length), step.start)
+
+    def _then(self, events):
+        """What is so behind a flow with some events of the map's surface."""
+        return self.mode, [False] * len(self.guards), False, self.left - events, None
 
     def place_of(self, surface, where):
         found = [place for place, guard in enumerate(self.guards) if guard.surface == surface]
@@ -150,33 +171,32 @@ class _Replay:
         _, _, box = seen.image(place, found, during)
         is_event = self._holds(self.guards[place], box)
         if is_event and not self.guards[place].observes(self.mode):
-            raise Unconfirmed(f"{where}: {surface} changes the states")
+            raise Refuted(f"{where}: {surface} changes the states")
         seen.check_clear(step.length, apart_from=place)
         if not step.guard_rate_at(place, found.union(step.length)) != 0:
-            raise Unconfirmed(f"{where}: states may cross {surface} once more")
-        self._flowed(where, step, target)
-        self.left -= int(is_event and surface == self.run_of.model.surface)
-        if self.left == 0:
+            raise Unconfirmed(f"states may cross {surface} once more")
+        events = int(is_event and surface == self.run_of.model.surface)
+        if self.left == events:
             raise Refuted(f"{where}: the run goes on behind its end")
+        return self._flowed(step, target), self._then(events)
 
     def event(self, where, step, seen, target, surface):
-        run, place = self.run_of, self.place_of(surface, where)
+        place = self.place_of(surface, where)
         guard = self.guards[place]
         found, during = seen.crossing(place, step.length)
         at_centre, derivatives, box = seen.image(place, found, during)
         if not self._holds(guard, box):
-            raise Unconfirmed(f"{where}: no state has an event at {surface}")
+            raise Refuted(f"{where}: no state has an event at {surface}")
         if guard.after is not None:
             field = step.field
             _, parts = field.with_derivatives(guard.after, list_of(box))
             at_centre = column(field.values(guard.after, list_of(at_centre), Balls))
             derivatives = arb_mat(parts) * derivatives
-        run.set = run.carried(run.set, target, at_centre, derivatives, where)
-        self.left -= int(surface == run.model.surface)
-        if guard.observes(self.mode) and self.left > 0:
+        left = self.left - int(surface == self.run_of.model.surface)
+        if guard.observes(self.mode) and left > 0:
             raise Refuted(f"{where}: {surface} changes nothing: the flow goes on through it")
-        self.mode, self.on, self.begins = guard.mode, self.system.begins_on(guard), True
-        run.stopped = surface if guard.stops else None
+        moved = target.holds(at_centre, derivatives, step.start)
+        return moved, (guard.mode, self.system.begins_on(guard), True, left, surface if guard.stops else None)
 
     def _holds(self, guard, box):
         """Whether the condition of an event holds, at all states."""

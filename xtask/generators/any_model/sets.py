@@ -6,9 +6,15 @@ from certificate_file import Refuted, Unconfirmed
 
 
 class WrittenSet:
-    """The set that a line has as [centre, rows of directions, radii]. All numbers are exact."""
+    """The set that a line has as [centre, rows of directions, radii], all of whose numbers are exact, or a part of one."""
 
-    def __init__(self, line):
+    def __init__(self, centre, directions, radii):
+        self.size, self.centre, self.directions, self.radii = len(radii), centre, directions, radii
+        self.offsets = arb_mat(self.size, 1, [around_zero(radius) for radius in radii])
+        self.hull = centre + directions * self.offsets
+
+    @staticmethod
+    def of_line(line):
         if not isinstance(line, list) or len(line) != 3:
             raise Refuted("no set")
         centre, rows, radii = line
@@ -17,12 +23,19 @@ class WrittenSet:
             raise Refuted("a set whose centre, directions and radii are not of one size")
         if not all(radius >= 0 for radius in radii):
             raise Refuted("a set with a radius below 0")
-        self.size = size
-        self.centre = column(centre)
-        self.directions = arb_mat([[number(x) for x in row] for row in rows])
-        self.radii = [number(radius) for radius in radii]
-        self.offsets = arb_mat(size, 1, [around_zero(radius) for radius in self.radii])
-        self.hull = self.centre + self.directions * self.offsets
+        directions = arb_mat([[number(x) for x in row] for row in rows])
+        return WrittenSet(column(centre), directions, [number(radius) for radius in radii])
+
+    def halves(self):
+        """The two halves across the direction in which the set is widest."""
+        lengths = [
+            max(float(abs(self.directions[row, k]).upper()) for row in range(self.size)) * float(self.radii[k])
+            for k in range(self.size)
+        ]
+        widest = lengths.index(max(lengths))
+        radii = [radius / 2 if k == widest else radius for k, radius in enumerate(self.radii)]
+        step = arb_mat(self.size, 1, [self.directions[row, widest] * radii[widest] for row in range(self.size)])
+        return [WrittenSet(centre, self.directions, radii) for centre in (self.centre - step, self.centre + step)]
 
     def inverse(self):
         """The inverse of the directions."""
@@ -32,22 +45,18 @@ class WrittenSet:
             raise Refuted("a set whose directions depend on each other")
 
     def holds(self, at_centre, derivatives, start):
-        """Raises an error unless the image of `start` is in this set, by the value at the centre and the derivatives."""
+        """Raises an error unless the image of `start` is in this set, by the value at the centre and the derivatives. These, along the
+        directions of both sets."""
         inverse = self.inverse()
         middle = inverse * (at_centre - self.centre)
-        spread = inverse * derivatives * start.directions * start.offsets
+        moved = inverse * derivatives * start.directions
+        spread = moved * start.offsets
         for row, radius in enumerate(self.radii):
             own = middle[row, 0] + spread[row, 0]
             if not abs(own) <= radius:
                 far = float((abs(own) / radius).upper()) if radius > 0 else float("inf")
                 raise Unconfirmed(f"the image leaves the set: direction {row}, {far:.6g} of its radius")
-
-    def holds_box(self, box):
-        """Raises an error unless a box of balls is in this set."""
-        own = self.inverse() * (box - self.centre)
-        for row, radius in enumerate(self.radii):
-            if not abs(own[row, 0]) <= radius:
-                raise Unconfirmed(f"a box leaves the set, in direction {row}")
+        return moved
 
 
 def number(x):

@@ -9,7 +9,7 @@ use example_systems::spring_leg::spring_leg_that_falls;
 use std::error::Error;
 use std::time::Instant;
 use validated_dynamics::{
-    Certificate, EnclosedMap, Enclosure, SectionMap, Trap, ValidatedSystem, fixed_point,
+    Certificate, EnclosedMap, Enclosure, SectionMap, Target, Trap, ValidatedSystem, fixed_point,
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut certificate = Certificate::new();
         certificate.fixed_point(&map, &gait)?;
         certificate.trap(&map, &trap)?;
-        certificate.leads(&fall, &high, &[high.to_vec()], None)?;
+        certificate.leads(&fall, &high, &[high.to_vec()], Target::Surface)?;
         std::fs::write(file, certificate.text())?;
     }
     Ok(())

@@ -80,7 +80,7 @@ mod window;
 
 pub use basins::{Division, Progress, ProvedBasins, ProvedFate};
 pub use cells::MOST_SIDES;
-pub use certificate::Certificate;
+pub use certificate::{Certificate, Target};
 pub use division::{Budget, Divided, divided, halves};
 pub use enclosed_map::{Carried, EnclosedMap, FormulaMap, MapImage, SectionMap, StartSet};
 pub use event::ProvedEvent;

@@ -7,7 +7,7 @@ use crate::piece::Piece;
 use crate::set::{AffineSet, Chain};
 use crate::surface_image::{OnSurface, on_surface};
 use crate::system::{ValidatedMode, ValidatedSystem};
-use crate::tube::{FINEST, Tube, wanted_error};
+use crate::tube::Tube;
 use crate::undecided::{Error, Reason};
 use crate::window::{Crossing, First, Guards};
 use hybrid_system::Label;
@@ -275,13 +275,12 @@ impl<'s> ValidatedRun<'s> {
             }
             Guards { tube, guards: &mode.guards, on: &self.on }.first()
         };
-        // Short steps are those that another program can confirm.
-        let error = if self.record.is_some() { FINEST } else { wanted_error(set) };
-        let mut tube = Tube::new(&mode.series, set, (longest, error), self.chain.is_some())?;
+        let for_others = self.record.is_some();
+        let mut tube = Tube::new(&mode.series, set, longest, for_others, self.chain.is_some())?;
         let mut first = look(&tube);
         // Most often the derivatives are proved for the same step, which has the same event then.
         if matches!(first, Ok(First::Crossing(_))) && !tube.add_derivatives() {
-            tube = Tube::new(&mode.series, set, (tube.length, error), true)?;
+            tube = Tube::new(&mode.series, set, tube.length, for_others, true)?;
             first = look(&tube);
         }
         Ok((tube, first))

@@ -27,7 +27,7 @@ const LARGEST: f64 = 1e100;
 
 /// How often the box of a trap is halved until each part's image is in the trap before. Each time the error of a part's image falls by four, and
 /// their number grows by 2ⁿ.
-const HALVES: u32 = 10;
+const HALVES: u32 = 14;
 
 /// A trap: the points c + A u with |u_k| ≤ ρ. They all converge to the one fixed point in it: the map is a contraction of a smaller set of this
 /// form, in the coordinates u, and leads the larger ones step by step into smaller ones.

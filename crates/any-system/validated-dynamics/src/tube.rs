@@ -10,7 +10,11 @@ use interval_arithmetic::{Enclosure, pow};
 use pxfm::f_log as ln;
 
 /// The smallest error of a step, as a part of the largest component: half of a rounding, which is made anyway.
-pub(crate) const FINEST: f64 = 5e-17;
+const FINEST: f64 = 5e-17;
+
+/// The part of the length of the finest steps that steps of certificates have. Another program, with bounds of its own for complex times, needs half
+/// as many coefficients for half the length, and the time for them falls by more than twice.
+const FOR_OTHERS: f64 = 0.4;
 
 /// The error of a step as a part of the width of the set. The set's own width grows by this part in each step; larger steps pay for it.
 const OF_WIDTH: f64 = 1e-4;
@@ -61,13 +65,16 @@ pub(crate) struct Tube<'s> {
 }
 
 impl<'s> Tube<'s> {
-    /// A step of at most this length, with derivatives if they are wanted, that makes about this error, as a part of the largest component.
+    /// A step of at most this length, with derivatives if they are wanted. For another program it is [short](FOR_OTHERS).
     pub(crate) fn new(
         series: &'s ModeSeries,
         set: &'s AffineSet,
-        (longest, error): (f64, f64),
+        longest: f64,
+        for_others: bool,
         with_derivatives: bool,
     ) -> Result<Tube<'s>, Reason> {
+        let (error, part) =
+            if for_others { (FINEST, FOR_OTHERS) } else { (wanted_error(set), 1.0) };
         let order = (-0.5 * ln(error)).ceil() as usize + 2;
         let order = order.clamp(ORDERS.0, ORDERS.1);
         let centre = series.motion(&exact(set.centre()), order).map_err(Reason::Domain)?;
@@ -75,7 +82,7 @@ impl<'s> Tube<'s> {
         let varied = series.varied(set.hull(), &identity, order + 1).map_err(Reason::Domain)?;
         let scale = scale(&centre, set);
         let mut step = Step { series, varied: &varied, order, length: 0.0 };
-        step.length = step_length(&centre, order, error * scale).min(longest);
+        step.length = (part * step_length(&centre, order, error * scale)).min(longest);
         let mut refused = Reason::NoSolution { step: step.length };
         for _ in 0..TRIES {
             let mut shorter = SHORTER;
@@ -210,7 +217,7 @@ fn last(coefficients: &[Enclosure]) -> Enclosure {
 }
 
 /// The error that a step may make, as a part of the [scale].
-pub(crate) fn wanted_error(set: &AffineSet) -> f64 {
+fn wanted_error(set: &AffineSet) -> f64 {
     let size = set.hull().iter().map(Enclosure::magnitude).fold(0.0, f64::max);
     let width = set.hull().iter().map(Enclosure::width).fold(0.0, f64::max);
     if size > 0.0 { (OF_WIDTH * width / size).clamp(FINEST, COARSEST) } else { FINEST }

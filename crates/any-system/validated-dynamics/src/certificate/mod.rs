@@ -52,6 +52,18 @@ pub struct Certificate {
     systems: Vec<Value>,
     maps: Vec<Value>,
     traps: usize,
+    led: usize,
+}
+
+/// Where all points of a box are led.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Target {
+    /// To the surface of the map.
+    Surface,
+    /// Into the trap with this number.
+    Trap(usize),
+    /// Into the box of which [`Certificate::leads`] has given this number.
+    Box(usize),
 }
 
 impl Certificate {
@@ -130,8 +142,8 @@ impl Certificate {
         Ok(self.traps - 1)
     }
 
-    /// All points of a box are led by a map into a trap of the file, by its number; for `None` they all come to the map's surface. The parts are
-    /// boxes that cover the whole one.
+    /// All points of a box are led by a map to a [`Target`]. The parts are boxes that cover the whole one. The number of the statement among those of
+    /// this kind.
     ///
     /// # Errors
     /// As [`fixed_point`](Self::fixed_point).
@@ -140,22 +152,28 @@ impl Certificate {
         map: &impl EnclosedMap,
         whole: &[Enclosure],
         parts: &[Vec<Enclosure>],
-        trap: Option<usize>,
-    ) -> Result<(), Error> {
+        target: Target,
+    ) -> Result<usize, Error> {
         let number = self.map(map)?;
         let part = |part: &Vec<Enclosure>| {
             let run = recorded(map.carry(StartSet::of_box(part).without_derivatives())?)?;
             Ok(json!({"box": pairs(part), "run": run}))
         };
         let parts = parts.iter().map(part).collect::<Result<Vec<_>, Error>>()?;
+        let target = match target {
+            Target::Surface => Value::Null,
+            Target::Trap(trap) => json!(["trap", trap]),
+            Target::Box(led) => json!(["box", led]),
+        };
         self.lines.push(json!({
             "kind": "leads",
             "map": number,
             "box": pairs(whole),
-            "trap": trap,
+            "to": target,
             "parts": parts,
         }));
-        Ok(())
+        self.led += 1;
+        Ok(self.led - 1)
     }
 
     /// The basins of traps of the file, by their numbers: a line for each cell with a fate, behind those in which its image is.
