@@ -11,13 +11,10 @@ from .runs import Run, box_of, check_start
 class Basins:
     """The cells of a window, and what is read of them so far."""
 
-    FIELDS = "maps windows cells".split()
+    FIELDS = "map window cells".split()
 
     def __init__(self, line, maps):
-        if len(line["maps"]) != 1 or len(line["windows"]) != 1:
-            raise Refuted("basins of more than one map")
-        self.number, self.map = line["maps"][0], maps[line["maps"][0]]
-        self.window, self.wanted = box_of(line["windows"][0]), line["cells"]
+        self.map, self.window, self.wanted = maps[line["map"]], box_of(line["window"]), line["cells"]
         if len(self.window) != self.map.dimension or self.map.dimension != len(self.map.variables):
             raise Refuted("a window in other variables than its map")
         self.cells, self.areas = Cells(self.window), {}
@@ -59,11 +56,11 @@ def fate_text(fate):
 class Cell:
     """One cell with a fate: in a trap, led into one, led into cells of its fate, or to the end of the execution."""
 
-    FIELDS = "window box fate run".split()
+    FIELDS = "box fate run".split()
 
     def __init__(self, line, basins, traps):
         self.basins, self.line, self.box, self.fate = basins, line, box_of(line["box"]), line["fate"]
-        if line["window"] != 0 or len(self.box) != len(basins.window):
+        if len(self.box) != len(basins.window):
             raise Refuted("a cell in other variables than its window")
         self.trap = None
         if not isinstance(self.fate, str):

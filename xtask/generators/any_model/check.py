@@ -7,6 +7,7 @@ from certificate_file import Refuted, guarded, lines_of
 
 from .basins import Basins, Cell
 from .claims import FixedPoint, Leads, Trap
+from .known import check_known
 from .systems import FormulaMap, SectionMap, System
 
 FORMAT, VERSION = "hybrid system certificate", 1
@@ -29,7 +30,7 @@ MAPS = [
 def wrong_field(kind, line):
     """What is wrong with the fields of a line, or None."""
     if kind is None:
-        wanted = [["format", "version", "lines"]]
+        wanted = [["format", "version", "name", "lines"]]
     elif kind not in FIELDS:
         return f"no kind of line: {kind!r}"
     else:
@@ -51,7 +52,7 @@ class Reader:
         """The claims of a line: (number of them, what confirms one). A second reading joins nothing."""
         kind = line["kind"]
         if kind != "cell":
-            self._end()
+            self.end()
         if kind == "system":
             self.systems.append(System(line))
         elif kind == "map":
@@ -79,7 +80,7 @@ class Reader:
             return 1, lambda _: claim.confirm()
         return 0, None
 
-    def _end(self):
+    def end(self):
         if self.open is not None:
             self.open.end()
             self.derived.append(self.open.derived())
@@ -96,15 +97,19 @@ def check(path, sample=None, seed=1, found=None):
     counts = []
     lines = lines_of(path, digests[0], wrong_field)
     _, header = next(lines, (1, {}))
-    if header.get("format") != FORMAT or header.get("version") != VERSION:
+    if header.get("format") != FORMAT or header.get("version") != VERSION or type(header.get("version")) is not int:
         raise Refuted(f"line 1: no certificate of version {VERSION}")
-    reader = Reader()
+    if not isinstance(header["name"], str):
+        raise Refuted("line 1: no name")
+    reader, models = Reader(), []
     for number, line in lines:
         count, _ = guarded(number, reader.add, line)
         counts.append((line["kind"], count))
+        if line["kind"] in ("system", "map"):
+            models.append(line)
     if len(counts) != header["lines"]:
         raise Refuted(f"line 1: {len(counts)} lines follow the header, which says {header['lines']}")
-    guarded(len(counts) + 1, reader._end)
+    guarded(len(counts) + 1, reader.end)
     places = [(line, claim) for line, (kind, count) in enumerate(counts) if kind not in ALWAYS for claim in range(count)]
     total, chosen = len(places), set(places)
     if sample is not None and sample < total:
@@ -117,15 +122,17 @@ def check(path, sample=None, seed=1, found=None):
         for claim in range(count):
             if line["kind"] in ALWAYS or (place, claim) in chosen:
                 guarded(number, confirm, claim)
-    reader._end()
+    guarded(len(counts) + 1, reader.end)
     if digests[0].digest() != digests[1].digest():
         raise Refuted("the file changed while it was read")
     if not reader.derived:
         raise Refuted("line 1: no statement")
+    scope = guarded(1, check_known, header["name"], models, reader.derived)
     if found is not None:
-        found.update(statements=reader.derived, is_complete=len(chosen) == total, systems=reader.systems)
+        found.update(models=models, derived=reader.derived)
     word = "confirmed" if len(chosen) == total else "sampled"
     about = "; ".join(system.text() for system in reader.systems) or "maps"
+    name = f"{header['name']} ({scope})"
     proved = "; ".join(claim["text"] for claim in reader.derived)
     parts = f"{len(chosen)} of {total} parts, " if total else ""
-    return f"{word:9} {about}: {parts}proves: {proved}; sha256 {digests[0].hexdigest()}"
+    return f"{word:9} {name}, of {about}: {parts}proves: {proved}; sha256 {digests[0].hexdigest()}"

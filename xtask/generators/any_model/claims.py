@@ -27,7 +27,7 @@ class FixedPoint:
     def __init__(self, line, maps):
         self.map = maps[line["map"]]
         self.unique_in, self.point = box_of(line["unique_in"]), box_of(line["point"])
-        self.parameters = box_of(line["parameters"]) if line["parameters"] else []
+        self.parameters = [] if line["parameters"] == [] else box_of(line["parameters"])
         self.line, self.count = line, self.map.dimension
         sizes = [len(self.unique_in), len(self.point), len(line["centre"])]
         if sizes != [self.count] * 3 or self.count + len(self.parameters) != len(self.map.variables):
@@ -59,6 +59,8 @@ class FixedPoint:
         given = [f"{name} in [{low!r}, {high!r}]" for name, (low, high) in zip(self.map.variables[count:], self.parameters)]
         return {
             "claim": "fixed point",
+            "box": self.point,
+            "parameters": self.parameters,
             "width": max(high - low for low, high in self.point),
             "is": kind,
             "text": f"exactly one fixed point of {self.map.text()} in a box of width {width:.2g},"
@@ -69,6 +71,7 @@ class FixedPoint:
 
     def _run(self, name, box):
         run = Run(self.map, self.line[name], with_derivatives=name != "at_centre")
+        run.check_goes_on()
         check_start(run, box + self.parameters)
         return run
 
@@ -136,7 +139,7 @@ class Trap:
         count = self.count = self.map.dimension
         self.centre = column(line["centre"])
         self.directions = arb_mat([[number(x) for x in row] for row in line["directions"]])
-        self.parameters = box_of(line["parameters"]) if line["parameters"] else []
+        self.parameters = [] if line["parameters"] == [] else box_of(line["parameters"])
         if self.centre.nrows() != count or count + len(self.parameters) != len(self.map.variables):
             raise Refuted("a trap in other variables than its map")
         try:
@@ -178,6 +181,7 @@ class Trap:
 
     def _run(self, line, box, with_derivatives=False):
         run = Run(self.map, line, with_derivatives)
+        run.check_goes_on()
         count, more = self.count, len(self.parameters)
         wide = identity(count + more).tolist()
         for i in range(count):
@@ -234,6 +238,8 @@ class Leads:
 
     def confirm(self, part):
         run = Run(self.map, self.line["parts"][part]["run"])
+        if run.image is None:
+            raise Refuted("a run that does not come to the surface of its map")
         check_start(run, self.boxes[part])
         if self.trap is not None:
             self.trap.check_inside(run, self.trap.size)
@@ -252,5 +258,6 @@ class Leads:
         return {
             "claim": "leads",
             "box": self.box,
+            "to": self.map.surface if self.line["to"] is None else "{} {}".format(*self.line["to"]),
             "text": f"all points with {shown} are led {where} by the map {self.map.text()}",
         }

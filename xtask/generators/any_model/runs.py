@@ -33,7 +33,7 @@ class Run:
         if isinstance(model, SectionMap):
             self.set = self.start
             self._apply(model.chart, line["begin"], "begin")
-            _Replay(self).run(line["steps"])
+            arrives = _Replay(self).run(line["steps"])
             end = model.end
         else:
             self.set = self.start
@@ -43,9 +43,11 @@ class Run:
                 if len(step) != 2 or step[0] != "applied":
                     raise Refuted("a step that is not one of a map")
                 self._apply(model.field, step[1], f"step {place}")
-            end = None
+            end, arrives = None, True
         self.image = None
-        if self.stopped is None or line["image"] is not None:
+        if arrives != (line["image"] is not None):
+            raise Refuted("a run that comes to the surface of its map has an image, and no other one")
+        if arrives:
             if end is not None:
                 self._apply(end, line["image"], "image")
             else:
@@ -55,6 +57,11 @@ class Run:
     def derivatives(self):
         """The derivatives of what is read with respect to the variables of the start."""
         return self.image.directions * self.chain
+
+    def check_goes_on(self):
+        """Raises an error if the execution ends: nothing comes back then."""
+        if self.stopped is not None:
+            raise Refuted(f"the execution ends at {self.stopped}")
 
     def move(self, target, moved):
         """Goes on from the next set, with the derivatives from the one before along the directions of both."""
@@ -105,6 +112,7 @@ class _Replay:
         self.begins, self.left = True, run.model.count
 
     def run(self, steps):
+        """Confirms all steps. True if they end at the surface of the map."""
         for place, line in enumerate(steps):
             where = f"step {place} of {len(steps)}"
             if self.left == 0 or self.run_of.stopped is not None:
@@ -120,6 +128,7 @@ class _Replay:
                 raise Refuted(f"{where}: no step")
         if self.left > 0 and self.run_of.stopped is None:
             raise Refuted(f"the run ends before {self.run_of.model.surface}")
+        return self.left == 0
 
     def tried(self, where, action, length, target, *arguments):
         """A step, in parts where balls are too wide for the whole."""

@@ -83,7 +83,10 @@ class SectionMap:
             raise Refuted("a chart without its mode, or with another number of states")
         self.states = [read(text) for text in line["states"]]
         self.surface, self.count = line["surface"], line["count"]
-        if not isinstance(self.count, int) or self.count < 1:
+        surfaces = [guard.surface for guards in self.system.guards.values() for guard in guards]
+        if self.surface not in surfaces:
+            raise Refuted(f"no surface {self.surface!r}")
+        if type(self.count) is not int or self.count < 1:
             raise Refuted(f"{self.count!r} events")
         self.read = [read(text) for text in line["read"]]
         self.dimension = len(self.read)
@@ -111,7 +114,7 @@ class FormulaMap:
         self.dimension, self.times = line["dimension"], line["times"]
         if len(self.formulas) != len(self.variables) or not 0 < self.dimension <= len(self.variables):
             raise Refuted("a map with another number of formulas than variables")
-        if not isinstance(self.times, int) or self.times < 1:
+        if type(self.times) is not int or self.times < 1:
             raise Refuted(f"a map that is applied {self.times!r} times")
         self.field = Field(self.variables, {name: constant(tree) for name, tree in trees.items()}, self.formulas)
 

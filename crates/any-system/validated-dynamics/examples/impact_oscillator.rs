@@ -15,10 +15,11 @@ use validated_dynamics::{
 
 fn main() -> Result<(), Box<dyn Error>> {
     let begin = Instant::now();
-    let mut certificate = Certificate::new();
+    let mut certificate = Certificate::new("impact_oscillator");
     let system = ValidatedSystem::new(&impact_oscillator("1"))?;
     let after = system.chart("free", &["v", "s"], &["stop", "v", "s"])?;
-    let returns = SectionMap::new(&system, after, "stop", 1, &["v", "t - 2*pi/frequency"])?.recorded();
+    let returns =
+        SectionMap::new(&system, after, "stop", 1, &["v", "t - 2*pi/frequency"])?.recorded();
     let orbit = fixed_point(&returns, &[-1.48, 0.16], &[])?;
     certificate.fixed_point(&returns, &orbit)?;
     println!("F = 1: v in {}, t in {}", orbit.point[0], orbit.point[1]);
@@ -27,7 +28,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     // The same for intervals of F, each of which continues the orbit of its neighbour: their unique orbits are the same at common ends.
     let system = ValidatedSystem::with_interval_parameters(&impact_oscillator("1"), &["forcing"])?;
     let after = system.chart("free", &["v", "s", "forcing"], &["stop", "v", "s", "forcing"])?;
-    let returns = SectionMap::new(&system, after, "stop", 1, &["v", "t - 2*pi/frequency"])?.recorded();
+    let returns =
+        SectionMap::new(&system, after, "stop", 1, &["v", "t - 2*pi/frequency"])?.recorded();
     let forcings = [Enclosure::new(0.95, 1.05)];
     let budget = Budget { boxes: 1000, divisions: 8 };
     let found = divided(&forcings, budget, halves, |forcings| {
@@ -52,7 +54,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             .falling_text("peak", "v");
         let system = ValidatedSystem::new(&free)?;
         let start = system.chart("free", &["x", "s"], &["x", "0", "s"])?;
-        let returns = SectionMap::new(&system, start, "peak", 1, &["x", "t - 2*pi/1.3"])?.recorded();
+        let returns =
+            SectionMap::new(&system, start, "peak", 1, &["x", "t - 2*pi/1.3"])?.recorded();
         let orbit = fixed_point(&returns, &[0.5, 2.0], &[])?;
         certificate.fixed_point(&returns, &orbit)?;
         println!("F = {forcing}: the largest x is in {}", orbit.point[0]);

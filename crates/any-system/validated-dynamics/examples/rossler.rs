@@ -5,8 +5,8 @@
 #![allow(clippy::print_stdout)] // a program
 
 use hybrid_system::Equations;
-use validated_dynamics::{Certificate, SectionMap, ValidatedSystem, fixed_point};
 use std::error::Error;
+use validated_dynamics::{Certificate, SectionMap, ValidatedSystem, fixed_point};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let rossler = Equations::new(&["x", "y", "z"], &[("a", "0.2"), ("b", "0.2"), ("c", "5.7")])
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     assert!(orbit.is_saddle());
     if let Some(file) = std::env::args().nth(1) {
         let returns = returns.recorded();
-        let mut certificate = Certificate::new();
+        let mut certificate = Certificate::new("rossler");
         certificate.fixed_point(&returns, &fixed_point(&returns, &[-8.4, 0.03], &[])?)?;
         std::fs::write(file, certificate.text())?;
     }

@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 
     if let Some(file) = std::env::args().nth(1) {
-        let mut certificate = Certificate::new();
+        let mut certificate = Certificate::new("spring_leg");
         certificate.fixed_point(&map, &gait)?;
         certificate.trap(&map, &trap)?;
         certificate.leads(&fall, &high, &[high.to_vec()], Target::Surface)?;

@@ -19,12 +19,12 @@ use validated_dynamics::{
 /// The part of each half of an axis of which convergence is shown.
 const HALF: Enclosure = Enclosure::new(0.1, 3.9);
 
-/// The halves of the axes, against the turn: the angle, the states at a distance r, the distance.
-const HALVES: [(&str, [&str; 2], &str); 4] = [
-    ("right", ["r", "0"], "x"),
-    ("above", ["0", "r"], "y"),
-    ("left", ["-r", "0"], "-x"),
-    ("below", ["0", "-r"], "-y"),
+/// The halves of the axes, against the turn: the name, what falls to 0 there, the states at a distance r, the distance.
+const HALVES: [(&str, &str, [&str; 2], &str); 4] = [
+    ("right", "y", ["r", "0"], "x"),
+    ("above", "-x", ["0", "r"], "y"),
+    ("left", "-y", ["-r", "0"], "-x"),
+    ("below", "x", ["0", "-r"], "-y"),
 ];
 
 /// Sectors begin at this angle before a half: orbits come to it within a finite time.
@@ -32,33 +32,31 @@ const BEFORE: f64 = 0.1;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let begin = Instant::now();
-    let oscillator = Equations::new(&["x", "y"], &[])
-        .mode_text("flow", &["y", "(1 - x^2)*y - x"])
-        .falling_text("right", "y")
-        .rising_text("left", "y")
-        .falling_text("below", "x")
-        .rising_text("above", "x");
-    let system = ValidatedSystem::new(&oscillator)?;
-    let limits = Limits { width: 1.0, ..Limits::default() };
-    let map = |variables: &[&str], states: [&str; 2], surface: &str, read: &str| {
-        let chart = system.chart("flow", variables, &states)?;
-        Ok::<_, Box<dyn Error>>(
-            SectionMap::new(&system, chart, surface, 1, &[read])?.within(limits).recorded(),
-        )
+    // One system for each half, whose surface is that half alone: other halves are crossed unseen.
+    let to_half = |(name, falls, ..): (&str, &str, [&str; 2], &str)| {
+        let free = Equations::new(&["x", "y"], &[]).mode_text("flow", &["y", "(1 - x^2)*y - x"]);
+        ValidatedSystem::new(&free.falling_text(name, falls))
     };
-    let mut certificate = Certificate::new();
+    let limits = Limits { width: 1.0, ..Limits::default() };
+    let to_the_right = to_half(HALVES[0])?;
+    let returns = |states: [&str; 2]| {
+        let chart = to_the_right.chart("flow", &["r"], &states)?;
+        let map = SectionMap::new(&to_the_right, chart, "right", 1, &["x"])?;
+        Ok::<_, Box<dyn Error>>(map.within(limits).recorded())
+    };
+    let mut certificate = Certificate::new("van_der_pol");
 
-    let returns = map(&["r"], HALVES[0].1, "right", "x")?;
-    let cycle = fixed_point(&returns, &[2.0], &[])?;
+    let own = returns(HALVES[0].2)?;
+    let cycle = fixed_point(&own, &[2.0], &[])?;
     println!("the cycle crosses at {}, multiplier {}", cycle.point[0], cycle.multipliers[0]);
-    certificate.fixed_point(&returns, &cycle)?;
-    let trap = Trap::new(&returns, &cycle, 20_000)?;
+    certificate.fixed_point(&own, &cycle)?;
+    let trap = Trap::new(&own, &cycle, 20_000)?;
     println!("a trap of size {} about it, {:?}", trap.size(), begin.elapsed());
-    let into_trap = Target::Trap(certificate.trap(&returns, &trap)?);
+    let into_trap = Target::Trap(certificate.trap(&own, &trap)?);
 
     let mut is_whole = true;
     let mut led = |map: &SectionMap<'_>, whole: &[Enclosure], target: Target| {
-        let budget = Budget { boxes: 100_000, divisions: 14 };
+        let budget = Budget { boxes: 100_000, divisions: 12 };
         let found = divided(whole, budget, halves, |part| {
             let image = map.carry(StartSet::of_box(part).without_derivatives())?;
             let is_led = match target {
@@ -73,12 +71,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         is_whole &= open == 0;
         Ok::<_, Box<dyn Error>>(certificate.leads(map, whole, &parts, target)?)
     };
-    for (number, (name, states, read)) in HALVES.into_iter().enumerate() {
-        let half = led(&map(&["r"], states, "right", "x")?, &[HALF], into_trap)?;
+    for (number, half) in HALVES.into_iter().enumerate() {
+        let (name, _, states, read) = half;
+        let from_half = led(&returns(states)?, &[HALF], into_trap)?;
         let low = number as f64 * FRAC_PI_2 + BEFORE;
         let sector = [Enclosure::new(0.5, 3.0), Enclosure::new(low, low + 1.0001 * FRAC_PI_2)];
-        let polar = map(&["r", "a"], ["r*cos(a)", "r*sin(a)"], name, read)?;
-        led(&polar, &sector, Target::Box(half))?;
+        let system = to_half(half)?;
+        let polar = system.chart("flow", &["r", "a"], &["r*cos(a)", "r*sin(a)"])?;
+        let to_it = SectionMap::new(&system, polar, name, 1, &[read])?.within(limits).recorded();
+        led(&to_it, &sector, Target::Box(from_half))?;
     }
     println!("the whole annulus converges: {is_whole}");
     if let Some(file) = std::env::args().nth(1) {

@@ -81,7 +81,6 @@ pub struct ProvedBasins {
 /// A cell with a fate.
 #[derive(Debug, Clone)]
 pub(crate) struct ProvedCell {
-    pub(crate) window: usize,
     pub(crate) points: Vec<Enclosure>,
     pub(crate) fate: ProvedFate,
 }
@@ -224,7 +223,7 @@ impl ProvedBasins {
             let share = share_of(&points, &self.cells.windows()[0]);
             self.area = (Enclosure::from(self.area) + share).low.max(self.area);
         }
-        self.decided.push(ProvedCell { window, points, fate });
+        self.decided.push(ProvedCell { points, fate });
     }
 
     /// Looks at an open cell, and at those that have waited for it if it has a fate.
@@ -319,7 +318,7 @@ impl ProvedBasins {
         self.cells.windows()
     }
 
-    /// The cells with a fate, each one behind those in which its image is.
+    /// The cells with a fate of all windows, each one behind those in which its image is.
     pub(crate) fn decided(&self) -> &[ProvedCell] {
         &self.decided
     }

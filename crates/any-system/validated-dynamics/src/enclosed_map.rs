@@ -193,7 +193,16 @@ impl<'s> SectionMap<'s> {
         }
         let read = (read.clone(), read.jacobian()?);
         let (surface, limits) = (system.surface(surface)?, Limits::default());
-        Ok(SectionMap { system, chart, surface, count, read, limits, stop: None, is_recorded: false })
+        Ok(SectionMap {
+            system,
+            chart,
+            surface,
+            count,
+            read,
+            limits,
+            stop: None,
+            is_recorded: false,
+        })
     }
 
     /// The same map within other limits of its runs.

@@ -57,8 +57,11 @@ impl Frame {
                 let along: f64 = part.iter().zip(vector).map(|(x, y)| x * y).sum();
                 Some((part, along))
             };
-            let found = left.iter().enumerate().filter_map(|(place, own)| Some((place, beside(own)?)));
-            let Some((place, (part, _))) = found.max_by(|a, b| a.1.1.total_cmp(&b.1.1)) else { break };
+            let found =
+                left.iter().enumerate().filter_map(|(place, own)| Some((place, beside(own)?)));
+            let Some((place, (part, _))) = found.max_by(|a, b| a.1.1.total_cmp(&b.1.1)) else {
+                break;
+            };
             let own = left.swap_remove(place);
             let length = norm(&own);
             kept.push(own.iter().map(|x| x / length).collect());
@@ -66,7 +69,9 @@ impl Frame {
         }
         for axis in 0..size {
             let unit = (0..size).map(|row| f64::from(row == axis)).collect();
-            if let Some(part) = orthogonal_part(unit, &orthogonal).filter(|_| orthogonal.len() < size) {
+            if let Some(part) =
+                orthogonal_part(unit, &orthogonal).filter(|_| orthogonal.len() < size)
+            {
                 kept.push(part.clone());
                 orthogonal.push(part);
             }

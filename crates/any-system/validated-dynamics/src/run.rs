@@ -1,12 +1,12 @@
 //! A run of a set of states: step after step, event after event.
 
-use crate::certificate::Record;
+use crate::certificate::{Record, WrittenSet};
 use crate::event::{ProvedEvent, holds, jumped};
 use crate::matrix::Matrix;
 use crate::piece::Piece;
 use crate::set::{AffineSet, Chain};
 use crate::surface_image::{OnSurface, on_surface};
-use crate::system::{ValidatedMode, ValidatedSystem};
+use crate::system::{ValidatedGuard, ValidatedMode, ValidatedSystem};
 use crate::tube::Tube;
 use crate::undecided::{Error, Reason};
 use crate::window::{Crossing, First, Guards};
@@ -59,6 +59,11 @@ pub struct ValidatedRun<'s> {
 /// The part of the first step of an arc on which a flow that leads beyond a surface is recognised. A longer part would not recognise one that
 /// comes back soon; the search calls this undecided.
 const SOON: f64 = 1e-3;
+
+/// A step of a run that is written down ends sooner by this factor, so often, until the written set is on the sides of all surfaces on which its
+/// states are.
+const SOONER: f64 = 0.8;
+const SOONER_TRIES: usize = 8;
 
 /// What a run does in a step.
 enum Moved {
@@ -288,9 +293,30 @@ impl<'s> ValidatedRun<'s> {
 
     /// The states after a time of a step.
     fn flow(&mut self, tube: &Tube<'_>, time: f64) -> Result<Moved, Error> {
+        let Some(record) = &mut self.record else {
+            return self.flow_until(tube, Enclosure::from(time), None);
+        };
+        // The written set is wider: where it would meet a surface that no state has met, the step ends sooner.
+        let guards = &self.system.modes[self.mode].guards;
+        let (mut time, mut written) = (time, None);
+        for _ in 0..SOONER_TRIES {
+            let set = WrittenSet::of(&tube.set_at(Enclosure::from(time)));
+            let keeps_side = |(place, guard): (usize, &ValidatedGuard)| {
+                let before = tube.guard_at(place, Enclosure::from(time)).sign();
+                let after = guard.function.enclosures(Enclosure::ZERO, set.set().hull());
+                before.is_none() || after.is_ok_and(|after| after[0].sign() == before)
+            };
+            let is_kept = guards.iter().enumerate().all(keeps_side);
+            written = Some(set);
+            if is_kept {
+                break;
+            }
+            time *= SOONER;
+        }
+        let after = written.map(|written| record.flow(time, written));
         let moved = self.flow_until(tube, Enclosure::from(time), None)?;
-        if let Some(record) = &mut self.record {
-            self.set = record.flow(time, &self.set);
+        if let Some(after) = after {
+            self.set = after;
         }
         Ok(moved)
     }

@@ -38,7 +38,8 @@ impl AffineSet {
 
     /// The points c + A r with |r_k| at most these radii.
     pub(crate) fn of_radii(centre: &[f64], directions: &DMatrix<f64>, radii: &[f64]) -> AffineSet {
-        let r: Vec<Enclosure> = radii.iter().map(|radius| Enclosure::around(0.0, *radius)).collect();
+        let r: Vec<Enclosure> =
+            radii.iter().map(|radius| Enclosure::around(0.0, *radius)).collect();
         let hull = sums(&exact(centre), &Matrix::of_numbers(directions).apply(&r));
         AffineSet {
             centre: centre.to_vec(),

@@ -3,8 +3,8 @@
 use crate::mode_series::ModeSeries;
 use crate::undecided::Error;
 use equations::{Formulas, Names};
-use serde_json::{Value, json};
 use hybrid_system::{Direction, Equations, GuardParts, Label, ModeParts, Role};
+use serde_json::{Value, json};
 
 /// A hybrid system, by its [`Equations`], whose flows and events are enclosed.
 ///

@@ -139,11 +139,7 @@ impl Trap {
     }
 
     /// The same trap, grown as long as the images of all parts of the larger one are in the one before.
-    fn grown(
-        mut self,
-        map: &impl EnclosedMap,
-        mut images: usize,
-    ) -> Result<Trap, Error> {
+    fn grown(mut self, map: &impl EnclosedMap, mut images: usize) -> Result<Trap, Error> {
         let mut factor = GROWN;
         while factor > LEAST_GROWN && self.size < LARGEST {
             let size = factor * self.size;

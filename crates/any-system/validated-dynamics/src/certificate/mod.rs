@@ -4,6 +4,7 @@ mod record;
 mod written_set;
 
 pub(crate) use record::Record;
+pub(crate) use written_set::WrittenSet;
 
 use crate::basins::{ProvedBasins, ProvedFate};
 use crate::enclosed_map::{Carried, EnclosedMap, StartSet};
@@ -41,13 +42,14 @@ const WIDER_POINT: f64 = 0.5;
 /// let system = ValidatedSystem::new(&rossler)?;
 /// let section = system.chart("flow", &["y", "z"], &["0", "y", "z"])?;
 /// let returns = SectionMap::new(&system, section, "section", 1, &["y", "z"])?.recorded();
-/// let mut certificate = Certificate::new();
+/// let mut certificate = Certificate::new("rossler");
 /// certificate.fixed_point(&returns, &fixed_point(&returns, &[-8.4, 0.03], &[])?)?;
 /// assert!(certificate.text().lines().count() == 4);
 /// # Ok::<(), validated_dynamics::Error>(())
 /// ```
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Certificate {
+    name: String,
     lines: Vec<Value>,
     systems: Vec<Value>,
     maps: Vec<Value>,
@@ -67,15 +69,24 @@ pub enum Target {
 }
 
 impl Certificate {
-    /// A certificate without statements.
-    pub fn new() -> Certificate {
-        Certificate::default()
+    /// A certificate without statements. Of names that it knows the checker says whether the file proves what it should.
+    pub fn new(name: &str) -> Certificate {
+        Certificate {
+            name: name.to_owned(),
+            lines: Vec::new(),
+            systems: Vec::new(),
+            maps: Vec::new(),
+            traps: 0,
+            led: 0,
+        }
     }
 
     /// The file: a line of JSON for each statement, behind a first line that says what the file is.
     pub fn text(&self) -> String {
         let lines = self.lines.len();
-        let header = json!({"format": FORMAT, "version": VERSION, "lines": lines});
+        let header = json!({
+            "format": FORMAT, "version": VERSION, "name": self.name, "lines": lines,
+        });
         std::iter::once(&header).chain(&self.lines).map(|line| format!("{line}\n")).collect()
     }
 
@@ -179,24 +190,28 @@ impl Certificate {
     /// The basins of traps of the file, by their numbers: a line for each cell with a fate, behind those in which its image is.
     ///
     /// # Errors
-    /// As [`fixed_point`](Self::fixed_point); [`Error::Argument`] for another number of maps or traps than that of the basins.
-    pub fn basins<M: EnclosedMap>(
+    /// As [`fixed_point`](Self::fixed_point); [`Error::Argument`] for basins of several maps, and for another number of traps than that of the basins.
+    pub fn basins(
         &mut self,
-        maps: &[&M],
+        map: &impl EnclosedMap,
         basins: &ProvedBasins,
         traps: &[usize],
     ) -> Result<(), Error> {
-        if maps.len() != basins.windows().len() || traps.len() != basins.traps().len() {
-            let given = format!("{} maps and {} traps", maps.len(), traps.len());
-            return Error::argument("basins", format!("{given}: they are those of the basins"));
+        let [window] = basins.windows() else {
+            return Error::argument("basins", "of several maps: a certificate has those of one");
+        };
+        if traps.len() != basins.traps().len() {
+            let wanted = basins.traps().len();
+            return Error::argument(
+                "traps",
+                format!("{} of them; needed are {wanted}", traps.len()),
+            );
         }
-        let numbers = maps.iter().map(|map| self.map(*map)).collect::<Result<Vec<_>, _>>()?;
-        let windows: Vec<_> = basins.windows().iter().map(|window| pairs(window)).collect();
+        let number = self.map(map)?;
         let mut cells = Vec::new();
         for cell in basins.decided() {
-            let is_inside = |trap: &Trap| cell.window == 0 && trap.contains(&cell.points);
+            let is_inside = |trap: &Trap| trap.contains(&cell.points);
             let start = || StartSet::of_box(&cell.points).without_derivatives();
-            let map = maps[cell.window];
             let run = match cell.fate {
                 ProvedFate::Trap(trap) if is_inside(&basins.traps()[trap]) => None,
                 ProvedFate::Trap(_) => Some(recorded(map.carry(start())?)?),
@@ -210,14 +225,13 @@ impl Certificate {
             };
             cells.push(json!({
                 "kind": "cell",
-                "window": cell.window,
                 "box": pairs(&cell.points),
                 "fate": fate,
                 "run": run,
             }));
         }
         self.lines.push(json!({
-            "kind": "basins", "maps": numbers, "windows": windows, "cells": cells.len(),
+            "kind": "basins", "map": number, "window": pairs(window), "cells": cells.len(),
         }));
         self.lines.extend(cells);
         Ok(())

@@ -43,8 +43,10 @@ impl Record {
     }
 
     /// The states after a flow.
-    pub(crate) fn flow(&mut self, length: f64, set: &AffineSet) -> AffineSet {
-        self.push(set, |written| Step::Flow(length, written))
+    pub(crate) fn flow(&mut self, length: f64, written: WrittenSet) -> AffineSet {
+        let set = written.set();
+        self.steps.push(Step::Flow(length, written));
+        set
     }
 
     /// The states after an event.

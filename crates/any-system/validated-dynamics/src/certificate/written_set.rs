@@ -41,7 +41,8 @@ impl WrittenSet {
             let part = sides.map(|(own, hull)| own.width() / (hull.width() + f64::MIN_POSITIVE));
             part.fold(0.0, f64::max)
         };
-        let best = found.filter(WrittenSet::is_finite).min_by(|a, b| excess(a).total_cmp(&excess(b)));
+        let best =
+            found.filter(WrittenSet::is_finite).min_by(|a, b| excess(a).total_cmp(&excess(b)));
         // The axes are their own inverse.
         best.unwrap_or_else(|| {
             let directions = DMatrix::identity(set.centre().len(), set.centre().len());
