@@ -3,7 +3,10 @@
 use crate::error::Error;
 use crate::process::{become_program, cargo, print, profile};
 use crate::repository::repository;
-use crate::{check_builds, check_certificates, check_dependencies, check_explorer, check_python};
+use crate::{
+    check_builds, check_certificates, check_dependencies, check_explorer, check_formal,
+    check_python,
+};
 use crate::{explore, python_release, regenerate, tidy};
 use std::ffi::{OsStr, OsString};
 use std::process::{Command, ExitCode};
@@ -77,6 +80,11 @@ const TASKS: [Task; 10] = [
         "check-certificates",
         Alone(check_certificates::run),
         "Prove theorems, and check their certificates by a second program: needs Python and its package index",
+    ),
+    task(
+        "check-formal",
+        Alone(check_formal::run),
+        "Build the formal proofs, and look at their axioms: needs Coq with Interval and Coquelicot",
     ),
     task(
         "check-explorer",

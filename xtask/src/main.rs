@@ -7,6 +7,7 @@ mod check_builds;
 mod check_certificates;
 mod check_dependencies;
 mod check_explorer;
+mod check_formal;
 mod check_python;
 mod commands;
 mod error;
