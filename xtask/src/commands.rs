@@ -40,7 +40,7 @@ const fn task(name: &'static str, run: Run, about: &'static str) -> Task {
 }
 
 /// The commands of this program, in the order of the help.
-const TASKS: [Task; 10] = [
+const TASKS: [Task; 11] = [
     task(
         "basin-raster",
         OfProgram("basins"),

@@ -33,6 +33,7 @@
 //! | [`fixed_point`], [`ProvedFixedPoint`], [`multipliers`] | fixed points that exist, and their multipliers in discs |
 //! | [`Trap`] | a set that is led into itself, all of whose points converge to a fixed point |
 //! | [`ProvedBasins`], [`Division`] | basins cell by cell |
+//! | [`Certificate`] | a file of statements and of the numbers of their proofs, which another program confirms |
 //! | [`divided`], [`halves`], [`Budget`] | any statement about a box, part by part |
 //! | [`AffineSet`], [`Matrix`] | sets c + C r₀ + B r, and matrices of enclosures |
 //!
@@ -62,13 +63,16 @@ mod enclosed_map;
 mod event;
 mod expansion;
 mod fixed_point;
+mod formula_map;
 mod frame;
+mod limits;
 mod matrix;
 mod mode_series;
 mod multipliers;
 mod oriented_box;
 mod piece;
 mod run;
+mod section_map;
 mod set;
 mod start;
 mod surface_image;
@@ -82,14 +86,17 @@ pub use basins::{Division, Progress, ProvedBasins, ProvedFate};
 pub use cells::MOST_SIDES;
 pub use certificate::{Certificate, Target};
 pub use division::{Budget, Divided, divided, halves};
-pub use enclosed_map::{Carried, EnclosedMap, FormulaMap, MapImage, SectionMap, StartSet};
+pub use enclosed_map::{Carried, EnclosedMap, MapImage, StartSet};
 pub use event::ProvedEvent;
 pub use fixed_point::{ProvedFixedPoint, fixed_point};
+pub use formula_map::FormulaMap;
 pub use interval_arithmetic::Enclosure;
+pub use limits::Limits;
 pub use matrix::Matrix;
 pub use multipliers::{Multiplier, multipliers};
 pub use piece::Piece;
-pub use run::{Limits, ValidatedRun};
+pub use run::ValidatedRun;
+pub use section_map::SectionMap;
 pub use set::AffineSet;
 pub use start::Chart;
 pub use system::ValidatedSystem;

@@ -1,37 +1,19 @@
 //! A run of a set of states: step after step, event after event.
 
-use crate::certificate::{Record, WrittenSet};
+use crate::certificate::Record;
 use crate::event::{ProvedEvent, holds, jumped};
+use crate::limits::Limits;
 use crate::matrix::Matrix;
 use crate::piece::Piece;
 use crate::set::{AffineSet, Chain};
 use crate::surface_image::{OnSurface, on_surface};
-use crate::system::{ValidatedGuard, ValidatedMode, ValidatedSystem};
+use crate::system::{ValidatedMode, ValidatedSystem};
 use crate::tube::Tube;
 use crate::undecided::{Error, Reason};
 use crate::window::{Crossing, First, Guards};
 use hybrid_system::Label;
 use interval_arithmetic::Enclosure;
 use std::ops::ControlFlow;
-
-/// How far a run goes before it is called undecided.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
-    /// The most steps. Ten thousand take seconds in three dimensions.
-    pub steps: usize,
-    /// The most events.
-    pub events: usize,
-    /// The latest time since the start.
-    pub time: f64,
-    /// The largest width of a component: wider sets are undecided at once, before they need many short steps.
-    pub width: f64,
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Limits { steps: 10_000, events: 1000, time: f64::INFINITY, width: f64::INFINITY }
-    }
-}
 
 /// A run of all states of a set. Each event that it returns is one of all states, with none before.
 #[derive(Debug, Clone)]
@@ -59,11 +41,6 @@ pub struct ValidatedRun<'s> {
 /// The part of the first step of an arc on which a flow that leads beyond a surface is recognised. A longer part would not recognise one that
 /// comes back soon; the search calls this undecided.
 const SOON: f64 = 1e-3;
-
-/// A step of a run that is written down ends sooner by this factor, so often, until the written set is on the sides of all surfaces on which its
-/// states are.
-const SOONER: f64 = 0.8;
-const SOONER_TRIES: usize = 8;
 
 /// What a run does in a step.
 enum Moved {
@@ -296,28 +273,9 @@ impl<'s> ValidatedRun<'s> {
         let Some(record) = &mut self.record else {
             return self.flow_until(tube, Enclosure::from(time), None);
         };
-        // The written set is wider: where it would meet a surface that no state has met, the step ends sooner.
-        let guards = &self.system.modes[self.mode].guards;
-        let (mut time, mut written) = (time, None);
-        for _ in 0..SOONER_TRIES {
-            let set = WrittenSet::of(&tube.set_at(Enclosure::from(time)));
-            let keeps_side = |(place, guard): (usize, &ValidatedGuard)| {
-                let before = tube.guard_at(place, Enclosure::from(time)).sign();
-                let after = guard.function.enclosures(Enclosure::ZERO, set.set().hull());
-                before.is_none() || after.is_ok_and(|after| after[0].sign() == before)
-            };
-            let is_kept = guards.iter().enumerate().all(keeps_side);
-            written = Some(set);
-            if is_kept {
-                break;
-            }
-            time *= SOONER;
-        }
-        let after = written.map(|written| record.flow(time, written));
+        let (time, after) = record.flow(tube, &self.system.modes[self.mode].guards, time);
         let moved = self.flow_until(tube, Enclosure::from(time), None)?;
-        if let Some(after) = after {
-            self.set = after;
-        }
+        self.set = after;
         Ok(moved)
     }
 

@@ -128,12 +128,10 @@ impl ValidatedSystem {
                 "guards": mode.guards.iter().map(guard).collect::<Vec<_>>(),
             })
         };
-        let names = &self.names;
-        let values = names.parameters.iter().zip(names.values.iter().map(ToString::to_string));
         json!({
             "kind": "system",
-            "states": names.states,
-            "parameters": values.collect::<Vec<_>>(),
+            "states": self.names.states,
+            "parameters": parameters_as_json(&self.names),
             "modes": self.modes.iter().map(mode).collect::<Vec<_>>(),
         })
     }
@@ -242,4 +240,10 @@ pub(crate) fn without_time(formulas: Formulas, reason: &str) -> Result<Formulas,
         true => Error::argument("t", reason),
         false => Ok(formulas),
     }
+}
+
+/// The names of parameters with their values as texts.
+pub(crate) fn parameters_as_json(names: &Names) -> Value {
+    let values = names.values.iter().map(ToString::to_string);
+    names.parameters.iter().zip(values).map(|(name, value)| json!([name, value])).collect()
 }

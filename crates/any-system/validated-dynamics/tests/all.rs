@@ -3,6 +3,7 @@
 
 mod attacked;
 mod basins;
+mod certificates;
 mod closed_forms;
 mod models;
 mod periodic_orbits;

@@ -4,7 +4,6 @@ mod record;
 mod written_set;
 
 pub(crate) use record::Record;
-pub(crate) use written_set::WrittenSet;
 
 use crate::basins::{ProvedBasins, ProvedFate};
 use crate::enclosed_map::{Carried, EnclosedMap, StartSet};

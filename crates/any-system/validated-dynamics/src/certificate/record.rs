@@ -2,8 +2,16 @@
 
 use super::written_set::WrittenSet;
 use crate::set::AffineSet;
+use crate::system::ValidatedGuard;
+use crate::tube::Tube;
 use hybrid_system::Label;
+use interval_arithmetic::Enclosure;
 use serde_json::{Value, json};
+
+/// A step of a run that is written down ends sooner by this factor, so often, until the written set is on the sides of all surfaces on which its
+/// states are.
+const SOONER: f64 = 0.8;
+const SOONER_TRIES: usize = 8;
 
 /// A step of a run, with the set after it.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,11 +50,34 @@ impl Record {
         self.begin.insert(written).set()
     }
 
-    /// The states after a flow.
-    pub(crate) fn flow(&mut self, length: f64, written: WrittenSet) -> AffineSet {
+    /// The states after a flow of this time of a step, or of a shorter one, which is given with them.
+    ///
+    /// The written set is wider: where it would meet a surface that no state has met, the step ends sooner.
+    pub(crate) fn flow(
+        &mut self,
+        tube: &Tube<'_>,
+        guards: &[ValidatedGuard],
+        longest: f64,
+    ) -> (f64, AffineSet) {
+        let written_at = |time| WrittenSet::of(&tube.set_at(Enclosure::from(time)));
+        let mut time = longest;
+        let mut written = written_at(time);
+        for _ in 0..SOONER_TRIES {
+            let set = written.set();
+            let keeps_side = |(place, guard): (usize, &ValidatedGuard)| {
+                let before = tube.guard_at(place, Enclosure::from(time)).sign();
+                let after = guard.function.enclosures(Enclosure::ZERO, set.hull());
+                before.is_none() || after.is_ok_and(|after| after[0].sign() == before)
+            };
+            if guards.iter().enumerate().all(keeps_side) {
+                break;
+            }
+            time *= SOONER;
+            written = written_at(time);
+        }
         let set = written.set();
-        self.steps.push(Step::Flow(length, written));
-        set
+        self.steps.push(Step::Flow(time, written));
+        (time, set)
     }
 
     /// The states after an event.

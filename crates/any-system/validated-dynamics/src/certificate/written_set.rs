@@ -100,6 +100,7 @@ fn rounded_up(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use interval_arithmetic::Enclosure;
 
     #[test]
     fn a_written_set_holds_the_set_and_is_hardly_wider() {
