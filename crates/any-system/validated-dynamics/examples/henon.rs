@@ -20,7 +20,7 @@ const QUADRILATERAL: [[f64; 2]; 4] = [[-1.33, 0.42], [1.32, 0.133], [1.245, -0.1
 const STEPS: usize = 60;
 const DIVISIONS: u32 = 11;
 
-/// Half of a thousandth of the window: the share of it whose fate may be open.
+/// The side of the window.
 const WINDOW: Enclosure = Enclosure::new(-2.0, 2.0);
 
 fn henon(a: &str) -> Result<FormulaMap, Box<dyn Error>> {
@@ -113,9 +113,8 @@ fn sides() -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
     (0..4).map(|corner| (QUADRILATERAL[corner], QUADRILATERAL[(corner + 1) % 4]))
 }
 
-/// True if all cells that meet the quadrilateral are led into it.
-///
-/// A convex quadrilateral is led into itself if its sides are, for a map that is continuous and one to one: parts of the sides are followed.
+/// True if the quadrilateral is led into itself. It is if its sides are led into it, for the map is continuous and one to one: parts of the sides
+/// are followed.
 fn is_absorbing(map: &FormulaMap) -> Result<bool, Box<dyn Error>> {
     const PARTS: usize = 20_000;
     for ([x, y], [to_x, to_y]) in sides() {
