@@ -138,8 +138,8 @@ class Step:
         """The coefficients from the centre, from all states, and those of the guards."""
         field, order, size = self.field, self.order, self.size
         ctx.cap = order + 1
-        centre = self._coefficients(list_of(self.start.centre))
-        states = self._coefficients(list_of(self.start.hull))
+        centre = solution(field, list_of(self.start.centre), order)
+        states = solution(field, list_of(self.start.hull), order)
         ctx.cap = order + 1
         _, jacobian = self._slopes(field.field, states)
         derivatives = linear_solution(jacobian, order)
@@ -153,19 +153,6 @@ class Step:
         self.centre = [terms(own, order) for own in centre]
         self.states = [terms(own, order) for own in states]
         self.derivatives = [[terms(own, order) for own in row] for row in derivatives]
-
-    def _coefficients(self, start):
-        """The power series of a solution, coefficient by coefficient: the integral of the speed gains one each time."""
-        x = [arb_series([value], prec=1) for value in start]
-        for k in range(self.order):
-            ctx.cap = k + 1
-            rates = [terms(rate, k) for rate in self.field.values(self.field.field, x, Series)]
-            ctx.cap = k + 2
-            x = [
-                arb_series([value] + [rate[j] / (j + 1) for j in range(k + 1)], prec=k + 2)
-                for value, rate in zip(start, rates)
-            ]
-        return x
 
     def _slopes(self, trees, states):
         """The values of trees along solutions, and their derivatives there, as series."""
@@ -228,6 +215,20 @@ def order_of(sizes, errors, q):
         if size > 0 and 0 < error < math.inf:
             order = max(order, math.ceil(math.log(error * (1 - q) / size) / math.log(q)))
     return order
+
+
+def solution(field, start, order):
+    """The power series of a solution, coefficient by coefficient: the integral of the speed gains one each time."""
+    x = [arb_series([value], prec=1) for value in start]
+    for k in range(order):
+        ctx.cap = k + 1
+        rates = [terms(rate, k) for rate in field.values(field.field, x, Series)]
+        ctx.cap = k + 2
+        x = [
+            arb_series([value] + [rate[j] / (j + 1) for j in range(k + 1)], prec=k + 2)
+            for value, rate in zip(start, rates)
+        ]
+    return x
 
 
 def linear_solution(jacobian, order):
