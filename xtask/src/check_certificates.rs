@@ -23,6 +23,9 @@ const ARGUMENTS: &str = "300000";
 /// Examples of validated-dynamics that write certificates, of the same name. `van_der_pol` takes twelve minutes.
 const ANY_MODEL: [&str; 4] = ["rossler", "impact_oscillator", "spring_leg", "henon"];
 
+/// Random boxes that are compared with points in 30 digits. They take ten seconds; 10⁴ were compared once.
+const BOXES: &str = "100";
+
 /// Proves, checks, and falsifies.
 pub(crate) fn run() -> Result<ExitCode, Error> {
     let folder = repository().join("target/certificates");
@@ -51,6 +54,13 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
         example.args(["--example", name, "--"]).arg(file).current_dir(repository());
         step(&mut example, name)?;
     }
+    let boxes = folder.join("boxes.txt");
+    let failed_at = Error::at(&boxes);
+    let mut example = Command::new(cargo());
+    example.args(["run", "--quiet", "--package", "validated-dynamics"]).arg(profile());
+    example.args(["--example", "random_boxes", "--", BOXES]).current_dir(repository());
+    example.stdout(std::fs::File::create(&boxes).map_err(&failed_at)?);
+    step(&mut example, "random_boxes")?;
     let script = |name: &'static str, arguments: &[&str], files: &[PathBuf]| {
         let mut command = Command::new(&python);
         command.arg(scripts.join(name)).args(arguments).args(files);
@@ -69,6 +79,8 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     let records = enclosures.stdout.take().map_or_else(Stdio::null, Stdio::from);
     let mut comparison = script("compare_functions.py", &[], &[]);
     comparison.0.stdin(records);
+    let mut flows = script("compare_flows.py", &[], &[]);
+    flows.0.stdin(std::fs::File::open(&boxes).map_err(&failed_at)?);
     // Each uses one processor.
     let compared = steps(vec![
         script("check_certificate.py", &["--sample", SAMPLE], &files),
@@ -79,6 +91,7 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
         // The bound of Theorem 68, which no certificate rests on: a larger one, which takes seconds.
         script("left_remainder.py", &["1", "--bound", "40"], &[]),
         comparison,
+        flows,
     ]);
     let written = enclosures.wait().map_err(failed)?;
     compared?;

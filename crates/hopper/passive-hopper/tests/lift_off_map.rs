@@ -205,7 +205,7 @@ fn degenerate_alpha() -> impl Strategy<Value = f64> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
 
-    /// f(α; M) = f(α; 1/M) where the first landing is not sudden, that is outside (nπ, α*_n).
+    /// f(α; M) = f(α; 1/M) where the first landing is sudden for neither, that is outside [nπ, α*_n).
     #[test]
     fn invariant_under_inversion_on_the_contact_intervals(alpha in degenerate_alpha(), e in -3.0..3.0f64) {
         let ratio = MassRatio::new(10f64.powf(e)).unwrap();
