@@ -157,7 +157,7 @@ proptest! {
     /// The tent map of slope s has the entropy ln s, as far as the proved sides say.
     #[test]
     fn tent_maps_have_the_entropy_of_their_slope(s in 1.05..2.0f64) {
-        let map = |x: Enclosure| match x.high <= 0.5 {
+        let map = |x: Enclosure| match x.high() <= 0.5 {
             true => Enclosure::from(s) * x,
             false => Enclosure::from(s) * (Enclosure::from(1.0) - x),
         };

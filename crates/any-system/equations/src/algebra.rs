@@ -240,8 +240,8 @@ impl Arithmetic for Enclosure {
     fn convolution(x: &[Self], y: &[Self]) -> Self {
         let (mut low, mut high, mut size, mut all) = (0.0, 0.0, 0.0, 0.0);
         for (x, y) in x.iter().zip(y.iter().rev()) {
-            let (a, b) = (x.low * y.low, x.low * y.high);
-            let (c, d) = (x.high * y.low, x.high * y.high);
+            let (a, b) = (x.low() * y.low(), x.low() * y.high());
+            let (c, d) = (x.high() * y.low(), x.high() * y.high());
             let (least, most) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
             low += least;
             high += most;
@@ -274,7 +274,7 @@ impl Arithmetic for Enclosure {
     }
 
     fn is_valid(&self) -> bool {
-        self.low <= self.high && self.low.is_finite() && self.high.is_finite()
+        self.low() <= self.high() && self.low().is_finite() && self.high().is_finite()
     }
 }
 
@@ -309,7 +309,7 @@ impl Algebra for Enclosure {
             Unary::Absolute => x.abs(),
             Unary::Sign => {
                 let sign = |end: f64| f64::unary(Unary::Sign, &end);
-                Enclosure::new(sign(x.low), sign(x.high))
+                Enclosure::new(sign(x.low()), sign(x.high()))
             }
         }
     }
@@ -324,12 +324,12 @@ impl Algebra for Enclosure {
             Binary::Difference => Self::difference(&x, &y),
             Binary::Product => Self::product(&x, &y),
             Binary::Quotient => Self::quotient(&x, &y),
-            Binary::Power if x.low < 0.0 => NO_VALUE,
+            Binary::Power if x.low() < 0.0 => NO_VALUE,
             Binary::Power => x.powf(y).unwrap_or(NO_VALUE),
             Binary::ArcTangent2 if x.contains(0.0) && y.contains(0.0) => NO_VALUE,
             Binary::ArcTangent2 => x.atan2(y),
-            Binary::Minimum => Enclosure::new(x.low.min(y.low), x.high.min(y.high)),
-            Binary::Maximum => Enclosure::new(x.low.max(y.low), x.high.max(y.high)),
+            Binary::Minimum => Enclosure::new(x.low().min(y.low()), x.high().min(y.high())),
+            Binary::Maximum => Enclosure::new(x.low().max(y.low()), x.high().max(y.high())),
         }
     }
 

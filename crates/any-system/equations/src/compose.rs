@@ -62,7 +62,7 @@ impl Formulas {
                 Node::Parameter(at) => self.names.values[*at].enclosure(),
                 _ => return None,
             };
-            (enclosure.low == enclosure.high).then_some(enclosure.low)
+            (enclosure.low() == enclosure.high()).then_some(enclosure.low())
         };
         let equal = |a: usize, b: usize| {
             a == b || number(a).zip(number(b)).is_some_and(|(own, other)| own == other)

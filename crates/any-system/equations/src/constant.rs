@@ -157,13 +157,13 @@ mod tests {
             ["0.2", "0.1", "1e-5", "123456789.123456789", "1e300", "3e-320", "0.30000000000000004"]
         {
             let found = decimal(text).enclosure();
-            assert_eq!(found.low.next_up(), found.high, "{text}");
+            assert_eq!(found.low().next_up(), found.high(), "{text}");
             assert!(found.contains(text.parse().unwrap()), "{text}");
         }
         // 0.2 is below its f64, 0.1 below, 0.3 above: their doubles end on …0111, …55, …9889.
-        assert_eq!(decimal("0.2").enclosure().high, 0.2);
-        assert_eq!(decimal("0.1").enclosure().high, 0.1);
-        assert_eq!(decimal("0.3").enclosure().low, 0.3);
+        assert_eq!(decimal("0.2").enclosure().high(), 0.2);
+        assert_eq!(decimal("0.1").enclosure().high(), 0.1);
+        assert_eq!(decimal("0.3").enclosure().low(), 0.3);
         for text in ["0", "0.0", "0.5", "1", "1.50", "2e3", "0.25e1", "9007199254740993e0"] {
             let exact = !text.starts_with("9007199254740993");
             assert_eq!(decimal(text).enclosure().width() == 0.0, exact, "{text}");

@@ -175,9 +175,9 @@ impl Graph {
         };
         let Node::Constant(constant) = &self.nodes[number] else { return None };
         let enclosure = constant.enclosure();
-        let value = if negative { -enclosure.low } else { enclosure.low };
+        let value = if negative { -enclosure.low() } else { enclosure.low() };
         // Larger integers are all even, and no less exact.
         let is_integer = value.fract() == 0.0 && value.abs() <= LARGEST_INTEGER;
-        (enclosure.low == enclosure.high && (is_integer || value == 0.5)).then_some(value)
+        (enclosure.low() == enclosure.high() && (is_integer || value == 0.5)).then_some(value)
     }
 }

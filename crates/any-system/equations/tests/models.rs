@@ -87,7 +87,7 @@ fn parameters_are_changed_by_name() {
     assert!(map.clone().with_parameters(&[("a", "x")]).is_err());
     // A fifth is no f64, and its enclosure knows.
     let found = map.enclosures(Enclosure::ZERO, &[Enclosure::ONE]).unwrap()[0];
-    assert!(found.low < 3.2 && 3.2 < found.high.next_up());
+    assert!(found.low() < 3.2 && 3.2 < found.high().next_up());
     assert_eq!(map.parameter_jacobian().unwrap().values(0.0, &[2.0]).unwrap(), [2.0, 1.0]);
 }
 

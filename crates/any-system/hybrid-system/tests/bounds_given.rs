@@ -185,7 +185,7 @@ fn bounds_of_another_function_are_an_error_at_the_start() {
     let shifted = |(), x: &State<1>| Some(QuasiPolynomial::polynomial(&[x[0] + 7.0, -1.0]));
     let error = falling().signal(0, shifted).run((), [1.0], 20.0).next().unwrap().unwrap_err();
     assert!(matches!(error, Error::WrongBounds { .. }), "{error}");
-    let far = |(), _: &State<1>, _, _| Some(Enclosure { low: 5.0, high: 6.0 });
+    let far = |(), _: &State<1>, _, _| Some(Enclosure::new(5.0, 6.0));
     let error = falling().enclosure(0, far).run((), [1.0], 20.0).next().unwrap().unwrap_err();
     assert!(matches!(error, Error::WrongBounds { value: 1.0, low: 5.0, high: 6.0, .. }), "{error}");
     // A signal that has lost digits next to its zero is right: 10 cos(t + φ) with x = 10 cos φ near 0.

@@ -125,7 +125,7 @@ impl HybridSystem for Planted<'_> {
             .map(|root| {
                 // Roundings of x + t, and of its difference from the root; all values are below 8.
                 let at = |t: f64| Enclosure::around(x[0] + t - root, 4.0 * f64::EPSILON * 8.0);
-                Enclosure::new(at(from).low, at(to).high)
+                Enclosure::new(at(from).low(), at(to).high())
             })
             .collect();
         match order {
@@ -141,7 +141,7 @@ impl HybridSystem for Planted<'_> {
                             .filter_map(|(j, f)| (j != i).then_some(f)),
                     )
                 })
-                .reduce(|a, b| outward(a.low + b.low, a.high + b.high)),
+                .reduce(|a, b| outward(a.low() + b.low(), a.high() + b.high())),
             _ => None,
         }
     }
@@ -152,7 +152,7 @@ impl HybridSystem for Planted<'_> {
 
 fn product(factors: impl Iterator<Item = Enclosure>) -> Enclosure {
     factors.fold(Enclosure::new(1.0, 1.0), |a, b| {
-        let ends = [a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high];
+        let ends = [a.low() * b.low(), a.low() * b.high(), a.high() * b.low(), a.high() * b.high()];
         outward(
             ends.iter().copied().fold(f64::INFINITY, f64::min),
             ends.iter().copied().fold(f64::NEG_INFINITY, f64::max),

@@ -36,8 +36,8 @@ const FUNCTIONS: [Function; 19] = [
 
 /// An integer exponent from −40 to 40, by the sign and the last bits of a number.
 fn exponent(y: Enclosure) -> i32 {
-    let size = (y.low.to_bits() % 41) as i32;
-    if y.low < 0.0 { -size } else { size }
+    let size = (y.low().to_bits() % 41) as i32;
+    if y.low() < 0.0 { -size } else { size }
 }
 
 /// Numbers in [0, 1) that fill it evenly (Weyl).
@@ -84,7 +84,9 @@ fn main() -> std::io::Result<()> {
         let (x, y) = (argument(k, k / 4), argument(3 * k + 1, k / 28));
         for (place, function) in FUNCTIONS.iter().enumerate() {
             let found = function(x, y).unwrap_or(Enclosure::new(f64::NAN, f64::NAN));
-            for number in [place as f64, x.low, x.high, y.low, y.high, found.low, found.high] {
+            for number in
+                [place as f64, x.low(), x.high(), y.low(), y.high(), found.low(), found.high()]
+            {
                 out.write_all(&number.to_le_bytes())?;
             }
         }

@@ -6,16 +6,13 @@ use std::fmt;
 
 /// An interval that holds a number, or all values of a function, for certain.
 ///
-/// The constructors [`Enclosure::between`] and [`Enclosure::point`] refuse what is no interval. The fields can be
-/// written directly by callers who know their ends. An end that is NaN is no bound: results of operations are
-/// without a bound on its side, and neither [`Enclosure::sign`] nor another test tells anything of such an
-/// interval.
+/// No interval is inverted or empty: [`Enclosure::between`] and [`Enclosure::point`] refuse what is none, and
+/// [`Enclosure::new`] makes [`Enclosure::NONE`] of it. An end that is NaN is no bound: results of operations are without a bound on
+/// its side, and neither [`Enclosure::sign`] nor another test tells anything of such an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Enclosure {
-    /// Lower bound.
-    pub low: f64,
-    /// Upper bound.
-    pub high: f64,
+    pub(crate) low: f64,
+    pub(crate) high: f64,
 }
 
 /// The two ends, shortest and exactly: `[0.5, 1]`.
@@ -43,10 +40,25 @@ impl Enclosure {
     /// All numbers: nothing is known.
     pub const WHOLE: Self = Enclosure { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
-    /// [low, high], without a check.
+    /// No interval, as IEEE 1788 has it: both ends are NaN. No test is true of it, and operations on it have no bounds.
+    pub const NONE: Self = Enclosure { low: f64::NAN, high: f64::NAN };
+
+    /// [low, high]; [`NONE`](Self::NONE) unless low ≤ high.
     #[inline]
     pub const fn new(low: f64, high: f64) -> Self {
-        Enclosure { low, high }
+        if low <= high { Enclosure { low, high } } else { Self::NONE }
+    }
+
+    /// The lower bound.
+    #[inline]
+    pub const fn low(&self) -> f64 {
+        self.low
+    }
+
+    /// The upper bound.
+    #[inline]
+    pub const fn high(&self) -> f64 {
+        self.high
     }
 
     /// [low, high].

@@ -82,9 +82,9 @@ fn fate(map: &FormulaMap, cell: &[Enclosure]) -> Result<Option<bool>, Box<dyn Er
     let mut set = AffineSet::of_box(cell);
     for _ in 0..STEPS {
         let [x, y] = set.hull() else { return Ok(None) };
-        if x.low.abs().min(x.high.abs()) >= 2.0
+        if x.low().abs().min(x.high().abs()) >= 2.0
             && x.sign().is_some()
-            && y.magnitude() <= x.low.abs().min(x.high.abs())
+            && y.magnitude() <= x.low().abs().min(x.high().abs())
         {
             return Ok(Some(false));
         }

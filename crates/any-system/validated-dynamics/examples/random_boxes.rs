@@ -83,7 +83,8 @@ fn main() -> Result<(), Error> {
             if run.advance(Enclosure::from(time)).is_err() {
                 continue;
             }
-            let pairs = |all: &[Enclosure]| all.iter().map(|x| [x.low, x.high]).collect::<Vec<_>>();
+            let pairs =
+                |all: &[Enclosure]| all.iter().map(|x| [x.low(), x.high()]).collect::<Vec<_>>();
             let (start, end) = (pairs(&start), pairs(run.set().hull()));
             println!(
                 "{}",

@@ -221,7 +221,7 @@ impl ProvedBasins {
         let Some(OpenCell { window, points, .. }) = self.open.remove(&place) else { return };
         if window == 0 {
             let share = share_of(&points, &self.cells.windows()[0]);
-            self.area = (Enclosure::from(self.area) + share).low.max(self.area);
+            self.area = (Enclosure::from(self.area) + share).low().max(self.area);
         }
         self.decided.push(ProvedCell { points, fate });
     }
@@ -310,7 +310,7 @@ impl ProvedBasins {
                 share = share + share_of(points, whole);
             }
         });
-        share.low.clamp(0.0, 1.0)
+        share.low().clamp(0.0, 1.0)
     }
 
     /// The windows.
@@ -331,7 +331,7 @@ impl ProvedBasins {
 
 /// The share of a window that a cell has.
 fn share_of(points: &[Enclosure], window: &[Enclosure]) -> Enclosure {
-    let width = |x: &Enclosure| Enclosure::from(x.high) - x.low;
+    let width = |x: &Enclosure| Enclosure::from(x.high()) - x.low();
     let sides = points.iter().zip(window).map(|(own, whole)| width(own) / width(whole));
     sides.fold(Enclosure::ONE, |share, side| share * side)
 }
@@ -346,7 +346,7 @@ fn check<M: EnclosedMap>(
         return Error::argument("windows", format!("{given} windows for {} maps", maps.len()));
     }
     for (map, window) in maps.iter().zip(windows) {
-        let is_side = |x: &Enclosure| x.low < x.high && x.width().is_finite();
+        let is_side = |x: &Enclosure| x.low() < x.high() && x.width().is_finite();
         let needed = map.dimension();
         if window.len() != needed || needed != maps[0].dimension() || !window.iter().all(is_side) {
             return Error::argument(

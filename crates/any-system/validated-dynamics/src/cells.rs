@@ -28,8 +28,8 @@ pub(crate) fn part_of(own: &[Enclosure], part: usize) -> Vec<Enclosure> {
     let half = |(axis, x): (usize, &Enclosure)| {
         let middle = x.middle();
         match part >> axis & 1 {
-            0 => Enclosure::new(x.low, middle),
-            _ => Enclosure::new(middle, x.high),
+            0 => Enclosure::new(x.low(), middle),
+            _ => Enclosure::new(middle, x.high()),
         }
     };
     own.iter().enumerate().map(half).collect()

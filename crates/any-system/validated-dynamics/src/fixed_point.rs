@@ -88,7 +88,7 @@ pub fn fixed_point(
     let krawczyk = Krawczyk { map, centre, inverse, step, parameters };
     for _ in 0..TRIES {
         let (found, all) = krawczyk.boxes(&radii)?;
-        if found.iter().zip(&all).all(|(k, x)| x.low < k.low && k.high < x.high) {
+        if found.iter().zip(&all).all(|(k, x)| x.low() < k.low() && k.high() < x.high()) {
             return krawczyk.narrowest(found, all);
         }
         // As wide as what came out, in each direction (S. M. Rump's inflation).

@@ -124,7 +124,7 @@ pub(crate) fn inverse_of(matrix: &DMatrix<f64>, near: &DMatrix<f64>) -> Option<M
     if !(epsilon < 0.5) {
         return None;
     }
-    let most = (Enclosure::from(epsilon) / (Enclosure::ONE - Enclosure::from(epsilon))).high;
+    let most = (Enclosure::from(epsilon) / (Enclosure::ONE - Enclosure::from(epsilon))).high();
     let near_identity = Matrix::from_fn(size, size, |row, column| {
         Enclosure::from(f64::from(row == column)).widened(most)
     });

@@ -123,7 +123,7 @@ pub(crate) fn dot(a: &[Enclosure], b: impl Iterator<Item = Enclosure>) -> Enclos
 pub(crate) fn row_norm(matrix: &Matrix) -> f64 {
     let sum = |row| {
         let sizes = matrix.row(row).iter().map(|x| Enclosure::from(x.magnitude()));
-        sizes.fold(Enclosure::ZERO, |sum, x| sum + x).high
+        sizes.fold(Enclosure::ZERO, |sum, x| sum + x).high()
     };
     (0..matrix.rows()).map(sum).fold(0.0, f64::max)
 }

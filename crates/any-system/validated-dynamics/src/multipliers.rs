@@ -37,17 +37,17 @@ impl Multiplier {
         let (real, imaginary) = (Enclosure::from(self.real), Enclosure::from(self.imaginary));
         let centre = (real.squared() + imaginary.squared()).sqrt().unwrap_or(Enclosure::WHOLE);
         let found = centre.widened(self.radius);
-        Enclosure::new(found.low.max(0.0), found.high)
+        Enclosure::new(found.low().max(0.0), found.high())
     }
 
     /// True if the eigenvalue is inside the unit circle for certain.
     pub fn is_inside(&self) -> bool {
-        self.size().high < 1.0
+        self.size().high() < 1.0
     }
 
     /// True if the eigenvalue is outside the unit circle for certain.
     pub fn is_outside(&self) -> bool {
-        self.size().low > 1.0
+        self.size().low() > 1.0
     }
 
     /// Bounds of an eigenvalue that is real for certain: of a disc on the real axis that meets no other one.
@@ -75,11 +75,11 @@ pub fn multipliers(matrices: &Matrix) -> Vec<Multiplier> {
     });
     let (values, radius) =
         near.unwrap_or_else(|| (vec![(0.0, 0.0); matrices.rows()], row_norm(matrices)));
-    let radii = (Enclosure::from(radius) * 2.0).high;
+    let radii = (Enclosure::from(radius) * 2.0).high();
     let meet = |a: (f64, f64), b: (f64, f64)| {
         let [real, imaginary] = [(a.0, b.0), (a.1, b.1)].map(|(x, y)| Enclosure::from(x) - y);
         let apart = (real.squared() + imaginary.squared()).sqrt();
-        !apart.is_some_and(|apart| apart.low > radii)
+        !apart.is_some_and(|apart| apart.low() > radii)
     };
     let disc = |own: usize| {
         let alone =
@@ -108,7 +108,7 @@ fn distance(
     let size = Enclosure::from(off.rows() as f64).sqrt()?;
     let more = Enclosure::ONE / (Enclosure::ONE - Enclosure::from(epsilon));
     let found = Enclosure::from(row_norm(&off)) * more * size;
-    found.high.is_finite().then_some(found.high)
+    found.high().is_finite().then_some(found.high())
 }
 
 /// The eigenvalues of a matrix of blocks.
@@ -238,7 +238,7 @@ mod tests {
     fn discs_hold_a_pair_and_a_real_eigenvalue() {
         // A turn by 1 times 0.9, and 2, in another basis.
         let (sine, cosine) = Enclosure::from(1.0).sin_cos();
-        let (c, s) = (0.9 * cosine.low, 0.9 * sine.low);
+        let (c, s) = (0.9 * cosine.low(), 0.9 * sine.low());
         let turn = DMatrix::from_row_slice(3, 3, &[c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 2.0]);
         let basis = DMatrix::from_row_slice(3, 3, &[1.0, 0.5, 0.0, 0.0, 1.0, 0.3, 0.2, 0.0, 1.0]);
         let matrix = &basis * turn * basis.clone().try_inverse().unwrap_or_default();

@@ -25,7 +25,7 @@ impl OrientedBox {
         let mut numbers = Vec::with_capacity(size * (size + 5));
         numbers.extend(set.centre());
         numbers.extend((0..size).flat_map(|row| rows.row(row).iter().copied().collect::<Vec<_>>()));
-        let ends = ranges.iter().chain(set.hull()).flat_map(|range| [range.low, range.high]);
+        let ends = ranges.iter().chain(set.hull()).flat_map(|range| [range.low(), range.high()]);
         numbers.extend(ends);
         OrientedBox { size, numbers: numbers.into() }
     }
@@ -43,7 +43,7 @@ impl OrientedBox {
 
     /// True if no point of a box along the axes is in this one, for certain.
     pub(crate) fn misses(&self, other: &[Enclosure]) -> bool {
-        let apart = |a: Enclosure, b: &Enclosure| a.high < b.low || b.high < a.low;
+        let apart = |a: Enclosure, b: &Enclosure| a.high() < b.low() || b.high() < a.low();
         if self.hull().zip(other).any(|(a, b)| apart(a, b)) {
             return true;
         }

@@ -51,7 +51,8 @@ impl<'t> Piece<'t> {
 
     /// A box of the states at some times, counted from the start of the step; `None` for times outside of it.
     pub fn states_at(&self, times: Enclosure) -> Option<Vec<Enclosure>> {
-        let inside = 0.0 <= times.low && times.low <= times.high && times.high <= self.length();
+        let inside =
+            0.0 <= times.low() && times.low() <= times.high() && times.high() <= self.length();
         inside.then(|| self.tube.states_at(times))
     }
 }

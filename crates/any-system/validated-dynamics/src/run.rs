@@ -151,7 +151,7 @@ impl<'s> ValidatedRun<'s> {
             if let Moved::Event(event) = self.step(None, watch)? {
                 return Ok(*event);
             }
-            if self.time.low > self.limits.time {
+            if self.time.low() > self.limits.time {
                 return self.undecided(Reason::NoEvent { time: self.limits.time });
             }
         }
@@ -165,10 +165,11 @@ impl<'s> ValidatedRun<'s> {
     /// # Errors
     /// As [`next_event`](Self::next_event); [`Error::Argument`] for a time before that of the states.
     pub fn advance(&mut self, time: Enclosure) -> Result<Vec<ProvedEvent>, Error> {
-        if !(time.low >= self.time.high && time.low <= time.high && time.high.is_finite()) {
+        if !(time.low() >= self.time.high() && time.low() <= time.high() && time.high().is_finite())
+        {
             return Error::argument(
                 "time",
-                format!("it must be finite, and at or after {}", self.time.high),
+                format!("it must be finite, and at or after {}", self.time.high()),
             );
         }
         let mut events = Vec::new();
@@ -204,11 +205,11 @@ impl<'s> ValidatedRun<'s> {
         let left = end.map(|end| end - self.time);
         // No step goes beyond the end for some states.
         let too_apart = Reason::Times { width: self.time.width() };
-        let is_too_long = |length: f64| left.is_some_and(|left| length > left.low);
-        if left.is_some_and(|left| !(left.low > 0.0)) {
+        let is_too_long = |length: f64| left.is_some_and(|left| length > left.low());
+        if left.is_some_and(|left| !(left.low() > 0.0)) {
             return self.undecided(too_apart);
         }
-        let longest = left.map_or(f64::INFINITY, |left| left.high);
+        let longest = left.map_or(f64::INFINITY, |left| left.high());
         let set = self.set.clone();
         let mode = self.own();
         let (tube, first) = match self.proved_step(mode, &set, longest) {
@@ -226,7 +227,7 @@ impl<'s> ValidatedRun<'s> {
             Err(reason) => self.undecided(reason),
             Ok(First::Crossing(crossing)) => {
                 let surface = mode.guards[crossing.guard].surface;
-                if left.is_some_and(|left| crossing.beyond >= left.low) {
+                if left.is_some_and(|left| crossing.beyond >= left.low()) {
                     return self.undecided(Reason::EventAtEnd { surface });
                 }
                 match on_surface(&tube, mode, crossing.guard, crossing.times) {
@@ -236,7 +237,7 @@ impl<'s> ValidatedRun<'s> {
             }
             Ok(First::Cut(time)) if is_too_long(time) => self.undecided(too_apart),
             Ok(First::Cut(time)) => self.flow(&tube, time),
-            Ok(First::Nothing) => match left.filter(|left| tube.length >= left.high) {
+            Ok(First::Nothing) => match left.filter(|left| tube.length >= left.high()) {
                 Some(left) => self.flow_until(&tube, left, end),
                 None if is_too_long(tube.length) => self.undecided(too_apart),
                 None => self.flow(&tube, tube.length),
@@ -312,7 +313,7 @@ impl<'s> ValidatedRun<'s> {
             if value.is_positive() {
                 return Err(Reason::Beyond { surface });
             }
-            if value.high > 0.0 {
+            if value.high() > 0.0 {
                 return Err(Reason::OnSurface { surface });
             }
         }

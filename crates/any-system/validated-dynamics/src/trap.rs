@@ -260,7 +260,7 @@ impl Trap {
     /// True unless no point of a box is in the trap, for certain.
     pub(crate) fn meets(&self, points: &[Enclosure]) -> bool {
         let coordinates = self.inverse.apply(&offsets(points, &self.centre));
-        coordinates.iter().all(|u| u.low <= self.size && -self.size <= u.high)
+        coordinates.iter().all(|u| u.low() <= self.size && -self.size <= u.high())
     }
 
     /// True if all points of a set are in the trap.

@@ -328,7 +328,7 @@ impl Step<'_> {
     ) -> bool {
         coefficients.zip(beyond).zip(guesses).all(|((coefficients, beyond), guess)| {
             let found = self.at_all_times(coefficients, last(beyond));
-            guess.low < found.low && found.high < guess.high
+            guess.low() < found.low() && found.high() < guess.high()
         })
     }
 }

@@ -72,7 +72,7 @@ impl Guards<'_, '_> {
             return Err(Reason::Grazing { surface });
         }
         let times = self.narrower(guard, Enclosure::new(from, to));
-        self.are_others_clear(guard, times.high)?;
+        self.are_others_clear(guard, times.high())?;
         Ok(First::Crossing(Crossing { guard, times, beyond: to }))
     }
 

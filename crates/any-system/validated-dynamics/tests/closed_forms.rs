@@ -75,7 +75,7 @@ proptest! {
         let mut run = system.start_box("flow", &[domain]).unwrap();
         run.advance(Enclosure::from(time)).unwrap();
         let decay = interval_arithmetic::exp(-time);
-        for x in [domain.low, start, domain.high] {
+        for x in [domain.low(), start, domain.high()] {
             let exact = 1.0 / (1.0 + (1.0 / x - 1.0) * decay);
             prop_assert!(holds(run.set().hull()[0], exact));
             let slope = decay * (exact / x) * (exact / x);
@@ -108,7 +108,7 @@ proptest! {
         let ended = run.next_event_watched(&mut |piece| {
             let inside = part * piece.length();
             let states = piece.states_at(Enclosure::from(inside)).unwrap();
-            let exact = x * pxfm_sin(piece.time().low + inside + std::f64::consts::FRAC_PI_2);
+            let exact = x * pxfm_sin(piece.time().low() + inside + std::f64::consts::FRAC_PI_2);
             assert!(states[0].widened(1e-12).contains(exact));
             assert!(piece.states_at(Enclosure::new(0.0, piece.length())).unwrap()[0].contains(exact));
             assert!(piece.states_at(Enclosure::from(2.0 * piece.length())).is_none());

@@ -80,8 +80,8 @@ fn a_doubled_orbit_lies_between_two_parameters() {
         let found = fixed_point(&FormulaMap::new(map, 1).unwrap(), &[0.66], &[]).unwrap();
         found.multipliers[0].real().unwrap()
     };
-    assert!(multiplier("2.999999999").low > -1.0);
-    assert!(multiplier("3.000000001").high < -1.0);
+    assert!(multiplier("2.999999999").low() > -1.0);
+    assert!(multiplier("3.000000001").high() < -1.0);
 }
 
 #[test]

@@ -35,7 +35,7 @@ fn enclosed(n: u64) -> Enclosure {
     let first = Enclosure::around(computed, FIRST_REACH * computed);
     let second = image(first);
     // The image of (nπ, (n+½)π] lies in it, so that this always holds the fixed point.
-    let safe = Enclosure::new((PI * n as f64).low, (PI * (n as f64 + 0.5)).high);
+    let safe = Enclosure::new((PI * n as f64).low(), (PI * (n as f64 + 0.5)).high());
     if second.is_inside(&first) { image(second) } else { safe }
 }
 

@@ -74,7 +74,7 @@ impl ProvedCrisis {
         let open = Error::Open { what: "the touch", n, mass_ratio: f64::NAN };
         // W is largest at h = ½α*_{2n+1}, left of the touch; T is positive at the end.
         let mut low = HalfFlight::at(0.5 * fixed_point(2 * n + 1).middle()).start_speed(0.0);
-        let mut high = (PI * (n + 1) as f64).low;
+        let mut high = (PI * (n + 1) as f64).low();
         let sign = |alpha: f64| AtSpeed::new(n, alpha).and_then(|at| at.t.sign());
         for _ in 0..HALVINGS {
             let middle = low.midpoint(high);
@@ -105,7 +105,7 @@ impl ProvedCrisis {
             return Err(open);
         };
         let by_w = Enclosure::ONE / (4.0 * w_over(&first, n));
-        let mu = Enclosure::new(by_w.low, by_w.high.min(left.q.high).min(right.q.high));
+        let mu = Enclosure::new(by_w.low(), by_w.high().min(left.q.high()).min(right.q.high()));
         Ok(ProvedCrisis { n, speed, mu })
     }
 
@@ -123,17 +123,17 @@ impl ProvedCrisis {
 /// # Errors
 /// [`Error::Open`] if no trap is proved, [`Error::Basin`] for a hump that the library does not have.
 pub fn proved_trap(n: u64, strip: &Strip) -> Result<Interval, Error> {
-    let left = fixed_point(n).high;
-    let open = Error::Open { what: "the trap", n, mass_ratio: strip.mass_ratios.low };
+    let left = fixed_point(n).high();
+    let open = Error::Open { what: "the trap", n, mass_ratio: strip.mass_ratios.low() };
     let touch = ProvedCrisis::new(n)?;
-    let end = (PI * (n + 1) as f64).low;
-    let heaviest = strip.mass_ratios.high;
-    if strip.mu.high < touch.mu.low {
+    let end = (PI * (n + 1) as f64).low();
+    let heaviest = strip.mass_ratios.high();
+    if strip.mu.high() < touch.mu.low() {
         // f stays above α*_n on the contact part. Where it rises over the window beyond, the trap reaches to the
         // next fixed point (docs/theory.md, Corollary 94).
         let rises = heaviest < 1.0
             && rising_window(n + 1).is_some_and(|window| heaviest <= window.largest_mass_ratio);
-        return Ok(Interval { left, right: if rises { fixed_point(n + 1).low } else { end } });
+        return Ok(Interval { left, right: if rises { fixed_point(n + 1).low() } else { end } });
     }
     // The edge is at the largest μ of the strip: that of an end, or M = 1.
     let steepest = if strip.mass_ratios.contains(1.0) {
@@ -141,17 +141,17 @@ pub fn proved_trap(n: u64, strip: &Strip) -> Result<Interval, Error> {
     } else if heaviest < 1.0 {
         heaviest
     } else {
-        strip.mass_ratios.low
+        strip.mass_ratios.low()
     };
     let trap = Trap::new(n, MassRatio::new(steepest)?)?;
     let computed = match trap.edge {
         TrapEdge::Crossing => fixed_point(n).middle() + trap.delta,
-        TrapEdge::ContactEnd | TrapEdge::NextFixedPoint => touch.speed.low,
+        TrapEdge::ContactEnd | TrapEdge::NextFixedPoint => touch.speed.low(),
     };
     let is_inside = |right: f64| {
-        AtSpeed::new(n, right).is_some_and(|at| at.q.low > strip.mu.high && at.t.is_negative())
+        AtSpeed::new(n, right).is_some_and(|at| at.q.low() > strip.mu.high() && at.t.is_negative())
     };
-    let first = computed.min(touch.speed.low);
+    let first = computed.min(touch.speed.low());
     let steps = (0..STEPS as i32).map(|k| first - first * f64::EPSILON * 4f64.powi(k));
     let proved = steps.take_while(|&right| right > left).find(|&right| is_inside(right));
     let Some(mut right) = proved else { return Err(open) };
@@ -166,5 +166,5 @@ pub fn proved_trap(n: u64, strip: &Strip) -> Result<Interval, Error> {
 
 /// The map is certainly below α*_n at a speed of the contact part of hump n, at all mass ratios of a strip.
 pub(crate) fn falls_below(n: u64, speed: f64, strip: &Strip) -> bool {
-    AtSpeed::new(n, speed).is_some_and(|at| at.q.high < strip.mu.low)
+    AtSpeed::new(n, speed).is_some_and(|at| at.q.high() < strip.mu.low())
 }

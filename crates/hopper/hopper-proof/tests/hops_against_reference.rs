@@ -78,7 +78,7 @@ fn end(images: &ProvedImages, speed: f64) -> ImagedSpeed {
 fn excess(images: &ProvedImages, speed: f64) -> [f64; 2] {
     let SpeedImage::Within(low, high) = images.of_speed(speed) else { return [f64::INFINITY; 2] };
     let ratios = images.strip().mass_ratios;
-    [ratios.low, ratios.high].iter().fold([f64::INFINITY; 2], |[down, up], &ratio| {
+    [ratios.low(), ratios.high()].iter().fold([f64::INFINITY; 2], |[down, up], &ratio| {
         let alone = ProvedImages::new(Strip::at(ratio).unwrap(), 40.0).unwrap();
         match alone.of_speed(speed) {
             SpeedImage::Within(from, to) => [down.min(to - low), up.min(high - from)],
@@ -134,7 +134,7 @@ fn images_of_intervals_hold_those_of_their_speeds() {
             known += 1;
             let place = |step: f64| low + width * part(k, step);
             let alpha = place(0.569_840_290_998_053);
-            let mass = strip.mass_ratios.low
+            let mass = strip.mass_ratios.low()
                 + strip.mass_ratios.width() * 0.999 * part(k, 0.438_579_021_1);
             let image = map(mass).image(alpha).unwrap();
             match all {

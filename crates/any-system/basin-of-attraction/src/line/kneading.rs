@@ -51,8 +51,8 @@ impl KneadingSequence {
         let mut at = map(critical);
         while sides.len() < most {
             let side = match at {
-                at if at.high < critical.low => Side::Left,
-                at if at.low > critical.high => Side::Right,
+                at if at.high() < critical.low() => Side::Left,
+                at if at.low() > critical.high() => Side::Right,
                 at if at == critical && at.width() == 0.0 => Side::Centre,
                 _ => break,
             };
@@ -106,7 +106,7 @@ impl KneadingSequence {
                 return known;
             }
             let rest = t.powi(signs.len() as i32) / (Enclosure::from(1.0) - t);
-            known + Enclosure::new(-rest.high, rest.high)
+            known + Enclosure::new(-rest.high(), rest.high())
         };
         // Up to `positive` there is no zero, and at `negative` there was one.
         let (positive, negative) = first_zero(determinant, MOST_TERMS / signs.len());

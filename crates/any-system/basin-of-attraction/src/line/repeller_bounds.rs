@@ -66,7 +66,7 @@ pub fn repeller_bounds(
     let image = |k: usize| {
         let ends = [interval.left, interval.right].map(|y| Some(inverse(k, Enclosure::from(y))?.0));
         match ends {
-            [Some(a), Some(b)] => [a.low.min(b.low), a.high.max(b.high)],
+            [Some(a), Some(b)] => [a.low().min(b.low()), a.high().max(b.high())],
             _ => [f64::NAN; 2],
         }
     };
@@ -76,8 +76,8 @@ pub fn repeller_bounds(
     let logarithm =
         |x: f64| Enclosure::from(x).ln().unwrap_or(Enclosure::new(f64::NEG_INFINITY, 0.0));
     let escape_rate = Bounds {
-        lower: (-logarithm(at_one.upper).high).max(0.0),
-        upper: (-logarithm(at_one.lower).low).max(0.0),
+        lower: (-logarithm(at_one.upper).high()).max(0.0),
+        upper: (-logarithm(at_one.lower).low()).max(0.0),
     };
     Ok(RepellerBounds { dimension: operator.dimension(), escape_rate })
 }
@@ -107,8 +107,8 @@ impl Operator {
         for image in images {
             for k in 0..branches {
                 let (_, slope) = inverse(k, image).ok_or_else(none)?;
-                if !(slope.is_positive() && slope.high.is_finite()) {
-                    return Err(refused("the slope of an inverse branch", slope.low, ""));
+                if !(slope.is_positive() && slope.high().is_finite()) {
+                    return Err(refused("the slope of an inverse branch", slope.low(), ""));
                 }
                 slopes.push(slope);
             }
@@ -164,8 +164,8 @@ impl Operator {
             }
             let ratio = sum / Enclosure::from(function[word]);
             // What is no number bounds nothing.
-            let (low, high) = if ratio.low <= ratio.high {
-                (ratio.low, ratio.high)
+            let (low, high) = if ratio.low() <= ratio.high() {
+                (ratio.low(), ratio.high())
             } else {
                 (0.0, f64::INFINITY)
             };
@@ -188,7 +188,7 @@ impl Operator {
         let lower = below.find(|s| self.bounds(*s).lower >= 1.0).unwrap_or(0.0);
         let upper = above.find(|s| self.bounds(*s).upper <= 1.0).unwrap_or(1.0);
         // One branch that contracts has one point.
-        let contracts = self.slopes.iter().all(|slope| slope.high < 1.0);
+        let contracts = self.slopes.iter().all(|slope| slope.high() < 1.0);
         Bounds { lower, upper: if self.branches == 1 && contracts { 0.0 } else { upper } }
     }
 }

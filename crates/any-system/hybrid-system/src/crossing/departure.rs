@@ -126,7 +126,7 @@ pub(crate) fn departure<F: GuardedFlow>(
         if longest == 0.0 {
             let rate = enclosure(1, (0.0, 0.0));
             let side =
-                rate.and_then(|rate| (rate.low > 0.0 || rate.high < 0.0).then_some(rate.low));
+                rate.and_then(|rate| (rate.low() > 0.0 || rate.high() < 0.0).then_some(rate.low()));
             return Ok(side.map_or(Departure::Stays, |side| to(side, Certainty::Certain)));
         }
         let guard = EnclosedGuard { value: |time| flow.guard_at(surface, time), enclosure };

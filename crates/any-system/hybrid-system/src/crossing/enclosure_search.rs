@@ -53,7 +53,8 @@ where
     fn enclosed(&self, order: u32, times: (f64, f64)) -> Result<Option<Enclosure>, Error> {
         match (self.enclosure)(order, times) {
             // The condition is also true for NaN.
-            Some(Enclosure { low, high }) if !(low <= high) => {
+            Some(found) if !(found.low() <= found.high()) => {
+                let (low, high) = (found.low(), found.high());
                 Err(Error::BadEnclosure { order, from: times.0, to: times.1, low, high })
             }
             other => Ok(other),
@@ -108,7 +109,7 @@ where
             .flatten()
             .map(Enclosure::magnitude)
             .fold(f64::INFINITY, f64::min);
-        if here.sign().is_none() && farthest <= HIDDEN * 0.5 * (here.high - here.low) {
+        if here.sign().is_none() && farthest <= HIDDEN * 0.5 * (here.high() - here.low()) {
             return Ok(ZeroTest::Hidden);
         }
         Ok(ZeroTest::Undecided)
@@ -136,7 +137,7 @@ where
                 let Some(bound) = self.enclosed(order, (from, from + length))? else { break };
                 if let Some(side) = bound.sign() {
                     // g⁽ᵏ⁾ keeps its sign up to this time: |g| ≥ leading τᵏ − Σ lower[j] τʲ, τ = t − from.
-                    let leading = bound.low.abs().min(bound.high.abs()) / factorial;
+                    let leading = bound.low().abs().min(bound.high().abs()) / factorial;
                     let ratio = |j: u32| f64::from(order) * lower[j as usize] / leading;
                     // From `clear` on, each of the lower terms (fewer than k) is at most leading τᵏ/(2k).
                     let clear = (1..order)
@@ -163,13 +164,13 @@ where
     fn root_error(&self, time: f64, left: f64, right: f64) -> Result<f64, Error> {
         let here = self.around(0, time)?.magnitude();
         let slope = self.around(1, time)?;
-        let error = 2.0 * here / slope.low.abs().min(slope.high.abs());
+        let error = 2.0 * here / slope.low().abs().min(slope.high().abs());
         let times = ((time - error).max(left), (time + error).min(right));
         // The first condition is false for NaN, and for a model that gives no slopes.
         if times.0 <= times.1
             && let Some(slopes) = self.enclosed(1, times)?
             && slopes.sign().is_some()
-            && slopes.low.abs().min(slopes.high.abs()) * error >= here
+            && slopes.low().abs().min(slopes.high().abs()) * error >= here
         {
             return Ok(error.min(right - left));
         }

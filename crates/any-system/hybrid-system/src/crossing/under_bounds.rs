@@ -69,8 +69,9 @@ const AGREEMENT: f64 = 1e-6;
 fn check_bounds_at_start<F: GuardedFlow>(
     flow: &F,
     surface: F::Surface,
-    Enclosure { low, high }: Enclosure,
+    bounds: Enclosure,
 ) -> Result<(), Error> {
+    let (low, high) = (bounds.low(), bounds.high());
     let (start, guard) = (flow.start(), |state: &F::State| flow.guard_value(surface, state));
     let value = guard(start);
     let outside = (low - value).max(value - high);

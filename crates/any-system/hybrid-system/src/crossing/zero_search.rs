@@ -362,6 +362,6 @@ impl ZeroSearch {
 
 /// True if all values of the interval exceed [`CLEAR`] times its half width.
 fn is_clear(value: &Enclosure) -> bool {
-    let error = 0.5 * (value.high - value.low);
+    let error = 0.5 * (value.high() - value.low());
     value.widened((CLEAR - 1.0) * error).sign().is_some()
 }

@@ -7,7 +7,7 @@ use interval_arithmetic::Enclosure;
 const SMALLEST_EXACT: f64 = 1e-290;
 
 fn numbers(a: Enclosure, b: Enclosure) -> Option<(f64, f64)> {
-    (a.low == a.high && b.low == b.high).then_some((a.low, b.low))
+    (a.low() == a.high() && b.low() == b.high()).then_some((a.low(), b.low()))
 }
 
 /// a + b.
@@ -51,7 +51,7 @@ pub(super) fn quotient(a: Enclosure, b: Enclosure) -> Enclosure {
     if let Some((x, y)) = numbers(a, b) {
         let quotient = x / y;
         let back = product(Enclosure::from(quotient), b);
-        if back.low == back.high && back.low == x {
+        if back.low() == back.high() && back.low() == x {
             return Enclosure::from(quotient);
         }
     }
@@ -70,7 +70,7 @@ mod tests {
         assert_eq!(product(n(3.0), n(-0.5)), n(-1.5));
         assert_eq!(quotient(n(1.0), n(-4.0)), n(-0.25));
         for inexact in [sum(n(1.0), n(1e-20)), product(n(0.1), n(0.1)), quotient(n(1.0), n(3.0))] {
-            assert!(inexact.low < inexact.high, "{inexact:?}");
+            assert!(inexact.low() < inexact.high(), "{inexact:?}");
         }
     }
 }

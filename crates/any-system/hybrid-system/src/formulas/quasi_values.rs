@@ -20,7 +20,7 @@ fn is_short(function: &QuasiPolynomial) -> bool {
 /// A number with the bound on its error that holds an enclosure.
 pub(super) fn with_error(number: Enclosure) -> Rounded {
     let value = number.middle();
-    let error = (number.high - value).max(value - number.low);
+    let error = (number.high() - value).max(value - number.low());
     Rounded { value, error: if error == 0.0 { 0.0 } else { error.next_up() } }
 }
 

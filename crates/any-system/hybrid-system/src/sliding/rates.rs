@@ -76,8 +76,8 @@ fn by_enclosure<T: HybridSystem>(
 ) -> Option<GuardRates> {
     let derivative = |order| {
         let interval = system.guard_enclosure(mode, surface, state, order, (0.0, 0.0))?;
-        let middle = interval.low + 0.5 * (interval.high - interval.low);
-        Some(Estimate { value: middle, error: 0.5 * (interval.high - interval.low) })
+        let middle = interval.low() + 0.5 * (interval.high() - interval.low());
+        Some(Estimate { value: middle, error: 0.5 * (interval.high() - interval.low()) })
     };
     Some(GuardRates { first: derivative(1)?, second: derivative(2) })
 }

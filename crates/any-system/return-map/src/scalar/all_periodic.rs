@@ -117,7 +117,7 @@ fn search(
     while let Some(interval) = todo.pop() {
         looked_at += 1;
         if looked_at > MOST_INTERVALS {
-            return Err(Error::ManyPieces { left, at: interval.low, most: MOST_INTERVALS });
+            return Err(Error::ManyPieces { left, at: interval.low(), most: MOST_INTERVALS });
         }
         match equation.look(interval) {
             Look::None => {}
@@ -126,7 +126,7 @@ fn search(
                 let is_known = |known: &ProvedPoint| {
                     point.at.is_inside(&known.alone_in) || known.at.is_inside(&point.alone_in)
                 };
-                let is_outside = point.at.high < left || point.at.low > right;
+                let is_outside = point.at.high() < left || point.at.low() > right;
                 if !is_outside && !found.points.iter().any(is_known) {
                     found.points.push(point);
                 }
@@ -138,20 +138,20 @@ fn search(
                 };
                 let middle = interval.middle();
                 let is_narrow = interval.width() <= part * (right - left)
-                    || middle <= interval.low
-                    || middle >= interval.high;
+                    || middle <= interval.low()
+                    || middle >= interval.high();
                 match (is_narrow, found.undecided.last_mut()) {
-                    (true, Some(last)) if last.1 == interval.low => last.1 = interval.high,
-                    (true, _) => found.undecided.push((interval.low, interval.high)),
+                    (true, Some(last)) if last.1 == interval.low() => last.1 = interval.high(),
+                    (true, _) => found.undecided.push((interval.low(), interval.high())),
                     (false, _) => {
                         // The left half comes first.
-                        todo.push(Enclosure::new(middle, interval.high));
-                        todo.push(Enclosure::new(interval.low, middle));
+                        todo.push(Enclosure::new(middle, interval.high()));
+                        todo.push(Enclosure::new(interval.low(), middle));
                     }
                 }
             }
         }
-        let rest = todo.last().map_or(right, |next| next.low);
+        let rest = todo.last().map_or(right, |next| next.low());
         if progress((rest - left) / (right - left)).is_break() {
             if rest < right {
                 found.undecided.push((rest, right));
@@ -159,7 +159,7 @@ fn search(
             break;
         }
     }
-    found.points.sort_by(|a, b| a.at.low.total_cmp(&b.at.low));
+    found.points.sort_by(|a, b| a.at.low().total_cmp(&b.at.low()));
     // Beside a proved point nothing is undecided.
     let points = &found.points;
     found.undecided.retain(|&(low, high)| {
@@ -237,7 +237,7 @@ impl Equation {
             let middle = Enclosure::from(at.middle());
             let (off, _) = self.value(middle, period)?;
             let next = middle - off / derivative;
-            if at.low < next.low && next.high < at.high {
+            if at.low() < next.low() && next.high() < at.high() {
                 proved = true;
             } else if !proved {
                 // The first step decides: without a proof on the whole interval there may be none.

@@ -259,7 +259,7 @@ impl Certificate {
 }
 
 fn pairs(all: &[Enclosure]) -> Vec<[f64; 2]> {
-    all.iter().map(|x| [x.low, x.high]).collect()
+    all.iter().map(|x| [x.low(), x.high()]).collect()
 }
 
 fn recorded(carried: Carried) -> Result<Value, Error> {

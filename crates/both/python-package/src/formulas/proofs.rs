@@ -33,13 +33,13 @@ type Found =
     (Vec<Ends>, Vec<Ends>, Vec<(f64, f64, f64)>, bool, bool, Vec<(String, Ends, Vec<Ends>)>);
 
 fn ends(all: &[Enclosure]) -> Vec<Ends> {
-    all.iter().map(|x| (x.low, x.high)).collect()
+    all.iter().map(|x| (x.low(), x.high())).collect()
 }
 
 fn found(orbit: &ProvedFixedPoint) -> Found {
     let disc = |own: &Multiplier| (own.real, own.imaginary, own.radius);
     let event = |own: &ProvedEvent| {
-        (own.surface.to_string(), (own.time.low, own.time.high), ends(&own.after))
+        (own.surface.to_string(), (own.time.low(), own.time.high()), ends(&own.after))
     };
     (
         ends(&orbit.point),

@@ -9,7 +9,7 @@ pub(crate) fn fraction(numerator: f64, denominator: f64) -> Enclosure {
 
 /// The cube root; pxfm rounds it correctly.
 pub(crate) fn cube_root(of: Enclosure) -> Enclosure {
-    Enclosure::new(pxfm::f_cbrt(of.low).next_down(), pxfm::f_cbrt(of.high).next_up())
+    Enclosure::new(pxfm::f_cbrt(of.low()).next_down(), pxfm::f_cbrt(of.high()).next_up())
 }
 
 /// The numbers from `low` to `high` in `parts` parts.

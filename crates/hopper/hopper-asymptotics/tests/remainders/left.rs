@@ -113,7 +113,7 @@ impl Left {
         };
         for t in split(0.0, WIDTH, PARTS) {
             let omega = first.omega.range(t);
-            if (omega * t).low > LARGEST_ROOT {
+            if (omega * t).low() > LARGEST_ROOT {
                 return ranges;
             }
             let cube = omega.squared() * omega;

@@ -35,7 +35,7 @@ fn inverse_speeds() -> Vec<Enclosure> {
         let a = alpha_star(n);
         Enclosure::from(1.0) / Enclosure::new(a.next_down(), a.next_up())
     };
-    let rest = split(0.0, inverse(SINGLE + 1).high, PARTS_OF_THE_REST);
+    let rest = split(0.0, inverse(SINGLE + 1).high(), PARTS_OF_THE_REST);
     (1..=SINGLE).map(inverse).chain(rest).collect()
 }
 
@@ -51,7 +51,7 @@ fn right_remainders_are_below_their_bounds() {
             assert!(right.remainder.magnitude() <= 0.445, "{p:?} {mu:?} {:?}", right.remainder);
             assert!(right.trap_remainder.magnitude() <= 6.155, "{p:?} {mu:?}");
             assert!(
-                right.loss.low >= right::SMALLEST_LOSS && right.loss.high <= 1.15,
+                right.loss.low() >= right::SMALLEST_LOSS && right.loss.high() <= 1.15,
                 "{p:?} {:?}",
                 right.loss
             );
@@ -72,10 +72,13 @@ fn the_left_remainder_is_below_its_bound() {
             let mu = |kappa: f64| {
                 Enclosure::from(kappa) * (Enclosure::from(1.0) - Enclosure::from(kappa))
             };
-            let mu = mu(kappa.low).hull(&mu(kappa.high));
+            let mu = mu(kappa.low()).hull(&mu(kappa.high()));
             let left = Left::new(p, kappa, mu);
             assert!(left.remainder.magnitude() <= 8.79, "{p:?} {kappa:?} {:?}", left.remainder);
-            assert!(left.second_excess.high < 0.0 && left.velocity.high < 0.0, "{p:?} {kappa:?}");
+            assert!(
+                left.second_excess.high() < 0.0 && left.velocity.high() < 0.0,
+                "{p:?} {kappa:?}"
+            );
         }
     }
     const { assert!(LeftExpansion::REMAINDER > 8.79) };
@@ -90,7 +93,7 @@ fn one_hop_changes_the_number_of_hops_by_one() {
         for z in split(0.0, 1.0, 256) {
             let found = right::hop_remainder(p, mu, z, RightExpansion::REMAINDER);
             // (0.55 + 0.3 λ³) v³ over (v + s)³, s = λv, at the corner where it is smallest.
-            let bound = constant * (1.0 - z.high).powi(3) + cubic * z.low.powi(3);
+            let bound = constant * (1.0 - z.high()).powi(3) + cubic * z.low().powi(3);
             assert!(found.magnitude() < bound, "{p:?} {z:?}: {found:?} {bound}");
         }
     }
@@ -110,7 +113,7 @@ fn the_slope_of_the_number_of_hops_is_near_one() {
             }
         }
     }
-    assert!(range.low >= 0.69 && range.high <= 1.2, "{range:?}");
+    assert!(range.low() >= 0.69 && range.high() <= 1.2, "{range:?}");
 }
 
 /// Theorem 71: small hops, and the fixed points.
@@ -122,7 +125,7 @@ fn remainders_of_small_hops_and_fixed_points_are_below_their_bounds() {
         assert!(found.magnitude() <= 2.365, "{mu:?} {found:?}");
     }
     let found = others::fixed_point_remainder();
-    assert!(found.low > 4.7 && found.high < 5.177, "{found:?}");
+    assert!(found.low() > 4.7 && found.high() < 5.177, "{found:?}");
     const { assert!(SMALL_HOP_REMAINDER > 2.365 && FIXED_POINT_REMAINDER > 5.177) };
 }
 
@@ -147,8 +150,11 @@ fn enclosures_are_near_values_of_the_map() {
             let v = delta.cbrt();
             let series = RightExpansion::new(n, ratio).unwrap().loss(delta).unwrap().value;
             let rest = (exact - series) / (lambda * delta * delta * delta);
-            assert!(right.remainder.low <= rest && rest <= right.remainder.high, "{n} {m} {rest}");
-            assert!(right.loss.low <= exact / (lambda * delta * v));
+            assert!(
+                right.remainder.low() <= rest && rest <= right.remainder.high(),
+                "{n} {m} {rest}"
+            );
+            assert!(right.loss.low() <= exact / (lambda * delta * v));
         }
         let series = LeftExpansion::new(n, ratio).unwrap();
         for delta in [1.0, 0.3, 0.1].map(|part| part * series.range()) {
@@ -156,7 +162,7 @@ fn enclosures_are_near_values_of_the_map() {
             let rest = (exact - series.loss(-delta).unwrap().value)
                 / (10.0 * lambda * delta.cbrt() * delta * delta);
             let found = left.remainder;
-            assert!(found.low <= rest && rest <= found.high, "{n} {m} {rest} {found:?}");
+            assert!(found.low() <= rest && rest <= found.high(), "{n} {m} {rest} {found:?}");
         }
     }
 }

@@ -84,7 +84,7 @@ impl Model {
     pub(crate) fn power(&self, s: f64, root_of_constant: Enclosure) -> Self {
         let order = self.terms.len();
         let constant = self.terms[0];
-        assert!(constant.low > 0.0);
+        assert!(constant.low() > 0.0);
         let mut w = self.scaled(Enclosure::from(1.0) / constant);
         w.terms[0] = Enclosure::from(0.0);
         let norm = w.norm();

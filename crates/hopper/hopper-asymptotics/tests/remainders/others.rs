@@ -45,7 +45,7 @@ pub(crate) fn small_hop_remainder(mu: Enclosure) -> Enclosure {
     let mut range = Enclosure::from(0.0);
     for h in split(0.0, WIDTH, 40) {
         let alpha = alpha.range(h);
-        if (alpha * h).low > LARGEST_ALPHA {
+        if (alpha * h).low() > LARGEST_ALPHA {
             return range;
         }
         range = range.hull(&(remainder.range(h) / alpha.squared().squared()));
@@ -81,5 +81,5 @@ pub(crate) fn fixed_point_remainder() -> Enclosure {
     let residual = (&(&x * &angle) - &(&w * &sum)).without(11);
     let range = residual.range(Enclosure::new(0.0, WIDTH));
     // F′ = α²/(1+α²) lies between 0.9528 and 1 for α ≥ 4.4934.
-    Enclosure::new(range.low, (range / Enclosure::new(0.9528, 1.0)).high)
+    Enclosure::new(range.low(), (range / Enclosure::new(0.9528, 1.0)).high())
 }

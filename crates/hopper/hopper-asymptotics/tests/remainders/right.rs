@@ -73,7 +73,7 @@ impl Right {
         };
         for t in split(0.0, WIDTH, PARTS) {
             let omega = first.omega.range(t);
-            if (omega * t).low > LARGEST_ROOT {
+            if (omega * t).low() > LARGEST_ROOT {
                 return ranges;
             }
             let loss = loss.range(t);
@@ -81,7 +81,7 @@ impl Right {
             ranges.loss = ranges.loss.hull(&loss);
             ranges.remainder = ranges.remainder.hull(&(remainder.range(t) / fifth));
             let ratio = omega * loss; // ε/t
-            if (ratio * t).low <= 1.0 / 3.0 {
+            if (ratio * t).low() <= 1.0 / 3.0 {
                 let cube = ratio.squared() * ratio;
                 ranges.trap_remainder = ranges.trap_remainder.hull(&(trap.range(t) / cube));
             }
@@ -105,7 +105,8 @@ pub(crate) fn hop_remainder(
     let one = Enclosure::from(1.0);
     let x = one - z;
     // w = v + s, v = xw, s = zw
-    let width = (LARGEST_ROOT / x.low.max(1e-9)).min(LARGEST_STEP / z.low.max(1e-9)).min(0.5642);
+    let width =
+        (LARGEST_ROOT / x.low().max(1e-9)).min(LARGEST_STEP / z.low().max(1e-9)).min(0.5642);
     let constant = |value: f64| Model::constant(Enclosure::from(value), ORDER, width);
     let beta = cube_root(Enclosure::from(12.0) / (one + p.squared()));
     let l = coefficients(p, beta, mu);
@@ -115,7 +116,7 @@ pub(crate) fn hop_remainder(
         power = power * x;
         loss.terms[k + 1] = l * power;
     }
-    loss.rest = remainder * (x.high * width).powi(5) * (1.0 + 1e-12);
+    loss.rest = remainder * (x.high() * width).powi(5) * (1.0 + 1e-12);
     // With y = sG: (1 − y)^{±1/3} = 1 + y E±, and −ln(1 − y) = y Λ.
     let y = (&Model::linear(z, ORDER, width)) * &loss;
     let (down, up, logarithm) =

@@ -18,21 +18,22 @@ impl FirstLanding {
     /// Over the speeds of `alpha` that are in `part`; `None` if an end of h is beyond a fixed point. There Γ has a
     /// minimum between the ends, so that its values at them are no bounds.
     pub(crate) fn over(alpha: Enclosure, part: SpeedPart) -> Option<Self> {
-        let first = first_landing_time(alpha.low)?;
-        let last = if alpha.low == alpha.high { first } else { first_landing_time(alpha.high)? };
+        let first = first_landing_time(alpha.low())?;
+        let last =
+            if alpha.low() == alpha.high() { first } else { first_landing_time(alpha.high())? };
         let mut ends = [first.before(), last.after()];
         // h is on the same side of a multiple of π as α (docs/theory.md, Theorem 7), where |u| is largest.
         match part {
-            SpeedPart::Window(n) if ends[0].h < (PI * n as f64).high => {
-                ends[0] = AtHalfTime::at_multiple_of_pi(n, (PI * n as f64).low);
+            SpeedPart::Window(n) if ends[0].h < (PI * n as f64).high() => {
+                ends[0] = AtHalfTime::at_multiple_of_pi(n, (PI * n as f64).low());
             }
-            SpeedPart::Contact(n) if ends[1].h > (PI * (n + 1) as f64).low => {
-                ends[1] = AtHalfTime::at_multiple_of_pi(n + 1, (PI * (n + 1) as f64).high);
+            SpeedPart::Contact(n) if ends[1].h > (PI * (n + 1) as f64).low() => {
+                ends[1] = AtHalfTime::at_multiple_of_pi(n + 1, (PI * (n + 1) as f64).high());
             }
             _ => {}
         }
         let (below, above) = (fixed_point(first.branch - 1), fixed_point(last.branch));
-        let between = below.high <= ends[0].h && ends[1].h <= above.low;
+        let between = below.high() <= ends[0].h && ends[1].h <= above.low();
         between.then_some(FirstLanding { half: Enclosure::new(ends[0].h, ends[1].h), ends })
     }
 
@@ -45,7 +46,7 @@ impl FirstLanding {
     /// (docs/theory.md, Lemma 26), and in windows it falls (Lemma 14).
     pub(crate) fn closing_speed(&self) -> Enclosure {
         let found = self.between(AtHalfTime::closing_speed);
-        Enclosure::new(found.low.max(0.0), found.high)
+        Enclosure::new(found.low().max(0.0), found.high())
     }
 
     /// W at both ends, on a contact part.
@@ -56,7 +57,7 @@ impl FirstLanding {
     /// b = α − h = Su/D in a window: |S| rises and |u/D| falls (docs/theory.md, Lemma 14).
     pub(crate) fn lead(&self) -> Enclosure {
         let found = self.between(|end| end.sin) * self.between(AtHalfTime::rho);
-        Enclosure::new(found.low.max(0.0), found.high.max(0.0))
+        Enclosure::new(found.low().max(0.0), found.high().max(0.0))
     }
 
     /// D = h − SC, which rises.
@@ -111,7 +112,7 @@ mod tests {
             known += 1;
             let closing = landing.closing_speed();
             let exact = 12.0 * a * a * (3.32e-17 + ulps * ulp) / (1.0 + a * a);
-            assert!(cube(closing.low) < 1.01 * exact && 0.99 * exact < cube(closing.high));
+            assert!(cube(closing.low()) < 1.01 * exact && 0.99 * exact < cube(closing.high()));
         }
         assert_eq!(known, 1);
     }

@@ -44,7 +44,7 @@ impl Flight {
         let time = Enclosure::new(2.0 * ends[0].h, 2.0 * ends[1].h);
         // Γ = τ − V r − (1 + x) sin τ; it is never negative at a landing.
         let closing = at.p - v * at.r - x * at.sin;
-        let closing = Enclosure::new(closing.low.max(0.0), closing.high);
+        let closing = Enclosure::new(closing.low().max(0.0), closing.high());
         // x′ by P and by s (docs/theory.md, Lemma 1).
         let by_centre = x + v * time - 0.5 * time.squared();
         let landed = by_centre.intersection(&(x * at.cos - at.r + v * at.sin))?;

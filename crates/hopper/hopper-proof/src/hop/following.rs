@@ -37,7 +37,7 @@ impl Following {
         let rest = Enclosure::ONE - slope;
         // x = 2h (α − h) as well.
         let x = (2.0 * h * b).intersection(&(2.0 * h * (alpha - h)))?;
-        let by_speed_twice = (alpha.low < alpha.high).then(|| {
+        let by_speed_twice = (alpha.low() < alpha.high()).then(|| {
             let bend = first.half_time_curvature();
             let closing = -4.0 * (b * slope + alpha * (rest * slope + b * bend));
             let state = Rates {
@@ -48,7 +48,7 @@ impl Following {
             Slopes { state, losses }
         });
         Some(Following {
-            x: Enclosure::new(x.low.max(0.0), x.high),
+            x: Enclosure::new(x.low().max(0.0), x.high()),
             v: b - h + kappa * closing,
             losses: closing.squared(),
             by_speed: Slopes {
@@ -70,7 +70,7 @@ impl Following {
     pub(super) fn next(self, kappa: Enclosure) -> Option<(Self, bool)> {
         let flight = Flight::from(self.x, self.v)?;
         // A flight up to α*_1 is followed by contact (docs/theory.md, Lemma 17).
-        let short = flight.time.high <= fixed_point(1).low;
+        let short = flight.time.high() <= fixed_point(1).low();
         let sudden = match flight.landed.sign() {
             _ if short => false,
             Some(sign) => sign > 0.0,

@@ -27,7 +27,7 @@ pub(crate) fn alternating(t: Enclosure, quotients: &[f64]) -> Enclosure {
     let mut term = 1.0;
     let counts = |&quotient: &f64| {
         let before = term;
-        term *= t.high / quotient;
+        term *= t.high() / quotient;
         before > NEGLIGIBLE
     };
     let count = quotients.iter().copied().take_while(counts).count();

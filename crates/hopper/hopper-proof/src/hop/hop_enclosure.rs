@@ -23,7 +23,7 @@ pub(crate) struct Reached {
 impl Reached {
     fn by_loss(alpha: Enclosure, loss: Enclosure) -> Self {
         // A loss is never negative.
-        let loss = Enclosure::new(loss.low.max(0.0), loss.high);
+        let loss = Enclosure::new(loss.low().max(0.0), loss.high());
         Reached { square: alpha.squared() - loss, loss }
     }
 
@@ -31,7 +31,7 @@ impl Reached {
     ///
     /// It is √F where F is positive, and α − (α² − F)/(α + α′) as well: small losses keep their digits.
     pub(crate) fn speed(&self, alpha: f64) -> Option<Enclosure> {
-        let positive = Enclosure::new(self.square.low.max(0.0), self.square.high.max(0.0));
+        let positive = Enclosure::new(self.square.low().max(0.0), self.square.high().max(0.0));
         let root = positive.sqrt()?;
         if self.square.is_positive() {
             let by_loss = Enclosure::from(alpha).sharp_difference(self.loss / (root + alpha));
@@ -46,7 +46,7 @@ impl Reached {
         match image_of(self.square) {
             SpeedImage::Within(..) => self
                 .speed(alpha)
-                .map_or(SpeedImage::Unknown, |speed| SpeedImage::Within(speed.low, speed.high)),
+                .map_or(SpeedImage::Unknown, |speed| SpeedImage::Within(speed.low(), speed.high())),
             image => image,
         }
     }
@@ -58,8 +58,8 @@ pub(crate) fn image_of(square: Enclosure) -> SpeedImage {
         return SpeedImage::Grounded;
     }
     match square.sqrt() {
-        Some(speed) if square.is_positive() && speed.high.is_finite() => {
-            SpeedImage::Within(speed.low, speed.high)
+        Some(speed) if square.is_positive() && speed.high().is_finite() => {
+            SpeedImage::Within(speed.low(), speed.high())
         }
         _ => SpeedImage::Unknown,
     }
@@ -90,7 +90,7 @@ impl Centre {
     fn of(alpha: Enclosure, part: SpeedPart, kappa: Enclosure) -> Option<Self> {
         let speed = alpha.middle();
         let middle = Enclosure::from(speed);
-        if alpha.low == alpha.high || SpeedPart::of(middle) != Some(part) {
+        if alpha.low() == alpha.high() || SpeedPart::of(middle) != Some(part) {
             return None;
         }
         let state = Following::from_window(middle, &FirstLanding::over(middle, part)?, kappa)?;
@@ -151,7 +151,7 @@ pub(crate) fn w_over(first: &FirstLanding, n: u64) -> Enclosure {
     let ends = begin.hull(&end);
     let twice = fixed_point(2 * n + 1);
     let steepest = 0.5 * twice;
-    if first.half.high < steepest.low || first.half.low > steepest.high {
+    if first.half.high() < steepest.low() || first.half.low() > steepest.high() {
         return ends;
     }
     ends.hull(&largest_w(n))
@@ -175,7 +175,7 @@ mod tests {
         let place = |k: u32| (f64::from(k) * 0.618_033_988_749_895).fract();
         (0..3000).map(move |k| {
             let n = u64::from(1 + k % 6);
-            let (begin, star) = ((PI * n as f64).high, fixed_point(n).low);
+            let (begin, star) = ((PI * n as f64).high(), fixed_point(n).low());
             let low = begin + 0.999 * (star - begin) * place(k);
             Enclosure::new(low, low + 10f64.powi(-3 - (k / 6 % 6) as i32))
         })
@@ -194,8 +194,8 @@ mod tests {
                 let Some(all) = HopEnclosure::plain(alpha, part, &strip) else { continue };
                 let mut slopes: Option<Enclosure> = None;
                 for k in 0..=SPEEDS {
-                    let speed = alpha.low + alpha.width() * f64::from(k) / f64::from(SPEEDS);
-                    let own = Enclosure::from(speed.min(alpha.high));
+                    let speed = alpha.low() + alpha.width() * f64::from(k) / f64::from(SPEEDS);
+                    let own = Enclosure::from(speed.min(alpha.high()));
                     let own = HopEnclosure::plain(own, part, &strip).unwrap();
                     for (one, all) in [
                         (own.reached.square, all.reached.square),

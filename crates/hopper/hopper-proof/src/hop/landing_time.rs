@@ -56,13 +56,13 @@ impl LandingTime {
 
     /// The functions at a time before the landing.
     pub(crate) fn before(&self) -> AtHalfTime {
-        let end = self.bracket.low;
+        let end = self.bracket.low();
         self.with_sign(-1.0, end).unwrap_or_else(|| AtHalfTime::new(end))
     }
 
     /// The functions at a time after it.
     pub(crate) fn after(&self) -> AtHalfTime {
-        let end = self.bracket.high;
+        let end = self.bracket.high();
         self.with_sign(1.0, end).unwrap_or_else(|| AtHalfTime::new(end))
     }
 
@@ -96,7 +96,7 @@ pub(crate) fn first_landing_time(alpha: f64) -> Option<LandingTime> {
     // α and h lie between the same two neighbouring multiples of π (Theorem 7); half of π more on both sides covers
     // the rounding of the quotient.
     let k = (alpha / std::f64::consts::PI).floor();
-    let bracket = Enclosure::new((k - 0.5).max(0.0) * PI.low, (k + 1.5) * PI.high);
+    let bracket = Enclosure::new((k - 0.5).max(0.0) * PI.low(), (k + 1.5) * PI.high());
     LandingTime::search(n + 1, TakeOff { excess: 0.0, velocity: alpha }, bracket)
 }
 
@@ -105,7 +105,7 @@ pub(crate) fn first_landing_time(alpha: f64) -> Option<LandingTime> {
 pub(crate) fn next_landing_time(x: f64, v: f64) -> Option<LandingTime> {
     let pi = std::f64::consts::PI;
     let m = if v > 0.0 { (v / pi).floor() } else { 0.0 };
-    if !(m < 1e9) || (m > 0.0 && !((PI * m).high <= v)) || !(v < (PI * (m + 1.0)).low) {
+    if !(m < 1e9) || (m > 0.0 && !((PI * m).high() <= v)) || !(v < (PI * (m + 1.0)).low()) {
         return None;
     }
     let speed = Enclosure::from(v);
@@ -117,10 +117,10 @@ pub(crate) fn next_landing_time(x: f64, v: f64) -> Option<LandingTime> {
     }
     let branch = m as u64 + u64::from(!same_branch);
     let half = if same_branch {
-        Enclosure::new((PI * m).low, v)
+        Enclosure::new((PI * m).low(), v)
     } else {
-        let star = if m >= 1.0 { fixed_point(m as u64).low } else { 0.0 };
-        Enclosure::new(star.max(v), (PI * (m + 1.0)).high)
+        let star = if m >= 1.0 { fixed_point(m as u64).low() } else { 0.0 };
+        Enclosure::new(star.max(v), (PI * (m + 1.0)).high())
     };
     LandingTime::search(branch, TakeOff { excess: x, velocity: v }, half)
 }
@@ -142,8 +142,8 @@ pub(crate) fn landings_between(
             Some(LandingTime { branch: 1, start, bracket, found: 0.0, first_distance: 0.0 })
         }
     };
-    let first = at(stretches.low, velocities.low)?;
-    let last = at(stretches.high, velocities.high)?;
+    let first = at(stretches.low(), velocities.low())?;
+    let last = at(stretches.high(), velocities.high())?;
     (first.branch == last.branch).then(|| [first.before(), last.after()])
 }
 
@@ -161,7 +161,7 @@ mod tests {
         assert!(before < 3.2 && after - before < 1e-12, "{whole:?}");
         for bracket in [Enclosure::new(0.5, 1.5), Enclosure::new(3.1, 3.13)] {
             let found = LandingTime::search(1, start, bracket).unwrap();
-            assert_eq!((found.before().h, found.after().h), (bracket.low, bracket.high));
+            assert_eq!((found.before().h, found.after().h), (bracket.low(), bracket.high()));
         }
     }
 }

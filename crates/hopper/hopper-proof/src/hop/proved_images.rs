@@ -96,11 +96,11 @@ impl ProvedImages {
     /// Theorem 23): by the formulas of both sides. `None` if the interval does not reach there, `Some(None)` if F
     /// is open.
     fn joint(&self, alpha: Enclosure) -> Option<Option<Enclosure>> {
-        let k = (alpha.high / std::f64::consts::PI).round();
+        let k = (alpha.high() / std::f64::consts::PI).round();
         let joint = PI * k;
-        let next_to = k >= 1.0 && alpha.low >= joint.low && alpha.high <= joint.high;
+        let next_to = k >= 1.0 && alpha.low() >= joint.low() && alpha.high() <= joint.high();
         next_to.then(|| {
-            let light = self.strip.mass_ratios.high < 1.0;
+            let light = self.strip.mass_ratios.high() < 1.0;
             let side =
                 |part| HopEnclosure::plain(alpha, part, &self.strip).map(|hop| hop.reached.square);
             let n = k as u64;
@@ -111,8 +111,8 @@ impl ProvedImages {
 
     /// F is proved to rise on an interval of a window, by a theorem.
     fn rises_by_theorem(&self, alpha: Enclosure, n: u64) -> bool {
-        let heaviest = self.strip.mass_ratios.high;
-        let below = fixed_point(n).low - alpha.low;
+        let heaviest = self.strip.mass_ratios.high();
+        let below = fixed_point(n).low() - alpha.low();
         let near = if heaviest <= 1.0 { RISES_BELOW_STAR_LIGHT } else { RISES_BELOW_STAR };
         below <= near
             || rising_window(n).is_some_and(|window| heaviest <= window.largest_mass_ratio)
@@ -124,27 +124,27 @@ impl ProvedImages {
         let pi = std::f64::consts::PI;
         let (first, last) = ((a.speed / pi) as usize, (b.speed / pi) as usize);
         // F is continuous at the multiples of π for M < 1 (docs/theory.md, Theorem 23).
-        let continuous = self.strip.mass_ratios.high < 1.0;
+        let continuous = self.strip.mass_ratios.high() < 1.0;
         let mut image = a.reached.with(b.reached);
         // One more on both sides, as the quotients are rounded.
         for n in first.saturating_sub(1)..=last + 1 {
             let star = fixed_point(n as u64);
-            let begin = if n == 0 { 0.0 } else { (PI * n as f64).low };
-            let end = (PI * (n + 1) as f64).high;
+            let begin = if n == 0 { 0.0 } else { (PI * n as f64).low() };
+            let end = (PI * (n + 1) as f64).high();
             if b.speed < begin || a.speed > end {
                 continue;
             }
-            let joined = n > 0 && a.speed <= (PI * n as f64).high && b.speed >= begin;
+            let joined = n > 0 && a.speed <= (PI * n as f64).high() && b.speed >= begin;
             if joined && !continuous {
                 return None;
             }
-            if n > 0 && a.speed < star.high {
-                let window = Enclosure::new(a.speed.max(begin), b.speed.min(star.low));
-                if b.speed > star.low || !self.rises_by_theorem(window, n as u64) {
+            if n > 0 && a.speed < star.high() {
+                let window = Enclosure::new(a.speed.max(begin), b.speed.min(star.low()));
+                if b.speed > star.low() || !self.rises_by_theorem(window, n as u64) {
                     return None;
                 }
             }
-            if b.speed > star.low {
+            if b.speed > star.low() {
                 let Turns::All(turns) = self.turns.get(n)? else { return None };
                 let inside = turns
                     .iter()
@@ -159,7 +159,7 @@ impl ProvedImages {
     fn square_between(&self, alpha: Enclosure) -> Option<Enclosure> {
         let part = SpeedPart::of(alpha)?;
         let all = HopEnclosure::plain(alpha, part, &self.strip)?;
-        let (low, high) = (self.square(alpha.low)?, self.square(alpha.high)?);
+        let (low, high) = (self.square(alpha.low())?, self.square(alpha.high())?);
         if all.by_speed.sign().is_some() {
             return Some(low.hull(&high));
         }
@@ -167,19 +167,19 @@ impl ProvedImages {
         let from = |at: Enclosure, end: f64| {
             Enclosure::mean_value(at, all.by_speed, alpha, Enclosure::from(end))
         };
-        let form = from(low, alpha.low).intersection(&from(high, alpha.high))?;
+        let form = from(low, alpha.low()).intersection(&from(high, alpha.high()))?;
         form.intersection(&all.reached.square)
     }
 
     /// F over an interval that contains at most one multiple of π.
     fn square_across(&self, a: f64, b: f64) -> Option<Enclosure> {
         let joint = PI * (b / std::f64::consts::PI).floor();
-        if !(joint.low > 0.0 && joint.low >= a && joint.low < b) {
+        if !(joint.low() > 0.0 && joint.low() >= a && joint.low() < b) {
             return self.square_between(Enclosure::new(a, b));
         }
         // Up to the multiple of π, next to it, and beyond it.
         let mut all = self.joint(joint)??;
-        for (from, to) in [(a, joint.low), (joint.high, b)] {
+        for (from, to) in [(a, joint.low()), (joint.high(), b)] {
             if from < to {
                 all = all.hull(&self.square_between(Enclosure::new(from, to))?);
             }
@@ -210,7 +210,7 @@ impl SpeedImages for ProvedImages {
     fn rises_up_to_fixed_point(&self, speed: f64) -> bool {
         let Ok(n) = index_below(speed) else { return false };
         let star = fixed_point(n + 1);
-        let window = (PI * (n + 1) as f64).high;
-        speed >= window && self.rises_by_theorem(Enclosure::new(speed, star.low), n + 1)
+        let window = (PI * (n + 1) as f64).high();
+        speed >= window && self.rises_by_theorem(Enclosure::new(speed, star.low()), n + 1)
     }
 }

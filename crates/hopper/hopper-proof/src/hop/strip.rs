@@ -26,7 +26,7 @@ fn kappa_of(mass_ratio: f64) -> Enclosure {
 /// κ(1−κ), which rises up to κ = ½ and falls beyond it.
 fn mu_of(kappa: Enclosure) -> Enclosure {
     let at = |k: f64| Enclosure::from(k) * (Enclosure::ONE - Enclosure::from(k));
-    let ends = at(kappa.low).hull(&at(kappa.high));
+    let ends = at(kappa.low()).hull(&at(kappa.high()));
     if kappa.contains(0.5) { ends.hull(&Enclosure::new(0.25, 0.25)) } else { ends }
 }
 
@@ -55,7 +55,7 @@ impl Strip {
     /// All mass ratios from 0 to `high`, with the limit of the motion at 0.
     pub(crate) fn up_to(high: f64) -> Result<Self, Error> {
         let strip = Strip::at(high)?;
-        Ok(Strip::of_kappa(Enclosure::new(0.0, strip.kappa.high), Enclosure::new(0.0, high)))
+        Ok(Strip::of_kappa(Enclosure::new(0.0, strip.kappa.high()), Enclosure::new(0.0, high)))
     }
 
     fn of_kappa(kappa: Enclosure, mass_ratios: Enclosure) -> Self {
@@ -70,8 +70,8 @@ impl Strip {
 
     /// Two halves in κ. The mass ratios of both are those of the whole.
     pub(crate) fn halves(&self) -> [Self; 2] {
-        let Enclosure { low, high } = self.kappa;
-        let middle = self.middle.low;
+        let (low, high) = (self.kappa.low(), self.kappa.high());
+        let middle = self.middle.low();
         [(low, middle), (middle, high)]
             .map(|(low, high)| Strip::of_kappa(Enclosure::new(low, high), self.mass_ratios))
     }

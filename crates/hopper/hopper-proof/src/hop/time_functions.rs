@@ -22,9 +22,12 @@ impl TimeFunctions {
         let time = Enclosure::new(2.0 * first.h, 2.0 * last.h);
         let (sin, cos) = time.sin_cos();
         // Small values of 1 − cos τ keep their digits as 2 sin² ½τ.
-        let r =
-            if cos.high <= 0.5 { Enclosure::ONE - cos } else { 2.0 * (0.5 * time).sin().squared() };
-        let p = Enclosure::new((2.0 * first.d.low).max(0.0), 2.0 * last.d.high);
+        let r = if cos.high() <= 0.5 {
+            Enclosure::ONE - cos
+        } else {
+            2.0 * (0.5 * time).sin().squared()
+        };
+        let p = Enclosure::new((2.0 * first.d.low()).max(0.0), 2.0 * last.d.high());
         TimeFunctions { sin, cos, r, p }
     }
 }

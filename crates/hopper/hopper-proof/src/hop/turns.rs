@@ -41,12 +41,12 @@ fn steepness(n: u64, alpha: f64, strip: &Strip) -> Option<Enclosure> {
 /// The turns of every hump up to the speed `top`.
 pub(crate) fn turns_up_to(strip: &Strip, top: f64) -> Result<Vec<Turns>, hopper_basin::Error> {
     let at = |m: f64| falling_laps(MassRatio::new(m).map_err(hopper_basin::Error::from)?, top);
-    let (light, heavy) = (at(strip.mass_ratios.low)?, at(strip.mass_ratios.high)?);
+    let (light, heavy) = (at(strip.mass_ratios.low())?, at(strip.mass_ratios.high())?);
     // Between M = 1 and its neighbours the laps are not monotone in M.
-    let one_sided = !(strip.mass_ratios.low < 1.0 && strip.mass_ratios.high > 1.0);
+    let one_sided = !(strip.mass_ratios.low() < 1.0 && strip.mass_ratios.high() > 1.0);
     let laps = light.into_iter().zip(heavy).zip(0..);
     let of_hump = |((light, heavy), n): ((Option<Interval>, Option<Interval>), u64)| {
-        if (4.0 * strip.mu * largest_w(n)).high <= 1.0 {
+        if (4.0 * strip.mu * largest_w(n)).high() <= 1.0 {
             return Turns::All(Vec::new());
         }
         match (light, heavy) {
@@ -66,9 +66,9 @@ fn between(n: u64, [a, b]: [Interval; 2], strip: &Strip) -> Option<Turns> {
     let (top, bottom) = (around(a.left, b.left), around(a.right, b.right));
     // 1 − 4μW has the sign of the slope. W rises and then falls, so that four signs tell the slope everywhere
     // between and beyond.
-    let rises = |alpha: f64| steepness(n, alpha, strip).is_some_and(|s| s.high < 1.0);
-    let falls = |alpha: f64| steepness(n, alpha, strip).is_some_and(|s| s.low > 1.0);
-    let inside = fixed_point(n).high < top.left && top.right < bottom.left;
+    let rises = |alpha: f64| steepness(n, alpha, strip).is_some_and(|s| s.high() < 1.0);
+    let falls = |alpha: f64| steepness(n, alpha, strip).is_some_and(|s| s.low() > 1.0);
+    let inside = fixed_point(n).high() < top.left && top.right < bottom.left;
     let told =
         inside && rises(top.left) && falls(top.right) && falls(bottom.left) && rises(bottom.right);
     let turn = |speeds: Interval| {

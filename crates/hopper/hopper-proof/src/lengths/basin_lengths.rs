@@ -33,12 +33,12 @@ pub(crate) struct BasinLengths<'a> {
 
 /// The distance from `low` up to `high` at least; 0 if `low` may be above.
 pub(super) fn distance(low: f64, high: f64) -> f64 {
-    (Enclosure::from(high) - low).low.max(0.0)
+    (Enclosure::from(high) - low).low().max(0.0)
 }
 
 /// The sum of numbers, at least.
 pub(super) fn sum(numbers: &[f64]) -> f64 {
-    numbers.iter().fold(Enclosure::ZERO, |sum, &own| sum + own).low.max(0.0)
+    numbers.iter().fold(Enclosure::ZERO, |sum, &own| sum + own).low().max(0.0)
 }
 
 impl<'a> BasinLengths<'a> {
@@ -91,7 +91,7 @@ impl<'a> BasinLengths<'a> {
                 Known::AtLeast(_) => {}
             }
         }
-        sums.into_iter().map(|sum| sum.low.max(0.0)).collect()
+        sums.into_iter().map(|sum| sum.low().max(0.0)).collect()
     }
 
     /// The gaps of which something is known.

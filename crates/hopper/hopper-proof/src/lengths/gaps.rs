@@ -41,7 +41,7 @@ struct Values {
 impl Values {
     /// Their length.
     fn length(&self) -> f64 {
-        sum(&[between_squares(self.speeds).low, self.below_zero])
+        sum(&[between_squares(self.speeds).low(), self.below_zero])
     }
 }
 
@@ -72,7 +72,7 @@ impl Gap {
     /// The image of its upper end may lie in the gap.
     fn reaches_itself(&self) -> bool {
         let Interval { left, .. } = self.speeds;
-        self.ends[1].is_none_or(|end| end.square.high > left * left)
+        self.ends[1].is_none_or(|end| end.square.high() > left * left)
     }
 
     /// Values between those at the ends; `None` if these are open.
@@ -80,10 +80,10 @@ impl Gap {
         let ends = [self.ends[0]?, self.ends[1]?];
         let speeds = [ends[0].speed(self.speeds.left)?, ends[1].speed(self.speeds.right)?];
         // All values from `left` to `right`, and from `low` to 0, are taken.
-        let left = speeds[0].high.min(speeds[1].high);
-        let right = speeds[0].low.max(speeds[1].low).max(left);
-        let low = ends[0].square.high.min(ends[1].square.high);
-        let high = ends[0].square.low.max(ends[1].square.low);
+        let left = speeds[0].high().min(speeds[1].high());
+        let right = speeds[0].low().max(speeds[1].low()).max(left);
+        let low = ends[0].square.high().min(ends[1].square.high());
+        let high = ends[0].square.low().max(ends[1].square.low());
         let below_zero = distance(low, high.min(0.0));
         (left < right || below_zero > 0.0)
             .then_some(Values { speeds: Interval { left, right }, below_zero })
@@ -95,7 +95,7 @@ impl BasinLengths<'_> {
     pub(super) fn add_gap(&mut self, gap: Interval, goal: f64) {
         let joint = PI * (gap.right / std::f64::consts::PI).floor();
         let star = fixed_point(index_below(gap.left).map_or(0, |n| n + 1));
-        let mut ends = [joint.low, joint.high, star.low, star.high, gap.right];
+        let mut ends = [joint.low(), joint.high(), star.low(), star.high(), gap.right];
         ends.sort_by(f64::total_cmp);
         let mut from = gap.left;
         for end in ends {
@@ -158,7 +158,7 @@ impl BasinLengths<'_> {
         if let Some(grounded) = self.labels.iter().position(|&own| own == HopperFate::GROUNDED) {
             own[grounded] = sum(&[own[grounded], values.below_zero]);
         }
-        let length = |value: f64| (Enclosure::from(value) / steepest).low.max(0.0);
+        let length = |value: f64| (Enclosure::from(value) / steepest).low().max(0.0);
         let lost = gap.speeds.length() - length(values.length());
         let at_least = own.into_iter().map(length).collect();
         Some(GapLengths { at_least, lost, at_middle: hop.at_middle })
@@ -197,6 +197,6 @@ impl BasinLengths<'_> {
                 }
             }
         }
-        sums.into_iter().map(|sum| sum.low.max(0.0)).collect()
+        sums.into_iter().map(|sum| sum.low().max(0.0)).collect()
     }
 }

@@ -92,11 +92,11 @@ struct Areas(Vec<(Label, f64)>);
 
 impl Areas {
     fn add(&mut self, label: Label, area: Enclosure) {
-        let area = area.low.max(0.0);
+        let area = area.low().max(0.0);
         match self.0.binary_search_by_key(&label, |(own, _)| *own) {
             Ok(at) => {
                 let sum = &mut self.0[at].1;
-                *sum = (Enclosure::new(*sum, *sum) + area).low;
+                *sum = (Enclosure::new(*sum, *sum) + area).low();
             }
             Err(at) => self.0.insert(at, (label, area)),
         }
@@ -116,8 +116,8 @@ impl Areas {
     /// The shares of the whole, with all that is open in every upper bound.
     fn shares(&self, whole: Enclosure) -> Vec<(Label, Enclosure)> {
         let known = self.0.iter().fold(Enclosure::ZERO, |sum, &(_, area)| sum + area);
-        let open = (whole - known).high.max(0.0);
-        let most = |area: f64| (Enclosure::from(area) + open).high;
+        let open = (whole - known).high().max(0.0);
+        let most = |area: f64| (Enclosure::from(area) + open).high();
         let share =
             |&(label, area): &(Label, f64)| (label, Enclosure::new(area, most(area)) / whole);
         self.0.iter().map(share).collect()

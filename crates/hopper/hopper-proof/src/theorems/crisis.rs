@@ -24,8 +24,8 @@ pub fn crises(humps: u64) -> Result<Theorem, Error> {
         let crisis = touch.mass_ratio();
         theorem.step(
             format!("M_c({n}) is enclosed to 1e-13"),
-            format!("M_c({n}) in [{}, {}]", crisis.low, crisis.high),
-            crisis.width() <= WIDTH && crisis.high < 1.0,
+            format!("M_c({n}) in [{}, {}]", crisis.low(), crisis.high()),
+            crisis.width() <= WIDTH && crisis.high() < 1.0,
         );
         theorem.evidence.push(CertificateLine::Crisis {
             n,

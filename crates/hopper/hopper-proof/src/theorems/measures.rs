@@ -102,7 +102,7 @@ impl ProvedFractions {
     fn with_effort(mass_ratio: f64, width: f64) -> Result<Self, Error> {
         let strip = Strip::at(mass_ratio)?;
         let stars: Vec<Enclosure> = (1..=HUMPS + 1).map(fixed_point).collect();
-        let window = Interval { left: stars[0].high, right: stars[stars.len() - 1].low };
+        let window = Interval { left: stars[0].high(), right: stars[stars.len() - 1].low() };
         let open = (OPEN * width.sqrt()).min(MOST_OPEN);
         let shortest = SHORTEST * width;
         let line = ProvedLine::finer_at_fixed_points(strip, window, PARTS, open, SPEEDS, shortest)?;
@@ -110,18 +110,18 @@ impl ProvedFractions {
         let labels: Vec<Label> = basins.chain([HopperFate::GROUNDED]).collect();
         let images = ProvedImages::new(strip, window.right)?;
         let lengths = BasinLengths::new(&line, &images, &labels, UNKNOWN * width);
-        let known = |hump: &[Enclosure]| lengths.between(hump[0].high, hump[1].low);
+        let known = |hump: &[Enclosure]| lengths.between(hump[0].high(), hump[1].low());
         let at_least: Vec<Vec<f64>> = stars.windows(2).map(known).collect();
         let humps: Vec<Enclosure> = stars.windows(2).map(|hump| hump[1] - hump[0]).collect();
         let whole = stars[stars.len() - 1] - stars[0];
         // All together have a hump: each has at most what the others leave.
         let open = |(known, hump): (&Vec<f64>, &Enclosure)| {
             let sum = known.iter().fold(Enclosure::ZERO, |sum, &own| sum + own);
-            (*hump - sum).high.max(0.0)
+            (*hump - sum).high().max(0.0)
         };
         let open: Vec<f64> = at_least.iter().zip(&humps).map(open).collect();
         // A share is between 0 and 1; only rounding leads beyond.
-        let share = |found: Enclosure| Enclosure::new(found.low.max(0.0), found.high.min(1.0));
+        let share = |found: Enclosure| Enclosure::new(found.low().max(0.0), found.high().min(1.0));
         let fraction = |(basin, &label): (usize, &Label)| {
             let (mut uniform, mut by_humps) = (Enclosure::ZERO, Enclosure::ZERO);
             for ((known, &hump), &open) in at_least.iter().zip(&humps).zip(&open) {
@@ -144,7 +144,7 @@ impl ProvedFractions {
 
 /// An interval with the digits of a fraction.
 fn digits(share: Enclosure) -> String {
-    format!("[{}, {}]", at_least(share.low, DIGITS), at_most(share.high, DIGITS))
+    format!("[{}, {}]", at_least(share.low(), DIGITS), at_most(share.high(), DIGITS))
 }
 
 /// The fractions at some mass ratios, each to a width of its own. `progress` is called with the number of finished

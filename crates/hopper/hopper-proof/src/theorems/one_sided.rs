@@ -26,10 +26,10 @@ pub fn one_sided(humps: u64) -> Result<Theorem, Error> {
     let strip = Strip::at(1.0)?;
     for n in 1..=humps {
         let trap = proved_trap(n, &strip)?;
-        let length = trap.right - fixed_point(n).high;
+        let length = trap.right - fixed_point(n).high();
         theorem.step(
             format!("α*_{n} attracts [α*_{n}, {}]", trap.right),
-            format!("α*_{n} in [{}, {}]", fixed_point(n).low, fixed_point(n).high),
+            format!("α*_{n} in [{}, {}]", fixed_point(n).low(), fixed_point(n).high()),
             length > 0.0,
         );
         theorem.evidence.push(CertificateLine::trap(n, 1.0, trap.right, None));

@@ -23,14 +23,14 @@ pub fn one_sudden() -> Theorem {
         format!(
             "For every M ≤ {} and every lift-off speed a hop has at most one sudden lift-off (docs/theory.md, Theorem \
              20).",
-            at_least(largest.low, 15)
+            at_least(largest.low(), 15)
         ),
     );
     // 1 − 2κ = (1 − M)/(1 + M) is 1/a² at M₁.
     let tilt = (Enclosure::ONE - largest) / (Enclosure::ONE + largest);
     theorem.step(
         "1 − 2κ at M₁ is 1/α*_1²",
-        format!("1 − 2κ in [{}, {}]", tilt.low, tilt.high),
+        format!("1 − 2κ in [{}, {}]", tilt.low(), tilt.high()),
         tilt.intersection(&(Enclosure::ONE / square)).is_some(),
     );
     let root = (Enclosure::ONE + square).sqrt().unwrap_or(Enclosure::WHOLE);
@@ -38,14 +38,14 @@ pub fn one_sudden() -> Theorem {
     let largest_sum = Enclosure::ONE / a;
     theorem.step(
         "V + Y/α*_1 ≤ 1/α*_1 is below α*_1/(2(1 + 1/R)), which a second sudden lift-off needs",
-        format!("{} < {}", largest_sum.high, needed.low),
-        largest_sum.high < needed.low,
+        format!("{} < {}", largest_sum.high(), needed.low()),
+        largest_sum.high() < needed.low(),
     );
     theorem.evidence.push(CertificateLine::OneSudden {
         fixed_point: a,
-        largest_mass_ratio: largest.low,
-        available: largest_sum.high,
-        needed: needed.low,
+        largest_mass_ratio: largest.low(),
+        available: largest_sum.high(),
+        needed: needed.low(),
     });
     theorem
 }
@@ -59,7 +59,10 @@ mod tests {
     #[test]
     fn the_constant_is_in_the_enclosure() {
         let proved = largest_mass_ratio(fixed_point(1).squared());
-        assert!(proved.low <= ONE_SUDDEN && ONE_SUDDEN <= proved.high, "{ONE_SUDDEN} {proved:?}");
-        assert!(proved.high - proved.low < 1e-14, "{proved:?}");
+        assert!(
+            proved.low() <= ONE_SUDDEN && ONE_SUDDEN <= proved.high(),
+            "{ONE_SUDDEN} {proved:?}"
+        );
+        assert!(proved.high() - proved.low() < 1e-14, "{proved:?}");
     }
 }

@@ -86,8 +86,8 @@ pub fn cells_theorem(name: &'static str, found: &ProvedCells, open: f64) -> Resu
     for (label, share) in &areas {
         theorem.step(
             format!("the area: {}", HopperFate::label_name(*label)),
-            format!("{} to {} of the window", at_least(share.low, 4), at_most(share.high, 4)),
-            share.low >= 0.0,
+            format!("{} to {} of the window", at_least(share.low(), 4), at_most(share.high(), 4)),
+            share.low() >= 0.0,
         );
     }
     let area = found.open_area();

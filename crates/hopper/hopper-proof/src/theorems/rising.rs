@@ -31,7 +31,7 @@ pub fn rising(windows: &[(u64, f64)]) -> Result<Theorem, Error> {
             return Err(Error::MassRatios { low: 0.0, high: heaviest });
         }
         let all = Strip::up_to(heaviest)?;
-        let range = Enclosure::new((PI * n as f64).low, fixed_point(n).low - 0.9 * BY_THEOREM);
+        let range = Enclosure::new((PI * n as f64).low(), fixed_point(n).low() - 0.9 * BY_THEOREM);
         theorem.evidence.push(CertificateLine::RisingWindow {
             n,
             speeds: range,
@@ -72,8 +72,8 @@ fn rises(
         // The longer side in the scale on which the slope changes.
         if alpha.width() > strip.kappa_width() {
             let middle = alpha.middle();
-            open.push((Enclosure::new(alpha.low, middle), strip));
-            open.push((Enclosure::new(middle, alpha.high), strip));
+            open.push((Enclosure::new(alpha.low(), middle), strip));
+            open.push((Enclosure::new(middle, alpha.high()), strip));
         } else {
             open.extend(strip.halves().map(|half| (alpha, half)));
         }

@@ -22,7 +22,7 @@ pub fn trap_edges(humps: u64, count: usize) -> Result<Theorem, Error> {
          Without a crossing the trap is the contact part (docs/theory.md, Theorem 29).",
     );
     for n in 1..=humps {
-        let crisis = ProvedCrisis::new(n)?.mass_ratio().high;
+        let crisis = ProvedCrisis::new(n)?.mass_ratio().high();
         let mut widest: f64 = 0.0;
         let mut missing = 0usize;
         for k in 1..=count {

@@ -24,9 +24,10 @@ pub(super) fn proved_basins(job: &Job) -> Result<Finding, Error> {
     let mut table = Table::new(&["basin", "area at least", "area at most"]);
     for (label, share) in &areas {
         let percent = |share: f64| format!("{:.3} %", 100.0 * share);
-        table.row([fate_colors::name(*label), percent(share.low), percent(share.high)]);
+        table.row([fate_colors::name(*label), percent(share.low()), percent(share.high())]);
     }
-    let rows = areas.iter().map(|(label, share)| [f64::from(label.code()), share.low, share.high]);
+    let rows =
+        areas.iter().map(|(label, share)| [f64::from(label.code()), share.low(), share.high()]);
     let data = vec![csv_file("proved.csv", &["label", "area_lower", "area_upper"], rows)?];
     Ok(Finding {
         figure: Figure::new(

@@ -84,32 +84,32 @@ fn line(evidence: &CertificateLine) -> Option<Value> {
         CertificateLine::Strips(_) => return None,
         CertificateLine::OneSudden { fixed_point, largest_mass_ratio, available, needed } => {
             json!({
-                "kind": "one-sudden", "fixed_point": [fixed_point.low, fixed_point.high],
+                "kind": "one-sudden", "fixed_point": [fixed_point.low(), fixed_point.high()],
                 "largest_mass_ratio": largest_mass_ratio, "available": available, "needed": needed,
             })
         }
         CertificateLine::Trap { n, fixed_point, mass_ratio, right, beyond } => json!({
-            "kind": "trap", "n": n, "fixed_point": [fixed_point.low, fixed_point.high],
+            "kind": "trap", "n": n, "fixed_point": [fixed_point.low(), fixed_point.high()],
             "mass_ratio": mass_ratio, "right": right, "beyond": beyond,
         }),
         CertificateLine::Crisis { n, mass_ratio, speed } => json!({
-            "kind": "crisis", "n": n, "mass_ratio": [mass_ratio.low, mass_ratio.high], "speed": speed,
+            "kind": "crisis", "n": n, "mass_ratio": [mass_ratio.low(), mass_ratio.high()], "speed": speed,
         }),
         CertificateLine::ContactPart { n, mass_ratio, speeds, least_square } => json!({
             "kind": "contact-part", "n": n, "mass_ratio": mass_ratio,
-            "speeds": [speeds.low, speeds.high], "least_square": least_square,
+            "speeds": [speeds.low(), speeds.high()], "least_square": least_square,
         }),
         CertificateLine::Losses { multiple_of_pi, mass_ratio, losses, square } => json!({
             "kind": "losses", "multiple_of_pi": multiple_of_pi, "mass_ratio": mass_ratio,
             "losses": losses, "square": square,
         }),
         CertificateLine::RisingWindow { n, speeds, largest_mass_ratio } => json!({
-            "kind": "rising-window", "n": n, "speeds": [speeds.low, speeds.high],
+            "kind": "rising-window", "n": n, "speeds": [speeds.low(), speeds.high()],
             "largest_mass_ratio": largest_mass_ratio,
         }),
         CertificateLine::RisingBox { n, speeds, kappas } => json!({
-            "kind": "rising-box", "n": n, "speeds": [speeds.low, speeds.high],
-            "kappas": [kappas.low, kappas.high],
+            "kind": "rising-box", "n": n, "speeds": [speeds.low(), speeds.high()],
+            "kappas": [kappas.low(), kappas.high()],
         }),
         CertificateLine::Basins { mass_ratios, intervals: list } => json!({
             "kind": "basins", "mass_ratios": [mass_ratios.left, mass_ratios.right],
@@ -118,7 +118,7 @@ fn line(evidence: &CertificateLine) -> Option<Value> {
         CertificateLine::Gaps(list) => json!({ "kind": "gaps", "gaps": gaps(list) }),
         CertificateLine::Fraction { label, humps, uniform, by_humps } => json!({
             "kind": "fraction", "fate": fate(*label), "humps": humps,
-            "uniform": [uniform.low, uniform.high], "by_humps": [by_humps.low, by_humps.high],
+            "uniform": [uniform.low(), uniform.high()], "by_humps": [by_humps.low(), by_humps.high()],
         }),
         CertificateLine::Grid(grid) => json!({
             "kind": "grid", "mass_ratios": [grid.x.left, grid.x.right],
@@ -130,7 +130,7 @@ fn line(evidence: &CertificateLine) -> Option<Value> {
             "fates": runs(labels),
         }),
         CertificateLine::Area { label, share } => json!({
-            "kind": "area", "fate": fate(*label), "share": [share.low, share.high],
+            "kind": "area", "fate": fate(*label), "share": [share.low(), share.high()],
         }),
         CertificateLine::Cells { edges, of_one_basin } => json!({
             "kind": "cells", "edges": edges, "of_one_basin": of_one_basin,

@@ -38,7 +38,7 @@ fn kneading(trials: u64) -> Result<Row, Error> {
     let scene = "tent maps of random slopes".to_owned();
     repeat("KneadingSequence::entropy", scene, Promise::Certain, trials, |seed| {
         let slope = 1.05 + 0.95 * SplitMix64::from_seed(seed).uniform(0);
-        let tent = |x: Enclosure| match x.high <= 0.5 {
+        let tent = |x: Enclosure| match x.high() <= 0.5 {
             true => Enclosure::from(slope) * x,
             false => Enclosure::from(slope) * (Enclosure::ONE - x),
         };
