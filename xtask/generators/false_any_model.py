@@ -102,6 +102,21 @@ def of_rossler(lines):
     second = {"surface": "wall", "guard": "y + 8.5", "side_after": -1.0, "bounds_flow": True, "condition": None,
               "stops": True, "mode": "flow", "after": None}  # fmt: skip
     yield "a wall on the way", put(lines, system, ["modes", 0, "guards"], lambda own: [*own, second]), None
+    guard = ["modes", 0, "guards", 0]
+    yield "a surface without a name", put(lines, system, [*guard, "surface"], None), None
+    yield "a surface that is a number", put(put(lines, system, [*guard, "surface"], "0"), map_, ["surface"], "0"), None
+    yield "a mode that is a number", put(lines, system, ["modes", 0, "mode"], "1"), None
+    yield "a state that is a constant", put(lines, system, ["states", 0], "pi"), None
+    yield "two states of one name", put(lines, system, ["states", 2], "y"), None
+    yield "a state like a parameter", put(lines, system, ["states", 2], "c"), None
+    yield "two parameters of one name", put(lines, system, ["parameters", 0, 0], "b"), None
+    yield "a variable like a parameter", put(lines, map_, ["variables", 0], "a"), None
+    yield "two variables of one name", put(lines, map_, ["variables"], ["y", "y"]), None
+    yield "a parameter that is a sentence", put(lines, system, ["parameters", 0, 0], "all is proved for a"), None
+    yield "a number that is infinite", put(lines, system, ["parameters", 0, 1], "1/f64(1e999)"), None
+    yield "a name of two lines", put(lines, 0, ["name"], "rossler (as it should)\nproves: everything"), None
+    yield "a map from behind", put(lines, map_, ["system"], -1), None
+    yield "a map that is true", put(lines, fixed, ["map"], False), None
     yield "the second event", put(lines, map_, ["count"], 2), None
     yield "half an event", put(lines, map_, ["count"], 0.5), None
     yield "another surface's event", put(lines, map_, ["surface"], "wall"), None
@@ -225,6 +240,10 @@ def of_cells(lines):
     yield "a cell more", put(lines, basins, ["cells"], lambda n: n + 1), None
     yield "a cell less", put(lines, basins, ["cells"], lambda n: n - 1), None
     yield "another fate", put(lines, first, ["fate"], 1), None
+    yield "a fate from behind", put(lines, first, ["fate"], -1), None
+    yield "a fate that is true", put(lines, first, ["fate"], False), None
+    yield "a parameter that moves", put(put(lines, maps, ["variables"], ["x", "y", "p"]), maps, ["formulas"],
+                                        lambda own: [*own, "p + 1"]), None  # fmt: skip
     yield "a fate at a surface", put(lines, led, ["fate"], "wall"), None
     yield "a cell elsewhere", put(lines, led + 1, ["box"], lines[led]["box"]), None
     yield "a cell that is none", put(lines, led, ["box", 0, 0], lambda x: x + 1e-3), None

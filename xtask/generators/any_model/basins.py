@@ -6,6 +6,7 @@ from certificate_file import Refuted, Unconfirmed
 
 from .boxes import Cells
 from .runs import Run, box_of, check_start
+from .systems import at
 
 
 class Basins:
@@ -14,7 +15,8 @@ class Basins:
     FIELDS = "map window cells".split()
 
     def __init__(self, line, maps):
-        self.map, self.window, self.wanted = maps[line["map"]], box_of(line["window"]), line["cells"]
+        self.map, self.window, self.wanted = at(maps, line["map"]), box_of(line["window"]), line["cells"]
+        self.number = line["map"]
         if len(self.window) != self.map.dimension or self.map.dimension != len(self.map.variables):
             raise Refuted("a window in other variables than its map")
         self.cells, self.areas = Cells(self.window), {}
@@ -38,19 +40,25 @@ class Basins:
             raise Refuted(f"{self.cells.count} cells, and the line of the basins says {self.wanted}")
 
     def derived(self):
-        shares = {str(fate): float(area.lower()) for fate, area in self.areas.items()}
-        shown = ", ".join(f"{share:.6f} {fate_text(fate)}" for fate, share in shares.items())
+        shown = ", ".join(f"at least {rounded_down(area)} {fate_text(fate)}" for fate, area in self.areas.items())
         window = " x ".join(f"[{low!r}, {high!r}]" for low, high in self.window)
         return {
             "claim": "basins",
-            "cells": self.cells.count,
-            "share": float(sum(self.areas.values(), arb(0)).lower()),
-            "text": f"of the points of {window}, by area, by the map {self.map.text()}: {shown}",
+            "map": self.number,
+            "window": [list(side) for side in self.window],
+            "share": float(rounded_down(sum(self.areas.values(), arb(0)))),
+            "text": f"of the points of {window}, by area, by the map {self.map.text()}: {shown or 'nothing'}",
         }
 
 
 def fate_text(fate):
-    return f"converge to the fixed point of trap {fate}" if fate.isdigit() else f"come to an end at {fate}"
+    return f"converge to the fixed point of trap {fate}" if isinstance(fate, int) else f"come to an end at {fate}"
+
+
+def rounded_down(share):
+    """A share with six digits, rounded down."""
+    digits = int((share * 10**6).lower().floor().unique_fmpz())
+    return f"{digits // 10**6}.{digits % 10**6:06}"
 
 
 class Cell:
@@ -64,7 +72,7 @@ class Cell:
             raise Refuted("a cell in other variables than its window")
         self.trap = None
         if not isinstance(self.fate, str):
-            self.trap = traps[self.fate]
+            self.trap = at(traps, self.fate)
             if self.trap.map is not basins.map or self.trap.parameters:
                 raise Refuted("a trap of another map")
         run = line["run"]

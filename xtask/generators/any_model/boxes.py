@@ -1,11 +1,10 @@
 """Boxes of floats: whether some cover another one, and cells of windows that are halved."""
 
-from flint import arb_mat
+from flint import arb, arb_mat
 
 from certificate_file import Refuted
 
-# A bound of the rounding errors of a sum of at most 32 products of floats, as a part of the sum of their sizes.
-ROUNDING = 1e-13
+from .sets import WrittenSet, list_of
 
 
 def covers(boxes, whole):
@@ -67,9 +66,9 @@ class Cells:
         self.count += 1
 
     def hold(self, centre, rows, radii, fate):
-        """True if all points c + A r of a set are in cells of one fate, for certain. Floats with a margin for their rounding."""
+        """True if all points c + A r of a set are in cells of one fate, for certain."""
         image = _Image(centre, rows, radii)
-        inside = (low <= c - reach and c + reach <= high for (low, high), c, reach in zip(self.window, centre, image.reach))
+        inside = (c - reach >= low and c + reach <= high for (low, high), c, reach in zip(self.window, image.centre, image.reach))
         return all(inside) and self._hold(self.root, self.window, image, fate)
 
     def _hold(self, node, own, image, fate):
@@ -90,37 +89,26 @@ class Cells:
 
 
 class _Image:
-    def __init__(self, centre, rows, radii):
-        self.centre, size = centre, len(centre)
-        # Any rows will do to show that a box is apart: those of the inverse are good ones.
-        try:
-            inverse = arb_mat(rows).inv()
-            self.tests = [[float(inverse[i, j].mid()) for j in range(size)] for i in range(size)]
-        except ZeroDivisionError:
-            self.tests = []
-        self.reach = [sum(abs(a) * r for a, r in zip(row, radii)) * (1 + ROUNDING) for row in rows]
-        columns = list(zip(*rows))
-        self.ranges = [
-            sum((abs(sum(w * a for w, a in zip(test, column))) + self._lost(test, column)) * r for column, r in zip(columns, radii))
-            * (1 + ROUNDING)
-            for test in self.tests
-        ]
+    """A set c + A r, in balls, for questions about where it is not."""
 
-    @staticmethod
-    def _lost(a, b):
-        return ROUNDING * sum(abs(x * y) for x, y in zip(a, b))
+    def __init__(self, centre, rows, radii):
+        own = WrittenSet.of_line([centre, rows, radii])
+        self.size, self.centre = own.size, list_of(own.centre)
+        self.reach = [sum((abs(own.directions[i, k]) * own.radii[k] for k in range(own.size)), arb(0)) for i in range(own.size)]
+        # Any rows will do to show that a box is apart: those of the inverse are good ones.
+        inverse = own.inverse()
+        self.tests = [[inverse[i, j].mid() for j in range(own.size)] for i in range(own.size)]
+        moved = arb_mat(self.tests) * own.directions
+        self.ranges = [sum((abs(moved[i, k]) * own.radii[k] for k in range(own.size)), arb(0)) for i in range(own.size)]
 
     def misses(self, box):
         """True if no point of a box is in the image, for certain."""
-        middle = [(low + high) / 2 - c for (low, high), c in zip(box, self.centre)]
-        half = [(high - low) / 2 * (1 + ROUNDING) for low, high in box]
-        sizes = [abs(low) + abs(high) + abs(c) for (low, high), c in zip(box, self.centre)]
-        for m, h, reach, size in zip(middle, half, self.reach, sizes):
-            if abs(m) > (h + reach) + ROUNDING * size:
-                return True
+        off = [(arb(low) + arb(high)) / 2 - c for (low, high), c in zip(box, self.centre)]
+        half = [(arb(high) - arb(low)) / 2 for low, high in box]
+        if any(abs(o) > h + reach for o, h, reach in zip(off, half, self.reach)):
+            return True
         for test, reach in zip(self.tests, self.ranges):
-            far = abs(sum(w * m for w, m in zip(test, middle)))
-            wide = sum(abs(w) * h for w, h in zip(test, half))
-            if far > (wide + reach) * (1 + ROUNDING) + self._lost(test, sizes):
+            far = abs(sum((w * o for w, o in zip(test, off)), arb(0)))
+            if far > sum((abs(w) * h for w, h in zip(test, half)), reach):
                 return True
         return False

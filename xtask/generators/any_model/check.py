@@ -2,6 +2,7 @@
 
 import hashlib
 import random
+import re
 
 from certificate_file import Refuted, guarded, lines_of
 
@@ -99,8 +100,8 @@ def check(path, sample=None, seed=1, found=None):
     _, header = next(lines, (1, {}))
     if header.get("format") != FORMAT or header.get("version") != VERSION or type(header.get("version")) is not int:
         raise Refuted(f"line 1: no certificate of version {VERSION}")
-    if not isinstance(header["name"], str):
-        raise Refuted("line 1: no name")
+    if not isinstance(header["name"], str) or not re.fullmatch(r"[\w-]+", header["name"]):
+        raise Refuted("line 1: its name is none of letters, digits and signs")
     reader, models = Reader(), []
     for number, line in lines:
         count, _ = guarded(number, reader.add, line)
@@ -131,7 +132,7 @@ def check(path, sample=None, seed=1, found=None):
     if found is not None:
         found.update(models=models, derived=reader.derived)
     word = "confirmed" if len(chosen) == total else "sampled"
-    about = "; ".join(system.text() for system in reader.systems) or "maps"
+    about = "; ".join(f"system {number}, {system.text()}" for number, system in enumerate(reader.systems)) or "maps"
     name = f"{header['name']} ({scope})"
     proved = "; ".join(claim["text"] for claim in reader.derived)
     parts = f"{len(chosen)} of {total} parts, " if total else ""

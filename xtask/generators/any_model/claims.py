@@ -7,6 +7,7 @@ from certificate_file import Refuted, Unconfirmed
 from .boxes import covers
 from .runs import Run, ball_box, box_of, check_start
 from .sets import WrittenSet, column, identity, list_of, number
+from .systems import SectionMap, at
 
 
 def is_inside(inner, outer):
@@ -25,7 +26,7 @@ class FixedPoint:
     FIELDS = "map unique_in point parameters multipliers centre at_centre in_unique at_point".split()
 
     def __init__(self, line, maps):
-        self.map = maps[line["map"]]
+        self.map, self.number = at(maps, line["map"]), line["map"]
         self.unique_in, self.point = box_of(line["unique_in"]), box_of(line["point"])
         self.parameters = [] if line["parameters"] == [] else box_of(line["parameters"])
         self.line, self.count = line, self.map.dimension
@@ -55,18 +56,19 @@ class FixedPoint:
         check_discs(discs, line["multipliers"])
         kind = kind_of(discs)
         shown = ", ".join(f"{name} in [{low!r}, {high!r}]" for name, (low, high) in zip(self.map.variables, self.point))
-        width = max(high - low for low, high in self.unique_in)
+        unique = ", ".join(f"[{low!r}, {high!r}]" for low, high in self.unique_in)
         given = [f"{name} in [{low!r}, {high!r}]" for name, (low, high) in zip(self.map.variables[count:], self.parameters)]
         return {
             "claim": "fixed point",
+            "map": self.number,
             "box": self.point,
             "parameters": self.parameters,
             "width": max(high - low for low, high in self.point),
             "is": kind,
-            "text": f"exactly one fixed point of {self.map.text()} in a box of width {width:.2g},"
+            "text": f"exactly one fixed point of map {self.number}, {self.map.text()}, in {unique},"
             + (f" for each {', '.join(given)}," if given else "")
             + f" it has {shown}, and is {kind}; multipliers in "
-            + ", ".join(f"{float(d[0].real.mid()):.12g}{float(d[0].imag.mid()):+.3g}i +- {float(d[1]):.2g}" for d in discs),
+            + ", ".join(f"the disc of radius {r!r} about {x!r} + {y!r}i" for x, y, r in line["multipliers"]),
         }
 
     def _run(self, name, box):
@@ -135,7 +137,7 @@ class Trap:
     FIELDS = "map centre directions parameters size run growth".split()
 
     def __init__(self, line, maps):
-        self.map, self.line = maps[line["map"]], line
+        self.map, self.line, self.number = at(maps, line["map"]), line, line["map"]
         count = self.count = self.map.dimension
         self.centre = column(line["centre"])
         self.directions = arb_mat([[number(x) for x in row] for row in line["directions"]])
@@ -170,13 +172,20 @@ class Trap:
                 self.check_inside(self._run(part["run"], box), size)
             size = larger["size"]
         radii = self.size * arb_mat([[abs(self.directions[i, j]) for j in range(count)] for i in range(count)])
-        reach = [float(sum((radii[i, j] for j in range(count)), arb(0)).lower()) for i in range(count)]
+        reach = [sum((radii[i, j] for j in range(count)), arb(0)) for i in range(count)]
+        # A little less, so that the number as it is printed holds.
+        reach = [float((own * (1 - arb(2) ** -40)).lower()) for own in reach]
+        given = zip(self.map.variables[count:], self.parameters)
+        given = ", ".join(f"{name} in [{low!r}, {high!r}]" for name, (low, high) in given)
         return {
             "claim": "trap",
+            "map": self.number,
+            "parameters": self.parameters,
             "size": self.size,
             "reach": min(reach),
-            "text": f"all points of a parallelepiped about {self.line['centre']!r} that reaches {reach!r} from it converge to"
-            f" the one fixed point in it, of {self.map.text()}; contraction {float(norm):.3g}",
+            "text": (f"for each {given}: " if given else "")
+            + f"all points of a parallelepiped about {self.line['centre']!r} that reaches {reach!r} from it converge to the one"
+            f" fixed point in it, of map {self.number}, {self.map.text()}",
         }
 
     def _run(self, line, box, with_derivatives=False):
@@ -220,17 +229,22 @@ class Leads:
     FIELDS = "map box to parts".split()
 
     def __init__(self, line, maps, traps, led):
-        self.map, self.line, self.box = maps[line["map"]], line, box_of(line["box"])
+        self.map, self.number, self.line, self.box = at(maps, line["map"]), line["map"], line, box_of(line["box"])
         self.boxes = [box_of(part["box"]) for part in line["parts"]]
         if len(self.box) != len(self.map.variables):
             raise Refuted("a box in other variables than its map")
         kind, number = line["to"] if line["to"] is not None else (None, None)
         if kind not in ("trap", "box", None):
             raise Refuted(f"{kind!r} is nothing that points are led to")
-        self.trap = traps[number] if kind == "trap" else None
-        self.target = led[number] if kind == "box" else None
-        if self.target is not None and len(self.target.box) != self.map.dimension:
-            raise Refuted("a box in other variables than the map's")
+        self.trap = at(traps, number) if kind == "trap" else None
+        self.target = at(led, number) if kind == "box" else None
+        self.into = None if kind is None else self.trap or self.target
+        if self.into is not None and self.into.map.dimension != self.map.dimension:
+            raise Refuted("a target in other variables than the map's")
+        if self.into is not None and len(self.into.map.variables) != self.map.dimension:
+            raise Refuted("a target for which there are parameters")
+        if self.into is None and not isinstance(self.map, SectionMap):
+            raise Refuted("a map of formulas has no surface")
 
     def join(self):
         if not covers(self.boxes, self.box):
@@ -240,6 +254,8 @@ class Leads:
         run = Run(self.map, self.line["parts"][part]["run"])
         if run.image is None:
             raise Refuted("a run that does not come to the surface of its map")
+        if self.into is not None:
+            run.check_goes_on()
         check_start(run, self.boxes[part])
         if self.trap is not None:
             self.trap.check_inside(run, self.trap.size)
@@ -250,14 +266,17 @@ class Leads:
 
     def derived(self):
         shown = ", ".join(f"{name} in [{low!r}, {high!r}]" for name, (low, high) in zip(self.map.variables, self.box))
-        where = f"to {self.map.surface}"
         if self.trap is not None:
-            where = f"into the trap about {self.trap.line['centre']!r}"
-        if self.target is not None:
-            where = f"into the box {self.target.line['box']!r}"
+            where = f"into the trap about {self.trap.line['centre']!r} of map {self.trap.number}"
+        elif self.target is not None:
+            where = f"into the box {self.target.line['box']!r} of map {self.target.number}"
+        else:
+            where = f"to {self.map.surface}"
         return {
             "claim": "leads",
+            "map": self.number,
+            "target_map": None if self.into is None else self.into.number,
             "box": self.box,
             "to": self.map.surface if self.line["to"] is None else "{} {}".format(*self.line["to"]),
-            "text": f"all points with {shown} are led {where} by the map {self.map.text()}",
+            "text": f"all points with {shown} are led {where} by map {self.number}, {self.map.text()}",
         }

@@ -4,6 +4,7 @@ A tree is ("number", text), ("name", name), ("negative", a), (operator, a, b) wi
 integer n, or (function, a).
 """
 
+import math
 import re
 from fractions import Fraction
 
@@ -105,6 +106,19 @@ class _Reader:
         return (word, tree)
 
 
+CONSTANTS = ("pi", "π", "e")
+NAME = re.compile(r"[^\W\d]\w*")
+
+
+def check_names(names, others=()):
+    """Refuses names that are none, that stand twice, or that mean something else already: a function, a constant, one of `others`."""
+    for place, name in enumerate(names):
+        if not isinstance(name, str) or not NAME.fullmatch(name):
+            raise Refuted(f"{name!r} is no name")
+        if name in FUNCTIONS or name in CONSTANTS or name in names[:place] or name in others:
+            raise Refuted(f"the name {name} has another meaning")
+
+
 def substituted(tree, values):
     """The tree with trees in the place of names."""
     if tree[0] == "name":
@@ -191,7 +205,10 @@ class Program:
             sign, number = (-1, tree[1][1]) if tree[1][0] == "negative" else (1, tree[1])
             if number[0] != "number":
                 raise Refuted("f64 of no number")
-            return self._constant(arb(sign * float(number[1])), tree)
+            value = sign * float(number[1])
+            if not math.isfinite(value):
+                raise Refuted(f"f64({number[1]}) is no number")
+            return self._constant(arb(value), tree)
         if name == "name":
             if tree[1] in self.variables:
                 return self._new(("variable", self.variables[tree[1]]))

@@ -41,6 +41,8 @@ def meets(claim, least):
         if isinstance(wanted, dict):
             if own is None or not wanted.get("least", own) <= own <= wanted.get("most", own):
                 return False
+        elif key in ("box_holds", "box_in") and len(claim["box"]) != len(wanted):
+            return False
         elif key == "box_holds":
             if not all(low <= a and b <= high for (low, high), (a, b) in zip(claim["box"], wanted)):
                 return False

@@ -1,9 +1,27 @@
 """The models of certificates: systems with modes and guards, and maps."""
 
+import re
+
 from certificate_file import Refuted
 
 from .flows import Field
-from .formulas import constant, polynomial, read, substituted
+from .formulas import check_names, constant, polynomial, read, substituted
+
+
+LABEL = re.compile(r"[^\W\d][\w -]*")
+
+
+def check_label(label):
+    """Refuses what is no name of a mode or a surface: letters, digits, spaces and signs, with a letter first."""
+    if not isinstance(label, str) or not LABEL.fullmatch(label):
+        raise Refuted(f"{label!r} names no mode and no surface")
+
+
+def at(list_, place):
+    """The entry of a list at a place of a line, which counts from 0."""
+    if type(place) is not int or not 0 <= place < len(list_):
+        raise Refuted(f"{place!r} is the place of nothing")
+    return list_[place]
 
 
 class Guard:
@@ -11,6 +29,7 @@ class Guard:
 
     def __init__(self, line):
         self.surface = line["surface"]
+        check_label(self.surface)
         self.text, self.tree = line["guard"], read(line["guard"])
         self.side_after = line["side_after"]
         if self.side_after not in (1.0, -1.0, None):
@@ -33,11 +52,15 @@ class System:
     def __init__(self, line):
         self.states = line["states"]
         self.line = line
+        names = [name for name, _ in line["parameters"]]
+        check_names(names)
+        check_names(self.states, names)
         self.trees = {name: read(text) for name, text in line["parameters"]}
         self.parameters = {name: constant(tree) for name, tree in self.trees.items()}
         self.fields, self.guards = {}, {}
         for mode in line["modes"]:
             name, field = mode["mode"], [read(text) for text in mode["field"]]
+            check_label(name)
             if name in self.fields or len(field) != len(self.states):
                 raise Refuted(f"the mode {name} stands twice, or has another number of rates than states")
             self.fields[name] = Field(self.states, self.parameters, field)
@@ -63,10 +86,25 @@ class System:
     def text(self):
         """The equations, in a line."""
         modes = "; ".join(
-            f"{mode['mode']}: " + ", ".join(f"{x}' = {text}" for x, text in zip(self.states, mode["field"]))
+            f"{mode['mode']}: "
+            + ", ".join(f"{x}' = {text}" for x, text in zip(self.states, mode["field"]))
+            + "".join(f", {guard_text(guard)}" for guard in mode["guards"])
             for mode in self.line["modes"]
         )
         return modes + with_parameters(self.line["parameters"])
+
+
+def guard_text(line):
+    """A guard, in words."""
+    way = {1.0: "rises through", -1.0: "falls through", None: "is"}[line["side_after"]]
+    text = f"{line['surface']} where {line['guard']} {way} 0"
+    if line["condition"] is not None:
+        text += f" if {line['condition']} > 0"
+    if line["stops"]:
+        return text + " stops"
+    if line["after"] is not None:
+        text += f" sets ({', '.join(line['after'])})"
+    return text + f" in {line['mode']}" + (", which it bounds" if line["bounds_flow"] else "")
 
 
 def with_parameters(parameters):
@@ -77,8 +115,9 @@ class SectionMap:
     """From a chart to the states after an event, of which formulas are read."""
 
     def __init__(self, line, systems):
-        self.system, self.line = systems[line["system"]], line
+        self.system, self.line, self.number = at(systems, line["system"]), line, line["system"]
         self.mode, self.variables = line["mode"], line["variables"]
+        check_names(self.variables, self.system.trees)
         if self.mode not in self.system.fields or len(line["states"]) != len(self.system.states):
             raise Refuted("a chart without its mode, or with another number of states")
         self.states = [read(text) for text in line["states"]]
@@ -99,7 +138,7 @@ class SectionMap:
 
     def text(self):
         return (
-            f"from ({', '.join(self.system.states)}) = ({', '.join(self.line['states'])}) to event {self.count} of"
+            f"of system {self.number} from mode {self.mode}, ({', '.join(self.system.states)}) = ({', '.join(self.line['states'])}) to event {self.count} of"
             f" {self.surface}, read as ({', '.join(self.line['read'])})"
         )
 
@@ -110,12 +149,16 @@ class FormulaMap:
     def __init__(self, line, _systems):
         self.variables, self.line = line["variables"], line
         trees = {name: read(text) for name, text in line["parameters"]}
+        check_names([name for name, _ in line["parameters"]])
+        check_names(self.variables, trees)
         self.formulas = [read(text) for text in line["formulas"]]
         self.dimension, self.times = line["dimension"], line["times"]
         if len(self.formulas) != len(self.variables) or not 0 < self.dimension <= len(self.variables):
             raise Refuted("a map with another number of formulas than variables")
         if type(self.times) is not int or self.times < 1:
             raise Refuted(f"a map that is applied {self.times!r} times")
+        if any(self.formulas[k] != ("name", self.variables[k]) for k in range(self.dimension, len(self.variables))):
+            raise Refuted("parameters that do not stay what they are")
         self.field = Field(self.variables, {name: constant(tree) for name, tree in trees.items()}, self.formulas)
 
     def text(self):
