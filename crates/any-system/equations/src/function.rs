@@ -25,8 +25,8 @@ use std::sync::Arc;
 /// };
 /// // Newton's method is right to some ulps.
 /// let enclosure = move |x: Enclosure| {
-///     let ends = Enclosure::new(value(x.low), value(x.high));
-///     (x.low >= 0.0).then(|| ends * Enclosure::around(1.0, 1e-14))
+///     let ends = Enclosure::new(value(x.low()), value(x.high()));
+///     (x.low() >= 0.0).then(|| ends * Enclosure::around(1.0, 1e-14))
 /// };
 /// // W′ = e^(−W)/(1 + W): the closure has the argument and the value as symbols.
 /// let lambert = Function::new("lambert", value, enclosure, |_, w| (-w).exp() / (1.0 + w))?;

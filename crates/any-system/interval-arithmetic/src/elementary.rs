@@ -61,7 +61,7 @@ impl Enclosure {
     /// ```
     /// # use interval_arithmetic::Enclosure;
     /// let logarithm = Enclosure::between(0.0, 1.0)?.ln();
-    /// assert!(logarithm.is_some_and(|found| found.low == f64::NEG_INFINITY && found.contains(0.0)));
+    /// assert!(logarithm.is_some_and(|found| found.low() == f64::NEG_INFINITY && found.contains(0.0)));
     /// assert_eq!(Enclosure::between(-1.0, 1.0)?.ln(), None);
     /// # Ok::<(), interval_arithmetic::Error>(())
     /// ```

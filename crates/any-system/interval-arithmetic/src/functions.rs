@@ -65,8 +65,8 @@ impl Enclosure {
     /// ```
     /// # use interval_arithmetic::Enclosure;
     /// let hump = Enclosure::between(1.0, 2.0)?.sin();
-    /// assert_eq!(hump.high, 1.0); // the maximum at ½π is inside
-    /// assert!((hump.low - 0.8414709848078965).abs() < 1e-15);
+    /// assert_eq!(hump.high(), 1.0); // the maximum at ½π is inside
+    /// assert!((hump.low() - 0.8414709848078965).abs() < 1e-15);
     /// # Ok::<(), interval_arithmetic::Error>(())
     /// ```
     #[inline]

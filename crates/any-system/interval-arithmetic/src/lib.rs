@@ -30,6 +30,22 @@
 //! different numbers. A narrow result needs narrow operands, a monotone function, or a bound on its derivative:
 //! [`Enclosure::mean_value`] uses the last.
 
+//! # Beside IEEE 1788
+//! The standard for intervals (IEEE Std 1788-2015) is followed in what results hold, and differs in these:
+//!
+//! | case | the standard | here |
+//! |---|---|---|
+//! | an inverted interval | no interval (NaI) | [`Enclosure::between`] refuses it, [`Enclosure::new`] makes [`Enclosure::NONE`] |
+//! | the empty set | an interval | there is none: two intervals without a common number have the [`intersection`](Enclosure::intersection) `None` |
+//! | x ÷ [0, b] | [x/b, ∞] for x ≥ 0 | the same; and `[−∞, x/b]` for x ≤ 0 |
+//! | x ÷ y with 0 inside y | all numbers | the same |
+//! | x ÷ [0, 0] | empty | all numbers: nothing is known |
+//! | a function of numbers outside of its domain too | of the part inside of it | `None`: no number is left out silently |
+//! | tightness of + − × ÷ √ | tightest | accurate: each end is the rounded one, moved by one `f64` |
+//! | tightness of sin, cos, arctan | accurate | an enclosure of a point is at most two ulps wide, as measured at 300 000 arguments each |
+//! | tightness of other functions | accurate | four ulps, measured in the same way; 14 for powers below 10⁻³⁰⁷ |
+//! | decorations, exception flags | yes | none |
+
 mod bracketed_root;
 mod elementary;
 mod enclosure;

@@ -63,7 +63,7 @@ impl Mul for Enclosure {
 /// ```
 /// # use interval_arithmetic::Enclosure;
 /// let near = Enclosure::ONE / Enclosure::between(0.0, 0.5)?;
-/// assert!(near.low > 1.99 && near.high == f64::INFINITY);
+/// assert!(near.low() > 1.99 && near.high() == f64::INFINITY);
 /// # Ok::<(), interval_arithmetic::Error>(())
 /// ```
 impl Div for Enclosure {

@@ -28,8 +28,8 @@ impl Enclosure {
     /// ```
     /// # use interval_arithmetic::Enclosure;
     /// let x = Enclosure::between(-1.0, 2.0)?;
-    /// assert!(x.powi(3).contains(-1.0) && x.powi(3).low > -1.1); // x · x² has −4 as its lower end
-    /// assert_eq!(x.powi(4).low, 0.0);
+    /// assert!(x.powi(3).contains(-1.0) && x.powi(3).low() > -1.1); // x · x² has −4 as its lower end
+    /// assert_eq!(x.powi(4).low(), 0.0);
     /// assert_eq!(x.powi(-1), Enclosure::WHOLE);
     /// # Ok::<(), interval_arithmetic::Error>(())
     /// ```

@@ -1,7 +1,7 @@
 //! The damped double well ẍ + 0.15ẋ − x + x³ = 0: which starts in [−2.2, 2.2]² come to rest on the left, and which on the right.
 //!
-//! `cargo run --release --example double_well -- 7 10 100000` divides the window from 2⁻⁷ of its sides down to 2⁻¹⁰, with at most so many images; a file
-//! behind the numbers gets a certificate.
+//! `cargo run --release --example double_well -- 7 10 200000` divides the window from 2⁻⁷ of its sides down to 2⁻¹⁰, with at most so many images. Behind
+//! these numbers the time of the map may follow, and a file for a certificate.
 
 #![allow(clippy::print_stdout)] // a program
 
@@ -18,8 +18,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut words = std::env::args().skip(1);
     let mut number =
         |default: u32| words.next().and_then(|word| word.parse().ok()).unwrap_or(default);
-    let (first, last, images) = (number(7), number(10), number(100_000) as usize);
-    let time = words.next().unwrap_or_else(|| "1.1".to_owned());
+    let (first, last, images) = (number(8), number(11), number(800_000) as usize);
+    // About one turn about a point of rest: a box is a trap only if its image has turned back into it.
+    let time = words.next().unwrap_or_else(|| "4.45".to_owned());
     let file = words.next();
     let begin = Instant::now();
     // The map over a fixed time.

@@ -32,7 +32,7 @@ impl KneadingSequence {
     /// use basin_of_attraction::{Enclosure, KneadingSequence};
     /// // The tent map of slope √2 has the entropy ln √2.
     /// let slope = Enclosure::from(2.0).sqrt().expect("a root");
-    /// let tent = |x: Enclosure| match x.high <= 0.5 {
+    /// let tent = |x: Enclosure| match x.high() <= 0.5 {
     ///     true => slope * x,
     ///     false => slope * (Enclosure::from(1.0) - x),
     /// };
