@@ -17,7 +17,7 @@ pub trait EnclosedMap {
     /// The images of all points of a set: of the variables, and then of the parameters; with derivatives if they are wanted.
     ///
     /// # Errors
-    /// [`Error::Undecided`] where nothing is proved. [`Reason::Stopped`] says that an event that ends the execution comes first, for all
+    /// [`Error::Undecided`] where nothing is proved. [`Reason::Stopped`](crate::Reason::Stopped) says that an event that ends the execution comes first, for all
     /// points.
     fn carry(&self, start: StartSet) -> Result<Carried, Error>;
 
