@@ -5,6 +5,8 @@ mod written_set;
 
 pub(crate) use record::Record;
 
+use written_set::rows_of;
+
 use crate::basins::{ProvedBasins, ProvedFate};
 use crate::enclosed_map::{Carried, EnclosedMap, StartSet};
 use crate::fixed_point::ProvedFixedPoint;
@@ -128,24 +130,20 @@ impl Certificate {
     /// As [`fixed_point`](Self::fixed_point).
     pub fn trap(&mut self, map: &impl EnclosedMap, trap: &Trap) -> Result<usize, Error> {
         let number = self.map(map)?;
-        let run = |u: &[Enclosure]| recorded(map.carry(trap.start(u))?);
         let around = |size: f64| vec![Enclosure::new(-size, size); trap.centre().len()];
         let mut growth = Vec::new();
         for larger in trap.growth() {
-            let part = |u: &Vec<Enclosure>| Ok(json!({"box": pairs(u), "run": run(u)?}));
-            let parts = larger.parts.iter().map(part).collect::<Result<Vec<_>, Error>>()?;
+            let parts = parts(map, &larger.parts, |u| trap.start(u))?;
             growth.push(json!({"size": larger.size, "parts": parts}));
         }
-        let rows: Vec<Vec<f64>> =
-            trap.directions().row_iter().map(|row| row.iter().copied().collect()).collect();
         self.lines.push(json!({
             "kind": "trap",
             "map": number,
             "centre": trap.centre(),
-            "directions": rows,
+            "directions": rows_of(trap.directions()),
             "parameters": pairs(trap.parameters()),
             "size": trap.contracting(),
-            "run": run(&around(trap.contracting()))?,
+            "run": recorded(map.carry(trap.start(&around(trap.contracting())))?)?,
             "growth": growth,
         }));
         self.traps += 1;
@@ -165,11 +163,7 @@ impl Certificate {
         target: Target,
     ) -> Result<usize, Error> {
         let number = self.map(map)?;
-        let part = |part: &Vec<Enclosure>| {
-            let run = recorded(map.carry(StartSet::of_box(part).without_derivatives())?)?;
-            Ok(json!({"box": pairs(part), "run": run}))
-        };
-        let parts = parts.iter().map(part).collect::<Result<Vec<_>, Error>>()?;
+        let parts = self::parts(map, parts, StartSet::of_box)?;
         let target = match target {
             Target::Surface => Value::Null,
             Target::Trap(trap) => json!(["trap", trap]),
@@ -256,6 +250,19 @@ impl Certificate {
         self.lines.push(line);
         place
     }
+}
+
+/// Boxes with their runs, without derivatives: as they were proved.
+fn parts(
+    map: &impl EnclosedMap,
+    boxes: &[Vec<Enclosure>],
+    start: impl Fn(&[Enclosure]) -> StartSet,
+) -> Result<Vec<Value>, Error> {
+    let part = |own: &Vec<Enclosure>| {
+        let run = recorded(map.carry(start(own).without_derivatives())?)?;
+        Ok(json!({"box": pairs(own), "run": run}))
+    };
+    boxes.iter().map(part).collect()
 }
 
 fn pairs(all: &[Enclosure]) -> Vec<[f64; 2]> {

@@ -62,10 +62,13 @@ impl WrittenSet {
 
     /// `[centre, rows of directions, radii]`.
     pub(crate) fn as_json(&self) -> Value {
-        let rows: Vec<Vec<f64>> =
-            self.directions.row_iter().map(|row| row.iter().copied().collect()).collect();
-        json!([self.centre, rows, self.radii])
+        json!([self.centre, rows_of(&self.directions), self.radii])
     }
+}
+
+/// The rows of a matrix.
+pub(crate) fn rows_of(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
 }
 
 /// The set along these directions, if they have an inverse.
