@@ -1,4 +1,4 @@
-//! Random boxes of states of several models, and where they are after a random time, for a comparison with points that another program follows
+//! Random boxes of states of several models, and where they are at times up to a random one, for a comparison with points that another program follows
 //! (`xtask/generators/compare_flows.py`): a line of JSON for each box.
 //!
 //! `cargo run --release --example random_boxes -- 1000 | python compare_flows.py`
@@ -50,6 +50,9 @@ const MODELS: [Model; 7] = [
 /// The exponents of the widths of boxes: from an ulp or so to hundredths.
 const WIDTHS: [f64; 2] = [-16.0, -2.0];
 
+/// The times at which each box is looked at.
+const TIMES: usize = 16;
+
 /// Numbers between 0 and 1, the same for each run: multiples of square roots of primes, without their whole parts.
 fn share(number: usize, which: usize) -> f64 {
     const ROOTS: [f64; 6] = [
@@ -79,17 +82,22 @@ fn main() -> Result<(), Error> {
             let start: Vec<Enclosure> = starts.iter().enumerate().map(side).collect();
             let time = longest * share(number, 4);
             let mut run = system.start_box("flow", &start)?.within(limits).without_derivatives();
-            // A set that becomes too wide is undecided, and says nothing.
-            if run.advance(Enclosure::from(time)).is_err() {
-                continue;
-            }
             let pairs =
                 |all: &[Enclosure]| all.iter().map(|x| [x.low(), x.high()]).collect::<Vec<_>>();
-            let (start, end) = (pairs(&start), pairs(run.set().hull()));
-            println!(
-                "{}",
-                json!({"names": names, "rates": rates, "start": start, "time": time, "end": end})
-            );
+            let (mut times, mut boxes) = (Vec::new(), Vec::new());
+            for part in 1..=TIMES {
+                let now = time * part as f64 / TIMES as f64;
+                // A set that becomes too wide is undecided, and says nothing.
+                if run.advance(Enclosure::from(now)).is_err() {
+                    break;
+                }
+                times.push(now);
+                boxes.push(pairs(run.set().hull()));
+            }
+            let line = json!({
+                "names": names, "rates": rates, "start": pairs(&start), "times": times, "boxes": boxes,
+            });
+            println!("{line}");
         }
     }
     Ok(())

@@ -13,6 +13,9 @@ use std::ops::ControlFlow;
 /// The most halvings of a window: cells of 2⁻³⁰ of its sides, below which memory would be the limit anyway.
 const DEEPEST: u32 = 30;
 
+/// The images that are computed between two calls with progress: seconds of work, of which each thread has a part.
+const AT_ONCE: usize = 4096;
+
 /// The fate of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ProvedFate {
@@ -52,7 +55,7 @@ pub struct Progress {
     pub images: usize,
     /// The cells that are open.
     pub open: usize,
-    /// The halvings of the sides of the window in the cells that are divided now.
+    /// The halvings of the sides of the window in the cells whose images are computed now.
     pub halvings: u32,
     /// A lower bound of the share of the first window that has a fate.
     pub proved: f64,
@@ -61,7 +64,7 @@ pub struct Progress {
 /// Basins of the points of windows, proved cell by cell.
 ///
 /// A cell has a fate if it is in a trap, or if its map leads all its points into cells of this fate. So one image of each cell decides, and
-/// no orbit is followed. Of open cells the largest are divided first, of those whose images meet cells with a fate.
+/// no orbit is followed. Of open cells the largest are divided first, of those whose images meet cells with a fate; where there are none, of all.
 pub struct ProvedBasins {
     traps: Vec<Trap>,
     cells: Cells<Known>,
@@ -120,7 +123,7 @@ impl ProvedBasins {
         ProvedBasins::watched(maps, traps, windows, division, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// The same with progress after each round, and an end by [`ControlFlow::Break`]: what is proved until then is kept.
+    /// The same with progress every few thousand images, and an end by [`ControlFlow::Break`]: what is proved until then is kept.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -143,26 +146,29 @@ impl ProvedBasins {
             area: 0.0,
             decided: Vec::new(),
         };
-        let (mut fresh, mut freed): (Vec<OpenCell>, Vec<Place>) = (Vec::new(), Vec::new());
+        let mut fresh: Vec<OpenCell> = Vec::new();
         for (window, points) in windows.into_iter().enumerate() {
             fresh.push(OpenCell { place: window, window, halvings: 0, points });
         }
         for _ in 0..division.first {
             fresh = fresh.into_iter().flat_map(|cell| basins.divided(&cell)).collect();
         }
+        let mut freed: Vec<Place> = Vec::new();
         loop {
             fresh.truncate(division.images.saturating_sub(basins.images));
-            basins.take(maps, fresh, freed)?;
-            let halvings = basins.next_edge(division.last);
-            let progress = Progress {
-                images: basins.images,
-                open: basins.open.len(),
-                halvings: halvings.unwrap_or(division.last),
-                proved: basins.area,
+            let halvings = fresh.first().map_or(division.last, |cell| cell.halvings);
+            let mut left = fresh.into_iter();
+            while left.len() > 0 {
+                basins.take(maps, left.by_ref().take(AT_ONCE).collect())?;
+                if watch(basins.progress(halvings)).is_break() {
+                    return Ok(basins);
+                }
+            }
+            freed.into_iter().for_each(|place| basins.look(place));
+            let next = basins.next_edge(division.last);
+            let Some(places) = next.filter(|_| basins.images < division.images) else {
+                return Ok(basins);
             };
-            let ends = watch(progress).is_break() || basins.images >= division.images;
-            let Some(halvings) = halvings.filter(|_| !ends) else { return Ok(basins) };
-            let places = basins.edge.remove(&halvings).unwrap_or_default();
             (fresh, freed) = (Vec::new(), Vec::new());
             for place in places {
                 if let Some(open) = basins.open.remove(&place) {
@@ -171,6 +177,11 @@ impl ProvedBasins {
                 }
             }
         }
+    }
+
+    fn progress(&self, halvings: u32) -> Progress {
+        let (images, open) = (self.images, self.open.len());
+        Progress { images, open, halvings, proved: self.area }
     }
 
     /// The parts of a cell.
@@ -185,16 +196,15 @@ impl ProvedBasins {
         places.enumerate().map(part).collect()
     }
 
-    /// Finds the images of new cells, on all threads, and the fates that follow: also of cells that have waited for a larger one.
+    /// Finds the images of new cells, on all threads, and the fates that follow.
     fn take<M: EnclosedMap + Sync>(
         &mut self,
         maps: &[&M],
         fresh: Vec<OpenCell>,
-        freed: Vec<Place>,
     ) -> Result<(), Error> {
         self.images += fresh.len();
         let found = images(maps, &self.traps, &fresh);
-        let mut looked = Vec::with_capacity(fresh.len() + freed.len());
+        let mut looked = Vec::with_capacity(fresh.len());
         for (cell, known) in fresh.into_iter().zip(found) {
             let known = known?;
             let place = cell.place;
@@ -209,7 +219,7 @@ impl ProvedBasins {
                 }
             }
         }
-        looked.into_iter().chain(freed).for_each(|place| self.look(place));
+        looked.into_iter().for_each(|place| self.look(place));
         Ok(())
     }
 
@@ -276,21 +286,31 @@ impl ProvedBasins {
         }
     }
 
-    /// The halvings of the largest cells whose division may show more, down to the last ones.
-    fn next_edge(&mut self, last: u32) -> Option<u32> {
-        let largest = |edge: &BTreeMap<u32, Vec<Place>>| {
-            edge.keys().next().copied().filter(|halvings| *halvings < last)
-        };
-        if largest(&self.edge).is_none() {
-            // What cells that wait meet may have got a fate meanwhile, without the one for which they wait.
-            let mut places: Vec<Place> =
-                self.waiting.drain().flat_map(|(_, places)| places).collect();
-            places.sort_unstable();
-            places.dedup();
-            self.edge.retain(|halvings, _| *halvings >= last);
-            places.into_iter().for_each(|place| self.look(place));
+    /// The largest cells whose division may show more, of those that are larger than the last ones.
+    fn next_edge(&mut self, last: u32) -> Option<Vec<Place>> {
+        if let Some(found) = self.largest_edge(last) {
+            return Some(found);
         }
-        largest(&self.edge)
+        // What cells that wait meet may have got a fate meanwhile, without the one for which they wait.
+        let mut places: Vec<Place> = self.waiting.drain().flat_map(|(_, places)| places).collect();
+        places.sort_unstable();
+        places.dedup();
+        places.iter().for_each(|place| self.look(*place));
+        if let Some(found) = self.largest_edge(last) {
+            return Some(found);
+        }
+        // No image meets a fate and can be divided: parts of those that meet open cells alone may meet one.
+        for place in places {
+            if let Some(open) = self.open.get(&place) {
+                self.edge.entry(open.halvings).or_default().push(place);
+            }
+        }
+        self.largest_edge(last)
+    }
+
+    fn largest_edge(&mut self, last: u32) -> Option<Vec<Place>> {
+        self.edge.retain(|halvings, _| *halvings < last);
+        self.edge.pop_first().map(|(_, places)| places)
     }
 
     /// The fate of a point of a window, if it is proved.
