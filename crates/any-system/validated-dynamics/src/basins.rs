@@ -1,17 +1,15 @@
 //! Basins that are proved cell by cell.
 
 use crate::cell_images::{Known, OpenCell, images};
-use crate::cells::{Cells, MOST_SIDES, Place, part_of};
+use crate::cells::{Cells, Place, part_of};
 use crate::enclosed_map::EnclosedMap;
 use crate::trap::Trap;
 use crate::undecided::Error;
+use crate::windows::{Division, check, share_of};
 use hybrid_system::Label;
 use interval_arithmetic::Enclosure;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
-
-/// The most halvings of a window: cells of 2⁻³⁰ of its sides, below which memory would be the limit anyway.
-const DEEPEST: u32 = 30;
 
 /// The images that are computed between two calls with progress: seconds of work, of which each thread has a part.
 const AT_ONCE: usize = 4096;
@@ -35,17 +33,6 @@ enum Meets {
     Edge(Option<Place>),
     /// Nothing in the window: no part of the cell ever gets a fate.
     Outside,
-}
-
-/// How far cells are divided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Division {
-    /// The first cells have 2^−`first` of the window's sides.
-    pub first: u32,
-    /// The last ones have 2^−`last` of them.
-    pub last: u32,
-    /// The most images.
-    pub images: usize,
 }
 
 /// How far a proof of basins has come.
@@ -83,9 +70,13 @@ pub struct ProvedBasins {
 
 /// A cell with a fate.
 #[derive(Debug, Clone)]
-pub(crate) struct ProvedCell {
-    pub(crate) points: Vec<Enclosure>,
-    pub(crate) fate: ProvedFate,
+pub struct ProvedCell {
+    /// The number of its window.
+    pub window: usize,
+    /// The box.
+    pub points: Vec<Enclosure>,
+    /// The fate of all its points.
+    pub fate: ProvedFate,
 }
 
 impl ProvedBasins {
@@ -157,14 +148,19 @@ impl ProvedBasins {
         loop {
             fresh.truncate(division.images.saturating_sub(basins.images));
             let halvings = fresh.first().map_or(division.last, |cell| cell.halvings);
+            let mut looked: Vec<Place> = Vec::with_capacity(fresh.len() + freed.len());
             let mut left = fresh.into_iter();
             while left.len() > 0 {
-                basins.take(maps, left.by_ref().take(AT_ONCE).collect())?;
-                if watch(basins.progress(halvings)).is_break() {
+                looked.extend(basins.take(maps, left.by_ref().take(AT_ONCE).collect())?);
+                if left.len() > 0 && watch(basins.progress(halvings)).is_break() {
                     return Ok(basins);
                 }
             }
-            freed.into_iter().for_each(|place| basins.look(place));
+            // Not before all images are there: a cell waits for one that it meets, and this should be one that stays open.
+            looked.into_iter().chain(freed).for_each(|place| basins.look(place));
+            if watch(basins.progress(halvings)).is_break() {
+                return Ok(basins);
+            }
             let next = basins.next_edge(division.last);
             let Some(places) = next.filter(|_| basins.images < division.images) else {
                 return Ok(basins);
@@ -196,31 +192,30 @@ impl ProvedBasins {
         places.enumerate().map(part).collect()
     }
 
-    /// Finds the images of new cells, on all threads, and the fates that follow.
+    /// Finds the images of new cells, on all threads, and the fates that they show at once. The cells without one.
     fn take<M: EnclosedMap + Sync>(
         &mut self,
         maps: &[&M],
         fresh: Vec<OpenCell>,
-    ) -> Result<(), Error> {
+    ) -> Result<Vec<Place>, Error> {
         self.images += fresh.len();
         let found = images(maps, &self.traps, &fresh);
-        let mut looked = Vec::with_capacity(fresh.len());
+        let mut open = Vec::with_capacity(fresh.len());
         for (cell, known) in fresh.into_iter().zip(found) {
             let known = known?;
             let place = cell.place;
             self.open.insert(place, cell);
             match known {
                 Known::Fate(fate) => self.decide(place, fate),
-                open => {
+                image => {
                     if let Some(own) = self.cells.get_mut(place) {
-                        *own = open;
+                        *own = image;
                     }
-                    looked.push(place);
+                    open.push(place);
                 }
             }
         }
-        looked.into_iter().for_each(|place| self.look(place));
-        Ok(())
+        Ok(open)
     }
 
     /// Writes down a fate.
@@ -233,7 +228,7 @@ impl ProvedBasins {
             let share = share_of(&points, &self.cells.windows()[0]);
             self.area = (Enclosure::from(self.area) + share).low().max(self.area);
         }
-        self.decided.push(ProvedCell { points, fate });
+        self.decided.push(ProvedCell { window, points, fate });
     }
 
     /// Looks at an open cell, and at those that have waited for it if it has a fate.
@@ -339,61 +334,12 @@ impl ProvedBasins {
     }
 
     /// The cells with a fate of all windows, each one behind those in which its image is.
-    pub(crate) fn decided(&self) -> &[ProvedCell] {
+    pub fn cells(&self) -> &[ProvedCell] {
         &self.decided
     }
 
     /// The traps.
     pub fn traps(&self) -> &[Trap] {
         &self.traps
-    }
-}
-
-/// The share of a window that a cell has.
-fn share_of(points: &[Enclosure], window: &[Enclosure]) -> Enclosure {
-    let width = |x: &Enclosure| Enclosure::from(x.high()) - x.low();
-    let sides = points.iter().zip(window).map(|(own, whole)| width(own) / width(whole));
-    sides.fold(Enclosure::ONE, |share, side| share * side)
-}
-
-fn check<M: EnclosedMap>(
-    maps: &[&M],
-    windows: &[&[Enclosure]],
-    division: Division,
-) -> Result<(), Error> {
-    if maps.is_empty() || maps.len() != windows.len() {
-        let given = windows.len();
-        return Error::argument("windows", format!("{given} windows for {} maps", maps.len()));
-    }
-    for (map, window) in maps.iter().zip(windows) {
-        let is_side = |x: &Enclosure| x.low() < x.high() && x.width().is_finite();
-        let needed = map.dimension();
-        if window.len() != needed || needed != maps[0].dimension() || !window.iter().all(is_side) {
-            return Error::argument(
-                "window",
-                format!("{needed} intervals of finite, positive widths are needed"),
-            );
-        }
-    }
-    let sides = maps[0].dimension();
-    if sides == 0 || sides > MOST_SIDES {
-        return Error::argument(
-            "maps",
-            format!("from 1 to {MOST_SIDES} variables are needed, not {sides}"),
-        );
-    }
-    if !(division.first <= division.last && division.last <= DEEPEST) {
-        return Error::argument("division", format!("first ≤ last ≤ {DEEPEST} is needed"));
-    }
-    let cells = interval_arithmetic::pow(2.0, (sides as f64) * f64::from(division.first));
-    match cells * maps.len() as f64 <= division.images as f64 {
-        true => Ok(()),
-        false => {
-            let reason = format!(
-                "{} images are fewer than the first {cells} cells of each window",
-                division.images
-            );
-            Error::argument("division", reason)
-        }
     }
 }

@@ -16,7 +16,10 @@ const CONVERGED: f64 = 1e-12;
 /// How much wider than the distance of the fixed point the box is, at first.
 const INFLATION: f64 = 4.0;
 
-/// How often the box is widened. Each time it is [`INFLATION`] times as wide, at least.
+/// The least radius of the first box, about a centre that is 0. Enclosures of smaller products are wider than a rounding.
+const LEAST_RADIUS: f64 = 1e-270;
+
+/// How often the box is widened. Each time it is [`INFLATION`] times as wide, at least, in the directions that need it.
 const TRIES: usize = 8;
 
 /// A fixed point that exists, and is the only one in a box.
@@ -81,20 +84,24 @@ pub fn fixed_point(
     let off = offsets(&at_centre.values, &centre);
     let step = Matrix::of_numbers(&inverse).apply(&off);
     let about = |x: &Enclosure, centre: f64| {
-        let least = f64::EPSILON * centre.abs() + f64::MIN_POSITIVE;
+        let least = f64::EPSILON * centre.abs() + LEAST_RADIUS;
         (x.magnitude() + least) * INFLATION
     };
     let mut radii: Vec<f64> = step.iter().zip(&centre).map(|(x, c)| about(x, *c)).collect();
     let krawczyk = Krawczyk { map, centre, inverse, step, parameters };
     for _ in 0..TRIES {
         let (found, all) = krawczyk.boxes(&radii)?;
-        if found.iter().zip(&all).all(|(k, x)| x.low() < k.low() && k.high() < x.high()) {
+        let is_inside = |(k, x): (&Enclosure, &Enclosure)| x.low() < k.low() && k.high() < x.high();
+        let inside: Vec<bool> = found.iter().zip(&all).map(is_inside).collect();
+        if inside.iter().all(|own| *own) {
             return krawczyk.narrowest(found, all);
         }
-        // As wide as what came out, in each direction (S. M. Rump's inflation).
+        // As wide as what came out, in each direction (S. M. Rump's inflation). A direction that is inside keeps its width, which the others would follow.
         let off = offsets(&found, &krawczyk.centre);
-        for (radius, off) in radii.iter_mut().zip(&off) {
-            *radius = INFLATION * off.magnitude().max(*radius);
+        for (radius, (off, inside)) in radii.iter_mut().zip(off.iter().zip(inside)) {
+            if !inside {
+                *radius = INFLATION * off.magnitude().max(*radius);
+            }
         }
     }
     Err(Error::of_variables(Reason::NotInside { tries: TRIES }, &exact(&krawczyk.centre)))

@@ -32,7 +32,7 @@
 //! | [`EnclosedMap`]: [`SectionMap`], [`FormulaMap`] | maps of boxes: from a chart to an event, and formulas |
 //! | [`fixed_point`], [`ProvedFixedPoint`], [`multipliers`] | fixed points that exist, and their multipliers in discs |
 //! | [`Trap`] | a set that is led into itself, all of whose points converge to a fixed point |
-//! | [`ProvedBasins`], [`Division`] | basins cell by cell |
+//! | [`ProvedBasins`], [`ProvedCell`], [`ProvedFate`], [`Division`] | basins cell by cell |
 //! | [`Certificate`] | a file of statements and of the numbers of their proofs, which another program confirms |
 //! | [`divided`], [`halves`], [`Budget`] | any statement about a box, part by part |
 //! | [`AffineSet`], [`Matrix`] | sets c + C r₀ + B r, and matrices of enclosures |
@@ -81,8 +81,9 @@ mod trap;
 mod tube;
 mod undecided;
 mod window;
+mod windows;
 
-pub use basins::{Division, Progress, ProvedBasins, ProvedFate};
+pub use basins::{Progress, ProvedBasins, ProvedCell, ProvedFate};
 pub use cells::MOST_SIDES;
 pub use certificate::{Certificate, Target};
 pub use division::{Budget, Divided, divided, halves};
@@ -102,3 +103,4 @@ pub use start::Chart;
 pub use system::ValidatedSystem;
 pub use trap::Trap;
 pub use undecided::{Error, Reason, Undecided};
+pub use windows::Division;

@@ -26,6 +26,9 @@ const COARSEST: f64 = 1e-3;
 /// small one pays in wide sets.
 const ORDERS: (usize, usize) = (6, 24);
 
+/// A coefficient of this size or less is 0 but for the rounding of small numbers.
+const NOTHING: f64 = 1e-290;
+
 /// How often a step is shortened until it is proved. Each time it is [`SHORTER`] as long: the last step has 10⁻⁶ of the first one's length.
 const TRIES: usize = 20;
 
@@ -82,7 +85,11 @@ impl<'s> Tube<'s> {
         let varied = series.varied(set.hull(), &identity, order + 1).map_err(Reason::Domain)?;
         let scale = scale(&centre, set);
         let mut step = Step { series, varied: &varied, order, length: 0.0 };
-        step.length = (part * step_length(&centre, order, error * scale)).min(longest);
+        let own = step_length(centre.states(), order, error * scale);
+        // A state of rest says nothing of times: those near it do.
+        let length = own.or_else(|| step_length(varied.derivatives(), order, error));
+        let length = length.unwrap_or_else(|| natural_length(&centre));
+        step.length = (part * length).min(longest);
         let mut refused = Reason::NoSolution { step: step.length };
         for _ in 0..TRIES {
             let mut shorter = SHORTER;
@@ -231,24 +238,39 @@ fn scale(centre: &Coefficients<Enclosure>, set: &AffineSet) -> f64 {
     if largest > 0.0 { largest } else { 1.0 }
 }
 
-/// The length of a step at which the last two terms are as large as the error; for motions that are polynomials of a lower degree, that at
-/// which the start and the terms up to the second are equally large.
-fn step_length(centre: &Coefficients<Enclosure>, order: usize, error: f64) -> f64 {
+/// The length of a step at which the last two terms of some components are as large as the error. `None` if they are 0, or as small as what
+/// rounding makes of 0.
+fn step_length<'c>(
+    components: impl Iterator<Item = &'c [Enclosure]>,
+    order: usize,
+    error: f64,
+) -> Option<f64> {
+    let mut last = [0.0; 2];
+    for series in components {
+        for (size, k) in last.iter_mut().zip([order - 1, order]) {
+            *size = series[k].magnitude().max(*size);
+        }
+    }
+    let of_term = |(k, size): (usize, f64)| match size > NOTHING {
+        true => pow(error / size, 1.0 / k as f64),
+        false => f64::INFINITY,
+    };
+    let length = [order - 1, order].into_iter().zip(last).map(of_term).fold(f64::INFINITY, f64::min);
+    length.is_finite().then_some(length)
+}
+
+/// For motions that are polynomials of a low degree: the length at which the start and the terms up to the second are equally large.
+fn natural_length(centre: &Coefficients<Enclosure>) -> f64 {
     let size = |k: usize| {
         let of_components = centre.states().map(|series| series[k].magnitude());
         of_components.fold(0.0, f64::max)
     };
-    let of_term = |k: usize, size_of_term: f64, wanted: f64| match size_of_term {
-        0.0 => f64::INFINITY,
-        term => pow(wanted / term, 1.0 / k as f64),
-    };
-    let length = [order - 1, order].map(|k| of_term(k, size(k), error));
-    let length = length[0].min(length[1]);
-    if length.is_finite() {
-        return length;
-    }
     let start = if size(0) > 0.0 { size(0) } else { 1.0 };
-    let natural = (1..=2).map(|k| of_term(k, size(k), start)).fold(f64::INFINITY, f64::min);
+    let of_term = |k: usize| match size(k) > NOTHING {
+        true => pow(start / size(k), 1.0 / k as f64),
+        false => f64::INFINITY,
+    };
+    let natural = (1..=2).map(of_term).fold(f64::INFINITY, f64::min);
     if natural.is_finite() { natural } else { 1.0 }
 }
 

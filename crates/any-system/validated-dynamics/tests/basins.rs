@@ -3,6 +3,7 @@
 use crate::models::map_of;
 use example_systems::spring_leg::spring_leg_that_falls;
 use hybrid_system::Equations;
+use std::ops::ControlFlow;
 use validated_dynamics::{
     Budget, Division, EnclosedMap, Enclosure, Error, ProvedBasins, ProvedFate, SectionMap,
     StartSet, Trap, ValidatedSystem, divided, fixed_point, halves,
@@ -167,4 +168,26 @@ fn wrong_questions_are_refused() {
     assert!(of(&[&window], Division { first: 5, ..division }));
     assert!(of(&[&window], Division { last: 40, ..division }));
     assert!(!of(&[&window], division));
+}
+
+#[test]
+fn basins_show_progress_within_a_round_and_keep_what_is_proved_when_they_end() {
+    let map = map_of(&["x", "y"], &["1.5*x - 0.5*x^3", "y/2"]);
+    let trap = Trap::new(&map, &fixed_point(&map, &[0.9, 0.0], &[]).unwrap(), 200).unwrap();
+    let window = [Enclosure::new(-1.5, 1.5), Enclosure::new(-1.5, 1.5)];
+    // 16 384 cells in the first round.
+    let division = Division { first: 7, last: 8, images: 100_000 };
+    let mut shown = Vec::new();
+    let basins =
+        ProvedBasins::watched(&[&map], vec![trap], &[&window], division, &mut |progress| {
+            shown.push(progress.images);
+            if shown.len() < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        })
+        .unwrap();
+    assert_eq!((shown.len(), shown[2]), (3, basins.images));
+    assert!(shown[0] > 0 && shown[2] < 16_384, "{shown:?}");
+    let [own, other] = [0, 1].map(|trap| basins.share(ProvedFate::Trap(trap)));
+    assert!(own > 0.0 && other == 0.0);
+    let cells = basins.cells();
+    assert!(!cells.is_empty() && cells.iter().all(|cell| cell.window == 0));
 }

@@ -4,7 +4,7 @@ use crate::models::oscillator;
 use hybrid_system::Equations;
 use proptest::prelude::*;
 use std::ops::ControlFlow;
-use validated_dynamics::{Enclosure, Matrix, ValidatedSystem};
+use validated_dynamics::{EnclosedMap, Enclosure, Matrix, SectionMap, ValidatedSystem, fixed_point};
 
 /// Closed forms are computed with some roundings.
 fn holds(found: Enclosure, exact: f64) -> bool {
@@ -122,4 +122,23 @@ proptest! {
 
 fn pxfm_sin(x: f64) -> f64 {
     Enclosure::from(x).sin().middle()
+}
+
+/// At rest no term of the solution tells a length of steps.
+#[test]
+fn a_state_of_rest_stays_and_its_neighbours_are_linear() {
+    let damped = Equations::new(&["x", "v"], &[])
+        .mode_text("flow", &["v", "-x - v"])
+        .rising_text("later", "t - 5");
+    let system = ValidatedSystem::new(&damped).unwrap();
+    let chart = system.chart("flow", &["x", "v"], &["x", "v", "0"]).unwrap();
+    let map = SectionMap::new(&system, chart, "later", 1, &["x", "v"]).unwrap();
+    let image = map.image(&[Enclosure::ZERO, Enclosure::ZERO]).unwrap();
+    assert!(image.values.iter().all(|x| x.magnitude() < 1e-200), "{:?}", image.values);
+    let rest = fixed_point(&map, &[0.0, 0.0], &[]).unwrap();
+    assert!(rest.is_attracting() && rest.point[0].contains(0.0));
+    // e^(-5/2) at an angle of 5 √3/2.
+    let multiplier = &rest.multipliers[0];
+    let size = multiplier.real.hypot(multiplier.imaginary);
+    assert!(multiplier.radius < 1e-6 && (size - 0.082_084_998_623_898_8).abs() <= multiplier.radius);
 }

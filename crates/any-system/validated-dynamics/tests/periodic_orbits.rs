@@ -1,6 +1,6 @@
 //! Periodic orbits that exist, of models without closed forms.
 
-use crate::models::oscillator;
+use crate::models::{map_of, oscillator};
 use equations::{Formulas, Names};
 use example_systems::impact_oscillator::impact_oscillator;
 use hybrid_system::Equations;
@@ -115,4 +115,13 @@ fn a_map_is_stopped_by_its_caller() {
     let map = SectionMap::new(&system, chart, "section", 1, &["v"]).unwrap().stopped_by(&stop);
     let error = map.image(&[Enclosure::from(1.0)]).unwrap_err();
     assert_eq!(error.undecided().unwrap().reason, Reason::Interrupted);
+}
+
+/// Beside a coordinate that the map contracts to second order, another one that is exactly 0.
+#[test]
+fn a_fixed_point_with_a_superattracting_coordinate_and_a_zero_is_proved() {
+    let map = map_of(&["x", "y"], &["1.5*x - 0.5*x^3", "y/2"]);
+    let found = fixed_point(&map, &[0.9, 0.0], &[]).unwrap();
+    assert!(found.point[0].contains(1.0) && found.point[1].contains(0.0));
+    assert!(found.point.iter().all(|x| x.width() < 1e-14) && found.is_attracting());
 }

@@ -64,9 +64,11 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<formulas::Fates>()?;
     module.add_class::<formulas::ReturnMap>()?;
     module.add_class::<formulas::Steps>()?;
+    module.add_class::<formulas::ProvedBasins>()?;
     module.add_function(wrap_pyfunction!(formulas::_equations, module)?)?;
     module.add_function(wrap_pyfunction!(formulas::_solution, module)?)?;
     module.add_function(wrap_pyfunction!(formulas::_proved_orbit, module)?)?;
+    module.add_function(wrap_pyfunction!(formulas::_proved_basins, module)?)?;
     module.add_class::<hybrid::HybridSystem>()?;
     module.add_class::<hybrid::Guard>()?;
     module.add_class::<hybrid::CFunction>()?;

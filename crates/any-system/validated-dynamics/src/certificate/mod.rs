@@ -202,7 +202,7 @@ impl Certificate {
         }
         let number = self.map(map)?;
         let mut cells = Vec::new();
-        for cell in basins.decided() {
+        for cell in basins.cells() {
             let is_inside = |trap: &Trap| trap.contains(&cell.points);
             let start = || StartSet::of_box(&cell.points).without_derivatives();
             let run = match cell.fate {

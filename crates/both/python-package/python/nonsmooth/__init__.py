@@ -20,7 +20,15 @@ from .basins import attractors_by_features, attractors_of, basins_of, known_attr
 from .boundaries import Boundary, EdgeTrack, FatalShock, boundary_between, minimal_fatal_shock, track_edge
 from .c_functions import c_function
 from .errors import ComputationError, InputError, NonsmoothError, TracingError, UndecidedError
-from .proofs import Multiplier, ProvedEvent, ProvedOrbit, proved_orbit
+from .proofs import (
+    Multiplier,
+    ProvedBasins,
+    ProvedEvent,
+    ProvedOrbit,
+    ProvedTrap,
+    proved_basins,
+    proved_orbit,
+)
 from .returns import Bifurcation, Branch, Diagram, Image, Linearized, PeriodicPoint, ReturnMap
 from .runs import Fates, Run
 from .stability import Shock, Stability, Tipping, stability_of, tipping
@@ -55,8 +63,10 @@ __all__ = [
     "NonsmoothError",
     "Parameters",
     "PeriodicPoint",
+    "ProvedBasins",
     "ProvedEvent",
     "ProvedOrbit",
+    "ProvedTrap",
     "ReturnMap",
     "Run",
     "Shock",
@@ -80,6 +90,7 @@ __all__ = [
     "map_steps",
     "minimal_fatal_shock",
     "plots",
+    "proved_basins",
     "proved_orbit",
     "stability_of",
     "tipping",

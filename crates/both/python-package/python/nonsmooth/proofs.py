@@ -1,10 +1,11 @@
-"""Periodic orbits that exist for certain."""
+"""Periodic orbits that exist for certain, and basins that are proved."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +14,8 @@ from ._arguments import whole
 from .errors import InputError
 
 if TYPE_CHECKING:
+    from os import PathLike
+
     from numpy.typing import NDArray
 
     from .systems import System
@@ -56,6 +59,94 @@ class ProvedOrbit:
     events: list[ProvedEvent]
 
 
+@dataclass(frozen=True)
+class ProvedTrap:
+    """A set that is led into itself: the points centre + directions @ u with abs(u_k) ≤ size. All of them converge to the orbit."""
+
+    orbit: ProvedOrbit
+    centre: NDArray[np.float64]
+    directions: NDArray[np.float64]
+    size: float
+
+
+@dataclass(frozen=True)
+class ProvedBasins:
+    """Which starts of a window come to which trap, or stop at which surface. A code is the place of a fate in ``traps + surfaces``; −1 is open."""
+
+    traps: list[ProvedTrap]
+    #: The surfaces at which starts stop.
+    surfaces: list[str]
+    #: A lower bound of the share of the window that each fate has. What is left is open.
+    shares: NDArray[np.float64]
+    #: The cells with a fate: for each variable a low and a high end, in the shape (cells, variables, 2).
+    cells: NDArray[np.float64]
+    #: The codes of their fates.
+    codes: NDArray[np.int64]
+    #: The number of images that were computed.
+    images: int
+    _window: list[tuple[float, float]]
+    _native: _native.ProvedBasins
+
+    def at(self, points: Any) -> NDArray[np.int64]:
+        """The codes of the fates of points: an array in whose last axis the variables are."""
+        points = np.asarray(points, dtype=float)
+        if points.ndim == 0 or points.shape[-1] != len(self._window):
+            raise InputError(f"points have {len(self._window)} variables in the last axis; the shape is {points.shape}")
+        rows = np.ascontiguousarray(points.reshape(-1, points.shape[-1]))
+        return self._native.codes(rows).reshape(points.shape[:-1])
+
+    def raster(self, pixels: int | Sequence[int]) -> NDArray[np.int64]:
+        """The codes at the middles of equal pixels of the window: an array with one axis for each variable."""
+        counts = [pixels] * len(self._window) if isinstance(pixels, int) else list(pixels)
+        counts = [whole("pixels", count, 1) for count in counts]
+        if len(counts) != len(self._window):
+            raise InputError(f"pixels has {len(counts)} numbers for {len(self._window)} variables")
+        sides = zip(self._window, counts, strict=True)
+        axes = [low + (high - low) * (np.arange(count) + 0.5) / count for (low, high), count in sides]
+        return self.at(np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1))
+
+
+def _orbit(variables: list[str], found: tuple[Any, ...]) -> ProvedOrbit:
+    point, unique_in, multipliers, attracting, saddle, events = found
+    return ProvedOrbit(
+        variables,
+        np.array(point),
+        np.array(unique_in),
+        [Multiplier(complex(real, imaginary), radius) for real, imaginary, radius in multipliers],
+        attracting,
+        saddle,
+        [ProvedEvent(name, time, np.array(after)) for name, time, after in events],
+    )
+
+
+def _question(
+    system: System,
+    surface: str,
+    variables: list[str],
+    start: Sequence[str],
+    read: Sequence[str] | None,
+    mode: str | None,
+    count: int,
+    intervals: Mapping[str, tuple[float, float]],
+    certificate: str | PathLike[str] | None,
+) -> dict[str, Any]:
+    return {
+        "mode": system._first_mode(mode),
+        "surface": surface,
+        "variables": variables + list(intervals),
+        "states": list(start) + list(intervals),
+        "read": variables if read is None else list(read),
+        "intervals": [(name, float(low), float(high)) for name, (low, high) in intervals.items()],
+        "count": whole("count", count, 1),
+        "certificate": None if certificate is None else Path(certificate).stem,
+    }
+
+
+def _written(certificate: str | PathLike[str] | None, text: str | None) -> None:
+    if certificate is not None and text is not None:
+        Path(certificate).write_text(text, encoding="utf-8", newline="\n")
+
+
 def proved_orbit(
     system: System,
     surface: str,
@@ -66,12 +157,15 @@ def proved_orbit(
     mode: str | None = None,
     count: int = 1,
     intervals: Mapping[str, tuple[float, float]] | None = None,
+    certificate: str | PathLike[str] | None = None,
 ) -> ProvedOrbit:
     """Proves that the return map to a surface has exactly one fixed point near a guess, or raises :class:`UndecidedError` with the reason.
 
     The variables of the map are the names of ``guess``. ``start`` has a formula of them for each component of the state, and one for the time, the last component,
     if the model uses it. ``read`` are formulas of the state after the event number ``count`` of the surface, one for each variable; without it, the variables
     are names of the state. ``intervals`` are parameters with two ends: the result holds for each value of them.
+
+    ``certificate`` is a file for the numbers of the proof, which the project's ``check_certificate.py`` confirms. The proof takes longer then.
 
     Parameters are the decimals that Python prints: 0.2 is 1/5. Numbers inside of a function are their doubles, exactly.
 
@@ -93,23 +187,69 @@ def proved_orbit(
     for name, (low, high) in own.items():
         if not low <= high:
             raise InputError(f"the interval of {name} is [{low}, {high}]: the first end is the lower one")
-    question = {
-        "mode": system._first_mode(mode),
-        "surface": surface,
-        "variables": variables + list(own),
-        "guess": [float(guess[name]) for name in variables],
-        "states": list(start) + list(own),
-        "read": variables if read is None else list(read),
-        "intervals": [(name, float(low), float(high)) for name, (low, high) in own.items()],
-        "count": whole("count", count, 1),
-    }
-    point, unique_in, multipliers, attracting, saddle, events = _native._proved_orbit(system.equations, question)
-    return ProvedOrbit(
-        variables,
-        np.array(point),
-        np.array(unique_in),
-        [Multiplier(complex(real, imaginary), radius) for real, imaginary, radius in multipliers],
-        attracting,
-        saddle,
-        [ProvedEvent(name, time, np.array(after)) for name, time, after in events],
-    )
+    question = _question(system, surface, variables, start, read, mode, count, own, certificate)
+    found, text = _native._proved_orbit(system.equations, question, [float(guess[name]) for name in variables])
+    _written(certificate, text)
+    return _orbit(variables, found)
+
+
+def proved_basins(
+    system: System,
+    surface: str,
+    *,
+    guesses: Sequence[Mapping[str, float]],
+    start: Sequence[str],
+    window: Mapping[str, tuple[float, float]],
+    read: Sequence[str] | None = None,
+    mode: str | None = None,
+    count: int = 1,
+    first: int = 5,
+    last: int = 8,
+    images: int = 20_000,
+    certificate: str | PathLike[str] | None = None,
+    progress: Any = None,
+) -> ProvedBasins:
+    """Proves which starts of a window come to which fixed point of the map to a surface, cell by cell.
+
+    The map is that of :func:`proved_orbit`: its variables are the names of ``window``. Each guess is near a fixed point that attracts, about which a trap is proved. A cell
+    has a fate if it is in a trap, if its image is in cells with this fate, or if all its points stop at a surface. Cells are divided from
+    2⁻ᶠⁱʳˢᵗ of the window's sides down to 2⁻ˡᵃˢᵗ, with at most so many ``images``. ``progress`` is a function of (images, all images), or True for a bar.
+
+    For a flow without a section of its own, take a guard of the time: the map is then that over a fixed time.
+
+    >>> import nonsmooth as ns
+    >>> well = ns.System(["v", "x - x^3 - v"], states="x v", guards=[ns.Guard("later", "t - 2", "rising")])
+    >>> basins = ns.proved_basins(
+    ...     well,
+    ...     "later",
+    ...     guesses=[{"x": 1, "v": 0}, {"x": -1, "v": 0}],
+    ...     start=["x", "v", "0"],
+    ...     window={"x": (-1.5, 1.5), "v": (-1, 1)},
+    ...     first=4,
+    ...     last=6,
+    ... )
+    >>> basins.at([[0.8, 0], [-0.8, 0], [0, 0]])
+    array([ 0,  1, -1])
+    >>> bool(basins.shares.sum() > 0.75), basins.raster(30).shape
+    (True, (30, 30))
+
+    Raises :class:`UndecidedError` where no trap is proved. Cells that are not decided are open, and no error.
+    """
+    variables = list(window)
+    for guess in guesses:
+        if set(guess) != set(variables):
+            raise InputError(f"a guess has {sorted(guess)}, but the window has {sorted(variables)}")
+    question = _question(system, surface, variables, start, read, mode, count, {}, certificate)
+    sides = [(float(low), float(high)) for low, high in window.values()]
+    division = (whole("first", first, 0), whole("last", last, 0), whole("images", images, 1))
+    at = [[float(guess[name]) for name in variables] for guess in guesses]
+    native = _native._proved_basins(system.equations, question, at, sides, division, progress)
+    _written(certificate, native.certificate())
+    traps = [
+        ProvedTrap(_orbit(variables, orbit), np.array(centre), np.array(directions), size)
+        for orbit, centre, directions, size in native.traps()
+    ]
+    rows, codes = native.cells()
+    cells = rows.reshape(-1, 2, len(variables)).swapaxes(1, 2)
+    shares = np.array(native.shares())
+    return ProvedBasins(traps, native.surfaces(), shares, cells, codes, native.images(), sides, native)
