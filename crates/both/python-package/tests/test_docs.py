@@ -37,7 +37,7 @@ def test_the_lines_of_the_readme_run(tmp_path, monkeypatch):
 )
 def test_the_examples_of_the_pages_run(page, number, tmp_path):
     found = blocks(page)
-    assert len(found) == {"docs/python.md": 3, "docs/any-model.md": 1, "crates/both/python-package/README.md": 1}[page]
+    assert len(found) == {"docs/python.md": 3, "docs/any-model.md": 2, "crates/both/python-package/README.md": 1}[page]
     if "store=" in found[number]:
         pytest.importorskip("zarr", reason="stores need zarr")
     if "distributed" in found[number]:

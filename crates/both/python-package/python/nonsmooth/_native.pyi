@@ -1062,13 +1062,21 @@ class ReturnMap:
 
 @final
 class ProvedBasins:
-    def traps(self) -> list[tuple[tuple[Any, ...], list[float], list[list[float]], float]]: ...
-    def surfaces(self) -> list[str]: ...
-    def images(self) -> int: ...
-    def shares(self) -> list[float]: ...
-    def certificate(self) -> str | None: ...
-    def codes(self, points: NDArray[np.float64]) -> NDArray[np.int64]: ...
-    def cells(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]: ...
+    """The basins of nonsmooth.proved_basins. Codes count the traps, and then the surfaces."""
+    def traps(self) -> list[tuple[tuple[Any, ...], list[float], list[list[float]], float]]:
+        """The traps."""
+    def surfaces(self) -> list[str]:
+        """The surfaces at which points stop."""
+    def images(self) -> int:
+        """The images that were computed."""
+    def shares(self) -> list[float]:
+        """A lower bound of the share of each fate."""
+    def certificate(self) -> str | None:
+        """The certificate."""
+    def codes(self, points: NDArray[np.float64]) -> NDArray[np.int64]:
+        """The codes of the fates of points, each a row."""
+    def cells(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """The cells with a fate, with the low and then the high ends of each one in a row, and the codes of their fates."""
 
 @final
 class Steps:
