@@ -24,6 +24,10 @@ const FLAGS: (&str, &str) = (
     "-C target-feature=+simd128 -C llvm-args=-inline-threshold=30 -C link-arg=--compress-relocations",
 );
 
+/// The modules of the page: what it needs for its first picture, and what is loaded when it is asked for.
+const CORES: [(&str, &[&str]); 2] =
+    [("core.wasm", &["--no-default-features"]), ("deep.wasm", &[])];
+
 /// The profile in the manifest.
 const PROFILE: &str = "page";
 
@@ -48,29 +52,37 @@ pub(crate) fn target_is_here() -> bool {
     here() || (succeeds(Command::new("rustup").args(["target", "add", TARGET])) && here())
 }
 
-/// Builds the core and copies it with the page into a folder.
+/// Builds the cores and copies them with the page into a folder.
 pub(crate) fn build(folder: &Path) -> Result<(), Error> {
     if !target_is_here() {
         return Err(Error::new(format!(
             "the target {TARGET} is missing and could not be installed; run `{INSTALL}`"
         )));
     }
-    let target = target_folder();
-    let mut command = Command::new(cargo());
-    // Of the crate's two types only this one: with a Rust library beside it the linker does not see the crates as one.
-    command.args(["rustc", "--quiet", "--lib", "--crate-type", "cdylib", "--locked"]);
-    command.args(["--profile", PROFILE, "--target", TARGET]);
-    command.arg("--manifest-path").arg(manifest()).arg("--target-dir").arg(&target);
-    command.env(FLAGS.0, FLAGS.1);
-    step(&mut command, "the explorer's core")?;
     std::fs::create_dir_all(folder).map_err(Error::at(folder))?;
+    for (name, features) in CORES {
+        core(&folder.join(name), features)?;
+    }
     for page in page_files()? {
         let to = folder.join(page.file_name().unwrap_or_default());
         let text = std::fs::read_to_string(&page).map_err(Error::at(&page))?;
         std::fs::write(&to, without_comments(&text)).map_err(Error::at(&to))?;
     }
-    let core = target.join(TARGET).join(PROFILE).join("hopper_explorer.wasm");
-    std::fs::copy(&core, folder.join("core.wasm")).map_err(Error::at(&core))?;
+    Ok(())
+}
+
+/// Builds the core with these arguments of cargo, and copies it.
+fn core(to: &Path, features: &[&str]) -> Result<(), Error> {
+    let target = target_folder();
+    let mut command = Command::new(cargo());
+    // Of the crate's two types only this one: with a Rust library beside it the linker does not see the crates as one.
+    command.args(["rustc", "--quiet", "--lib", "--crate-type", "cdylib", "--locked"]);
+    command.args(["--profile", PROFILE, "--target", TARGET]).args(features);
+    command.arg("--manifest-path").arg(manifest()).arg("--target-dir").arg(&target);
+    command.env(FLAGS.0, FLAGS.1);
+    step(&mut command, "the explorer's core")?;
+    let built = target.join(TARGET).join(PROFILE).join("hopper_explorer.wasm");
+    std::fs::copy(built, to).map_err(Error::at(to))?;
     Ok(())
 }
 

@@ -15,10 +15,10 @@ const texts = new Map([...document.querySelectorAll("script[data-name]")].map((p
 const plain = (name) => texts.get(name).replace(/^import .*$/gm, "").replace(/^export /gm, "");
 texts.set("worker.js", plain("core.js") + plain("worker.js"));
 texts.set("pool.js", texts.get("pool.js").replace('{ type: "module" }', "{}"));
-const made = new Map([["core.wasm", `data:application/wasm;base64,${texts.get("core.wasm")}`]]);
+const made = new Map(["core.wasm", "deep.wasm"].map((name) => [name, `data:application/wasm;base64,${texts.get("deep.wasm")}`]));
 function addressOf(name) {
   if (!made.has(name)) {
-    const text = texts.get(name).replace(/"(?:\.\/)?(\w+\.js|core\.wasm)"/g, (quoted, other) => (texts.has(other) ? `"${addressOf(other)}"` : quoted));
+    const text = texts.get(name).replace(/"(?:\.\/)?(\w+\.(?:js|wasm))"/g, (quoted, other) => (texts.has(other) || made.has(other) ? `"${addressOf(other)}"` : quoted));
     made.set(name, URL.createObjectURL(new Blob([text], { type: "text/javascript" })));
   }
   return made.get(name);
@@ -37,8 +37,9 @@ pub(crate) fn one_file(folder: &Path) -> Result<String, Error> {
     let mut add = |name: &str, text: &str| {
         let _ = writeln!(parts, "<script type=\"text/plain\" data-name=\"{name}\">{text}</script>");
     };
-    let core = folder.join("core.wasm");
-    add("core.wasm", &base_64(&std::fs::read(&core).map_err(Error::at(&core))?));
+    // It has all that the smaller core has.
+    let core = folder.join("deep.wasm");
+    add("deep.wasm", &base_64(&std::fs::read(&core).map_err(Error::at(&core))?));
     let mut names: Vec<String> = std::fs::read_dir(folder)
         .map_err(Error::at(folder))?
         .map(|entry| {

@@ -164,3 +164,22 @@ fn wrong_inputs_are_errors() {
     assert!(chart.phase(&own, Offset::from(1e-9)).is_err());
     assert!(matches!(chart.phase(&other, y), Err(Error::OtherCircle { .. })));
 }
+
+/// In the middle of a basin the nearest edge is far; each one that is found has fates of both kinds beside it.
+#[test]
+fn from_every_point_an_edge_is_found() {
+    for mass_ratio in [1e-3, 0.02, 0.1, 0.2, 0.5, 1.0, 3.0, 40.0] {
+        let fates = fates(mass_ratio);
+        for alpha in [0.3, 2.0, 4.2, 4.55, 6.0, 7.72, 9.5, 12.0, 15.5, 19.9, 60.0] {
+            let chart = EdgeChart::nearest(&fates, alpha).unwrap();
+            let (point, ..) = chart.point();
+            // A fixed point is never farther.
+            assert!((point - alpha).abs() < 3.2 || alpha < 1.5, "{mass_ratio} {alpha} {point}");
+            let own = HopperFate::label_of_fixed_point(chart.n());
+            // The basin of α*_n is on one side, the one to which the slope points.
+            let beside = point + 1e-9 * chart.slope().signum();
+            assert_eq!(fates.labels(&[beside]).unwrap()[0], own, "{mass_ratio} {alpha} {point}");
+        }
+    }
+    assert!(EdgeChart::nearest(&fates(0.2), f64::NAN).is_err());
+}

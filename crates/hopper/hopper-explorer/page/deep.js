@@ -2,7 +2,7 @@
 import { MARGIN, deepAxes, powerOfTen } from "./axes.js";
 import { change, say, state } from "./state.js";
 import { pretty, show } from "./numbers.js";
-import { hatch } from "./plane.js";
+import { dimmed, hatch } from "./plane.js";
 
 /** Pixels of the first and of the last frame, each way. */
 const QUICK = 48;
@@ -79,10 +79,12 @@ export class Deep {
     for (const frame of sorted) {
       const size = 10 ** (depth - frame.depth);
       if (!frame.bitmap || size < 0.02 || size > 1000) continue;
+      context.globalAlpha = dimmed();
       context.imageSmoothingEnabled = false;
       const [width, height] = [box.width * size, box.height * size];
       context.drawImage(frame.bitmap, middle.left - width / 2, middle.top - height / 2, width, height);
     }
+    context.globalAlpha = 1;
     if (this.parts.failed) hatch(context, MARGIN.left, MARGIN.top, box.width, box.height, true);
     for (const [color, width] of [
       ["#fff", 4],

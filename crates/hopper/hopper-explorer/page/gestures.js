@@ -8,13 +8,20 @@ const CLICK = 4;
 /** A box smaller than this is a slip. */
 const SMALLEST_BOX = 8;
 
-export function gestures(canvas, { zoom, move, click, hover, box }) {
+/** A second click or tap within these milliseconds and pixels makes the two one gesture. */
+const [TWICE, NEAR] = [350, 24];
+/** A plane that was moved this many milliseconds before it is let go is thrown, with the speed of these. */
+const THROWN = 80;
+
+export function gestures(canvas, { zoom, move, click, twice, thrown, hover, box }) {
   const at = (event) => {
     const { left, top } = canvas.getBoundingClientRect();
     return { left: event.clientX - left - MARGIN.left, top: event.clientY - top - MARGIN.top };
   };
   const fingers = new Map();
   let start = null;
+  let before = null; // the last click
+  let trail = []; // places of the last milliseconds of a drag
 
   canvas.addEventListener(
     "wheel",
@@ -38,14 +45,15 @@ export function gestures(canvas, { zoom, move, click, hover, box }) {
 
   canvas.addEventListener("pointermove", (event) => {
     const now = at(event);
-    const before = fingers.get(event.pointerId);
-    if (!before) return hover(now);
+    const last = fingers.get(event.pointerId);
+    if (!last) return hover(now);
     if (fingers.size === 2) {
       const [other] = [...fingers].filter(([id]) => id !== event.pointerId).map(([, place]) => place);
-      pinch(before, now, other);
+      pinch(last, now, other);
     } else if (start) {
       start.moved ||= Math.hypot(now.left - start.left, now.top - start.top) > CLICK;
-      if (start.moved && !start.boxed) move(now.left - before.left, now.top - before.top);
+      trail = [...trail.filter(({ time }) => event.timeStamp - time < THROWN), { ...now, time: event.timeStamp }];
+      if (start.moved && !start.boxed) move(now.left - last.left, now.top - last.top);
       if (start.moved && start.boxed) box(start, now, false);
     }
     fingers.set(event.pointerId, now);
@@ -54,12 +62,22 @@ export function gestures(canvas, { zoom, move, click, hover, box }) {
   const up = (event) => {
     const now = at(event);
     if (start && event.type === "pointerup") {
-      if (!start.moved) click(now);
+      if (!start.moved) {
+        const again = before && event.timeStamp - before.time < TWICE && Math.hypot(now.left - before.left, now.top - before.top) < NEAR;
+        before = again ? null : { ...now, time: event.timeStamp };
+        if (again) twice(now);
+        else click(now);
+      }
       else if (start.boxed) {
         const large = Math.min(Math.abs(now.left - start.left), Math.abs(now.top - start.top)) > SMALLEST_BOX;
         box(start, now, true, large);
+      } else {
+        const [first] = trail.filter(({ time }) => event.timeStamp - time < THROWN);
+        const time = first ? event.timeStamp - first.time : 0;
+        if (time > 0) thrown((now.left - first.left) / time, (now.top - first.top) / time);
       }
     }
+    trail = [];
     start = null;
     fingers.delete(event.pointerId);
   };

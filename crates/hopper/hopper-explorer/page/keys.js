@@ -7,6 +7,8 @@ export const KEYS = [
   ["A a", "zoom α in, out"],
   ["Enter", "pin the middle"],
   ["H", "the whole window"],
+  ["Z Y", "the view before, the next one"],
+  ["G", "places with names"],
   ["L", "M linear or logarithmic"],
   ["1 2 …", "the layers, in the order of their buttons"],
   ["D", "deep zoom to the nearest edge"],
@@ -19,6 +21,27 @@ export const KEYS = [
   ["?", "this help"],
 ];
 
+const SWITCH = "hopper-explorer letters";
+const stored = () => {
+  try {
+    return localStorage.getItem(SWITCH);
+  } catch {
+    return null;
+  }
+};
+let on = stored() !== "off";
+
+/** Whether single letters are keys: a person who dictates, or whose hand trembles, may not want them. */
+export const letters = () => on;
+export const useLetters = (wanted) => {
+  on = wanted;
+  try {
+    localStorage.setItem(SWITCH, on ? "on" : "off");
+  } catch {
+    // It holds until the page is closed.
+  }
+};
+
 export function keys(actions) {
   addEventListener("keydown", (event) => {
     // A dialog that was just closed can still have the focus, for a frame.
@@ -26,6 +49,7 @@ export function keys(actions) {
     if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
     // Space and Enter belong to a focused button.
     if (event.target.closest("button, summary") && [" ", "Enter"].includes(event.key)) return;
+    if (!on && event.key.length === 1 && !["+", "-", " "].includes(event.key)) return;
     const action = actions[event.key] ?? actions[event.key.toLowerCase()];
     if (!action) return;
     event.preventDefault();

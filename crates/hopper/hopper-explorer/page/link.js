@@ -3,12 +3,13 @@ import { DEEPEST } from "./deep.js";
 import { layers, state } from "./state.js";
 import { isView } from "./view.js";
 
-function write({ view, layer, pin, hops, depth }) {
+export function write({ view, layer, pin, hops, depth }) {
   const parts = [
     `${view.logarithmic ? "log" : "lin"}=${[...view.x, ...view.alpha].join(",")}`,
     `layer=${layers[layer].key}`,
   ];
   if (pin) parts.push(`pin=${pin.m},${pin.alpha}`, `hops=${hops}`);
+  if (document.body.classList.contains("embedded")) parts.push("embed");
   if (depth) parts.push(`depth=${depth.m},${depth.alpha},${depth.depth}`);
   return `#${parts.join("&")}`;
 }
@@ -45,6 +46,9 @@ export function read(hash) {
     } else if (name === "hops") {
       good = /^\d{1,2}$/.test(value) && Number(value) >= 1;
       if (good) fields.hops = Number(value);
+    } else if (name === "embed") {
+      good = value === "";
+      if (good) fields.embedded = true;
     } else if (name === "depth") {
       const all = doubles(value, 3);
       good = all !== null && all[0] > 0 && all[1] > 0 && all[2] >= 0 && all[2] <= DEEPEST;
@@ -53,11 +57,4 @@ export function read(hash) {
     if (!good) wrong.push(part.slice(0, 40));
   }
   return { fields, wrong };
-}
-
-let timer = 0;
-/** Keeps the address up to date, some times a second. */
-export function keep() {
-  clearTimeout(timer);
-  timer = setTimeout(() => history.replaceState(null, "", write(state)), 200);
 }

@@ -2,25 +2,24 @@
 import { MARGIN } from "./axes.js";
 import { Core } from "./core.js";
 import { Deep, SHALLOWEST } from "./deep.js";
-import * as dialogs from "./dialogs.js";
 import { gestures } from "./gestures.js";
+import { ZOOM, glide, halt, thrown } from "./glide.js";
+import { begin, keep } from "./history.js";
 import { keys } from "./keys.js";
-import { keep, read } from "./link.js";
+import { read } from "./link.js";
 import { hideMap, isHeld, showMap } from "./map_panel.js";
-import { measure, play, showMotion, start as startMotion, stateAt, step } from "./motion_panel.js";
+import { GENTLE, measure, play, showMotion, start as startMotion, stateAt, step } from "./motion_panel.js";
 import { parse, pretty, show } from "./numbers.js";
 import { Plane } from "./plane.js";
-import { showCircle, showIntervals } from "./circle_panel.js";
 import { showFate, showOrbit, showPin, showProof, showSentence } from "./point_panel.js";
 import { Pool } from "./pool.js";
-import { snippets } from "./same.js";
-import * as files from "./save.js";
 import { change, layers, listen, say, state } from "./state.js";
-import { stops } from "./tour.js";
 import { at, moved, toM, tooFine, withLogarithm, zoomed } from "./view.js";
 
 /** Hops of the orbit in the panels. */
 const ORBIT = 60;
+/** Hops of the orbit of the point under the cursor. */
+const HOVERED = 12;
 /** Points of a piece of the map. */
 const PIECE = 120;
 /** Milliseconds after which the panels of the point before are emptied. */
@@ -28,22 +27,35 @@ const LATE = 150;
 /** Below this height of the window an edge inside it is looked for, to change to its chart. */
 const EDGE_HEIGHT = 1e-8;
 
+/** A point that hops for ever: what a first visitor sees. */
+const FIRST = { m: 0.08, alpha: 6 };
+
+// Parts that are loaded when they are first used.
+const dialogs = () => import("./dialogs.js");
+const files = () => import("./save.js");
+const same = () => import("./same.js");
+const circles = () => import("./circle_panel.js");
+
 // A host that does not know the type of the file is no reason to stop.
-const module = WebAssembly.compileStreaming(fetch("core.wasm")).catch(async () => WebAssembly.compile(await (await fetch("core.wasm")).arrayBuffer()));
+const compiled = (name) => WebAssembly.compileStreaming(fetch(name)).catch(async () => WebAssembly.compile(await (await fetch(name)).arrayBuffer()));
+const module = compiled("core.wasm");
+let deepModule = null;
 const workers = Math.max((navigator.hardwareConcurrency || 2) - 1, 1);
-const pool = new Pool(module, Math.min(workers, 16)).warm();
-const desk = new Pool(module, 1);  // panels
-const well = new Pool(module, 1);  // the deep view and slow panels
+const pool = new Pool(() => module, Math.min(workers, 16)).warm();
+const desk = new Pool(() => module, 1);  // panels
+const well = new Pool(() => (deepModule ??= compiled("deep.wasm").catch((error) => { deepModule = null; throw error; })), 1);  // the deep view and slow panels
 const legend = await module.then((found) => WebAssembly.instantiate(found, {})).then((instance) => new Core(instance).legend(), (error) => {
   say(`The core cannot be loaded: ${error.message}. The page needs a web server and a browser of 2023 or newer.`);
   throw error;
 });
 layers.push(...legend.layers);
+/** The layer of exact shares: needles that are thinner than a pixel are lines in it. */
+const usual = layers.findIndex(({ kind }) => kind === "shares");
 document.getElementById("layer").replaceChildren(...layers.map(({ name }, k) => new Option(name, k)));
 const canvas = document.getElementById("canvas");
 const plane = new Plane(canvas, pool, legend);
 // After the first picture, so that they do not take its time.
-canvas.addEventListener("complete", () => [desk, well].forEach((one) => one.warm()), { once: true });
+canvas.addEventListener("complete", () => desk.warm(), { once: true });
 const deep = new Deep(plane, well);
 const [left, right, bottom, top] = legend.home;
 const home = { logarithmic: false, x: [left, right], alpha: [bottom - 0.2, top] };
@@ -57,6 +69,7 @@ const centre = () => ({ left: plane.box.width / 2, top: plane.box.height / 2 });
 const pointAt = (where) => at(state.view, where.left, where.top, plane.box);
 
 function zoom(where, factorX, factorAlpha) {
+  halt();
   plane.focus = null;
   if (state.depth) { if (deep.zoom(factorAlpha === 1 ? factorX : factorAlpha)) leaveDepth(); return; }
   const focus = pointAt(where);
@@ -64,7 +77,15 @@ function zoom(where, factorX, factorAlpha) {
   const next = zoomed(state.view, focus, factorX, factorAlpha);
   change({ view: next });
   const height = next.alpha[1] - next.alpha[0];
-  if (factorAlpha < 1 && (height < EDGE_HEIGHT || tooFine(next.alpha))) lookForEdge(focus);
+  if (factorAlpha <= 1 && (height < EDGE_HEIGHT || tooFine(next.alpha))) lookForEdge(focus);
+}
+
+/** A zoom that the eye can follow. */
+function zoomGently(where, factorX, factorAlpha) {
+  if (state.depth) return zoom(where, factorX, factorAlpha);
+  const focus = pointAt(where);
+  plane.focus = focus;
+  glide(zoomed(state.view, focus, factorX, factorAlpha), ZOOM).then((there) => { if (there) zoom(where, 1, 1); });
 }
 
 let looking = 0;
@@ -122,7 +143,7 @@ async function showPoint() {
 
 /** A sentence, and nothing of any point. A map that is dragged stays under the hand. */
 function empty(text) {
-  shown = null;
+  shown = plane.orbit = null;
   showSentence(text);
   showMotion(null);
   if (!isHeld()) hideMap();
@@ -144,6 +165,8 @@ async function showPointNow(mine) {
   if (again && !isHeld()) return; // another point is pinned
   const { point: found, window, map, motion } = answer;
   [shown, shownWindow] = [found, window];
+  plane.orbit = { m, speeds: found.speeds };
+  plane.refresh();
   showFate(found);
   showOrbit(found);
   if (map.refused) hideMap(`No map: ${map.refused}.`); else showMap(map, found, window);
@@ -173,15 +196,16 @@ function slowPanels(isWanted, m, n) {
     box.textContent = byId(id).open ? "Computing …" : "";
     if (!byId(id).open) return;
     try {
-      const found = await well.ask(id, m, ...question);
-      if (isWanted()) box.innerHTML = show(found);
+      const [panel, found] = await Promise.all([circles(), well.ask(id, m, ...question)]);
+      if (isWanted()) box.innerHTML = show(panel, found);
     } catch (error) { if (isWanted()) box.textContent = error.message; }
   };
-  fill("circle", (found) => showCircle(found, colorOf), chosen ?? n);
-  fill("intervals", (found) => showIntervals(found, m, colorOf), 1, Math.min(Math.max(n, 5) + 1, 12));
+  fill("circle", ({ showCircle }, found) => showCircle(found, colorOf), chosen ?? n);
+  fill("intervals", ({ showIntervals }, found) => showIntervals(found, m, colorOf), 1, Math.min(Math.max(n, 5) + 1, 12));
 }
 
-function showSame() {
+async function showSame() {
+  const { snippets } = await same();
   const box = byId("same").querySelector("div");
   box.replaceChildren(...Object.entries(snippets()).flatMap(([name, code]) => {
     const [title, text, copy] = ["p", "pre", "button"].map((tag) => document.createElement(tag));
@@ -194,59 +218,52 @@ function showSame() {
 }
 
 function showLegend() {
-  const swatch = ({ color, name }) => `<span><i class="swatch" style="background:${color}"></i>${pretty(name.split(":")[0])}</span>`;
+  const square = ({ color }) => `<i class="swatch" style="background:${color}"></i>`;
+  const swatch = (fate) => `<span title="${pretty(fate.name ?? "")}">${square(fate)}${fate.plain}</span>`;
   const { kind, scale, color, legend: words } = state.depth ? layers.find((layer) => layer.kind === "shares") : layers[state.layer];
-  byId("legend").innerHTML = kind === "numbers"
-    ? `<span class="scale">0 <span style="background:linear-gradient(90deg,${scale.map((step) => step.color).join(",")})"></span> ${scale.at(-1).value} ${words}</span>`
-    : legend.fates.map(swatch).join("") + (kind === "shares" ? `<span>${words}</span>` : color ? swatch({ color, name: words }) : "");
+  if (kind === "numbers") {
+    byId("legend").innerHTML =
+      `<span class="scale">0 <span style="background:linear-gradient(90deg,${scale.map((step) => step.color).join(",")})"></span> ${scale.at(-1).value} ${words}</span>`;
+    return;
+  }
+  const heights = legend.fates.filter(({ label }) => label > 0 && label < 65000);
+  const height = (fate, k) => `<b title="${pretty(fate.name)}">${square(fate)}${fate.label}${k === heights.length - 1 ? " and more" : ""}</b>`;
+  byId("legend").innerHTML = `<span>hops for ever, height ${heights.map(height).join("")}</span>` +
+    legend.fates.filter((fate) => !heights.includes(fate)).map(swatch).join("") +
+    (kind === "shares" ? `<span>${words}</span>` : color ? swatch({ color, plain: words }) : "");
 }
 
-// The tour.
-const tour = stops(legend);
-let stop = -1;
-function goTo(next) {
-  stop = next;
-  wish += 1;
-  byId("stop").hidden = stop < 0 || stop >= tour.length;
-  if (byId("stop").hidden) { stop = -1; return; }
-  const { title, text, fields, open, depth } = tour[stop];
-  byId("stop").innerHTML = `<h2>${stop + 1} of ${tour.length}. ${title}</h2><p>${text}</p><div class="row">
-    <button data-go="-1"${stop === 0 ? " disabled" : ""}>Previous</button><button data-go="1">${stop === tour.length - 1 ? "End" : "Next"}</button><button data-go="end">Close</button></div>`;
-  byId("stop").querySelectorAll("[data-go]").forEach((button) => {
-    button.onclick = () => goTo(button.dataset.go === "end" ? -1 : stop + Number(button.dataset.go));
-  });
-  if (open) byId(open).open = true;
-  change({ ...fields });
-  if (depth) openDepth(depth.m, depth.alpha, depth.depth);
+// The tour, which is loaded when it begins.
+let tour = null;
+async function goTo(next) {
+  if (!tour && next < 0) return;
+  tour ??= new (await import("./tour.js")).Tour(legend, openDepth, () => { wish += 1; halt(); });
+  tour.go(next);
 }
 
-const saveDialog = () => dialogs.save([
-  ["PNG", async (wait) => files.download(await files.png(plane, deep, wait), "hopper.png")],
-  ["SVG", async (wait) => files.download(await files.svg(plane, deep, wait), "hopper.svg")],
-  ["CSV", async () => files.download(await files.csv(pool, desk, deep), "hopper.csv")],
-  ["the orbit as CSV", async () => files.download(files.orbitCsv(shown, deep), "hopper-orbit.csv")],
-  ["the map as SVG", async () => savePanel("map")],
-  ["the motion as SVG", async () => savePanel("stage")],
-]);
-function savePanel(id) {
-  const drawing = byId(id).querySelector("svg");
-  if (!drawing) throw new Error("pin a point first");
-  const style = getComputedStyle(document.documentElement);
-  const colored = drawing.outerHTML.replace(/var\((--\w+)\)/g, (_, name) => style.getPropertyValue(name)).replace("<svg ", `<svg color="#000" `)
-    .replace("</title>", `</title><desc>${files.parameters(deep)}</desc>`);
-  files.download(new Blob([colored], { type: "image/svg+xml" }), `hopper-${id}.svg`);
+async function saveDialog() {
+  const [{ save }, { offers }] = await Promise.all([dialogs(), files()]);
+  save(offers({ plane, deep, pool, desk, shown: () => shown }));
 }
+const share = async () => (await dialogs()).share();
+const help = async () => (await dialogs()).help();
+const places = async () => (await dialogs()).places(follow, legend, openDepth);
 
 const pan = (x, alpha) => {
   const { view } = state;
   if (state.depth) return say("The deep view keeps the boundary point in its middle. Esc leaves it.");
+  halt();
   change({ view: moved(view, x * (view.x[1] - view.x[0]), alpha * (view.alpha[1] - view.alpha[0])) });
 };
-const goHome = () => { wish += 1; change({ view: withLogarithm(home, state.view.logarithmic), depth: null }); };
+const goHome = () => {
+  wish += 1;
+  if (state.depth) change({ depth: null });
+  glide(withLogarithm(home, state.view.logarithmic));
+};
 const setLayer = (layer) => () => change({ layer });
 const setLogarithmic = (logarithmic) => change({ view: withLogarithm(state.view, logarithmic) });
 const pinCentre = () => { const { x, alpha } = pointAt(centre()); change({ pin: { m: toM(state.view, x), alpha } }); };
-const scale = (x, alpha) => () => zoom(centre(), x, alpha);
+const scale = (x, alpha) => () => zoomGently(centre(), x, alpha);
 
 gestures(canvas, {
   zoom,
@@ -258,6 +275,8 @@ gestures(canvas, {
     if (m > 0 && alpha > 0) change({ pin: { m, alpha } });
   },
   hover,
+  twice: (where) => zoomGently(where, 0.4, 0.4),
+  thrown: (byLeft, byTop) => { if (!state.depth) thrown(byLeft, byTop, plane.box); },
   box: (from, to, done, large) => {
     plane.draw();
     if (state.depth) return;
@@ -278,8 +297,10 @@ async function hover(where) {
   if (!(m > 0 && alpha > 0)) return;
   hovering = true;
   try {
-    const { fate, hops } = await desk.ask("point", m, alpha, 0);
-    say(`M = ${show(m, 8)}, α = ${show(alpha, 10)}: ${pretty(fate.name)} after ${hops} hops`);
+    const { fate, hops, speeds } = await desk.ask("point", m, alpha, HOVERED);
+    plane.hovered = { m, speeds };
+    plane.refresh();
+    say(`M = ${show(m, 8)}, α = ${show(alpha, 10)}: ${fate.plain}, ${pretty(fate.name)} after ${hops} hops`);
   } catch (error) { say(error.message); }
   hovering = false;
 }
@@ -289,16 +310,19 @@ keys({
   "+": scale(1 / 1.5, 1 / 1.5), "=": scale(1 / 1.5, 1 / 1.5), "-": scale(1.5, 1.5), "−": scale(1.5, 1.5),
   X: scale(1 / 1.5, 1), x: scale(1.5, 1), A: scale(1, 1 / 1.5), a: scale(1, 1.5),
   Enter: pinCentre, h: goHome, l: () => setLogarithmic(!state.view.logarithmic), ...Object.fromEntries(layers.map((_, k) => [k + 1, setLayer(k)])),
-  d: deepHere, t: () => goTo(0), n: () => stop >= 0 && goTo(stop + 1), p: () => stop > 0 && goTo(stop - 1),
-  Escape: () => { if (state.depth) leaveDepth(); goTo(-1); },
-  " ": () => play(), ",": () => step(-1), ".": () => step(1), s: saveDialog, c: dialogs.share, "?": dialogs.help,
+  d: deepHere, t: () => goTo(0), n: () => tour?.runs && goTo(tour.at + 1), p: () => tour?.at > 0 && goTo(tour.at - 1),
+  Escape: () => { if (state.depth) leaveDepth(); goTo(-1); }, z: () => history.back(), y: () => history.forward(), g: places,
+  " ": () => play(), ",": () => step(-1), ".": () => step(1), s: saveDialog, c: share, "?": help,
 });
 byId("home").onclick = goHome;
 byId("deep").onclick = deepHere;
-byId("tour").onclick = () => goTo(stop < 0 ? 0 : -1);
-byId("share").onclick = dialogs.share;
+byId("tour").onclick = () => goTo(tour?.runs ? -1 : 0);
+byId("places").onclick = places;
+byId("back-view").onclick = () => history.back();
+byId("forth-view").onclick = () => history.forward();
+byId("share").onclick = share;
 byId("save").onclick = saveDialog;
-byId("help").onclick = dialogs.help;
+byId("help").onclick = help;
 byId("layer").onchange = ({ target }) => change({ layer: Number(target.value) });
 byId("logarithmic").onchange = ({ target }) => setLogarithmic(target.checked);
 ["circle", "intervals", "same"].forEach((id) => byId(id).addEventListener("toggle", () => (id === "same" ? showSame() : showPoint())));
@@ -327,17 +351,39 @@ listen((names) => {
 
 function follow(hash) {
   wish += 1;
+  halt();
+  begin();
   const { fields, wrong } = read(hash);
-  const { depth, ...rest } = fields;
-  change({ view: home, layer: 0, pin: null, depth: null, ...rest });
+  const { depth, embedded, ...rest } = fields;
+  if (embedded) embed();
+  change({ view: home, layer: usual, pin: null, depth: null, ...rest });
   if (depth) openDepth(depth.m, depth.alpha, depth.depth);
   if (wrong.length > 0) queueMicrotask(() => say(`A part of the address makes no sense and is left out: ${wrong.join(", ")}`));
 }
+/** The picture alone, within another page. */
+function embed() {
+  if (document.body.classList.contains("embedded")) return;
+  document.body.classList.add("embedded");
+  const link = document.createElement("a");
+  Object.assign(link, { id: "whole", textContent: "Open the explorer", target: "_blank", rel: "noopener" });
+  link.onpointerenter = link.onfocus = () => { link.href = location.href.replace("&embed", ""); };
+  link.href = location.href.replace("&embed", "");
+  byId("view").append(link);
+}
+
 startMotion(desk);
 showLegend();
 follow(location.hash);
 addEventListener("hashchange", () => follow(location.hash));
-if (location.protocol !== "file:" && "serviceWorker" in navigator) navigator.serviceWorker.register("sw.js").catch(() => say("Offline use is not possible here."));
+// Afterwards: it fetches all files.
+if (location.protocol !== "file:" && "serviceWorker" in navigator)
+  canvas.addEventListener("complete", () => navigator.serviceWorker.register("sw.js").catch(() => say("Offline use is not possible here.")), { once: true });
+
+// A first visitor sees a hopper that hops for ever, gently; with reduced motion it stands still.
+if (location.hash === "") {
+  change({ pin: FIRST });
+  canvas.addEventListener("panels", () => { if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play(true, GENTLE); }, { once: true });
+}
 
 // For tests.
-window.explorer = { state, pool, desk, plane, deep, change, parse, stateAt, files, snippets };
+window.explorer = { state, pool, desk, plane, deep, change, parse, stateAt, files, same };

@@ -8,6 +8,8 @@ import { Drawing } from "./svg.js";
 const FIELDS = 7;
 /** Time steps of a frame at full speed: a period of the spring lasts 1.2 s. */
 const RATE = (2 * Math.PI) / 1.2;
+/** The part of the full speed at which the first hopper hops. */
+export const GENTLE = 0.5;
 /** Within this time of a landing or a lift-off the slow motion is a fifth. */
 const NEAR = 0.35;
 const SLOW = 0.2;
@@ -46,6 +48,7 @@ let desk = null;
 let time = 0;
 let playing = false;
 let last = 0;
+let pace = 1;
 let stage = null;
 
 const count = () => (samples ? (samples.length - 1) / FIELDS : 0);
@@ -205,13 +208,14 @@ function tick(now) {
   const passed = Math.min((now - last) / 1000, 0.1);
   last = now;
   const near = part("slow").checked && stage.events.some((event) => Math.abs(event.time - time) < NEAR);
-  time += passed * RATE * (near ? SLOW : 1);
+  time += passed * RATE * pace * (near ? SLOW : 1);
   if (time > field(count() - 1, 0)) time = 0;
   place();
   requestAnimationFrame(tick);
 }
 
-export function play(on = !playing) {
+export function play(on = !playing, rate = 1) {
+  pace = rate;
   playing = on && samples !== null;
   part("play").textContent = playing ? "Pause" : "Play";
   part("play").setAttribute("aria-pressed", playing);

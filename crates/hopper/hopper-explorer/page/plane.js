@@ -2,7 +2,7 @@
 // is out of view.
 import { MARGIN, fitLetters, inner, paintAxes, planeAxes } from "./axes.js";
 import { state, say } from "./state.js";
-import { COARSE, QUICK, SIZE, TileStore, coarsePixels, isShares, keyOf, needed, windowOf } from "./tiles.js";
+import { COARSE, FEW, QUICK, SIZE, TileStore, coarsePixels, isShares, keyOf, needed, towers, windowOf } from "./tiles.js";
 import { place, toX } from "./view.js";
 
 export class Plane {
@@ -16,6 +16,8 @@ export class Plane {
     this.focus = null; // where the next tile is wanted first
     this.frames = 0;
     this.overlay = null; // what draws instead of the plane
+    this.orbit = null; // { m, speeds } of the pinned point
+    this.hovered = null; // the same of the point under the cursor
     new ResizeObserver(() => this.refresh()).observe(canvas);
   }
 
@@ -58,14 +60,18 @@ export class Plane {
     const focus = this.focus ?? centre;
     const pixels = this.#pixels();
     const missing = needed(state.view, state.layer, pixels, focus).filter((tile) => !this.store.isFine(tile));
-    const coarse = missing
+    const shares = isShares(state.layer);
+    // Before shares, which take long, points: coarse ones, then fine ones.
+    const first = shares
+      ? missing.map((tile) => ({ ...tile, layer: QUICK, part: 1 })).filter((tile) => !this.store.isFine(tile))
+      : missing;
+    const coarse = first
       .filter((tile) => !this.store.isCoarse(tile))
-      .map((tile) => ({ ...tile, pixels: coarsePixels(tile.layer) }));
-    const quick = isShares(state.layer)
-      ? coarse.map((tile) => ({ ...tile, layer: QUICK, pixels: COARSE })).filter((tile) => !this.store.isCoarse(tile))
-      : [];
-    const wanted = [...quick, ...coarse, ...missing.map((tile) => ({ ...tile, pixels: SIZE }))];
-    const nameOf = (tile) => `${keyOf(tile)}/${tile.pixels}`;
+      .map((tile) => ({ ...tile, pixels: shares ? COARSE : coarsePixels(tile.layer) }));
+    const fine = first.map((tile) => ({ ...tile, pixels: SIZE }));
+    const few = missing.filter((tile) => !this.store.has(tile));
+    const wanted = [...coarse, ...fine, ...(shares ? [...towers(few, FEW), ...towers(missing, SIZE)] : [])];
+    const nameOf = (tile) => `${keyOf(tile)}/${tile.columns ?? tile.pixels}/${tile.floors ?? 1}/${tile.part}`;
     const keys = new Set(wanted.map(nameOf));
     for (const [key, id] of this.asked) {
       if (!keys.has(key)) {
@@ -77,7 +83,7 @@ export class Plane {
     const free = 2 * this.pool.members.length - this.asked.size;
     const fresh = wanted.filter((tile) => !this.asked.has(nameOf(tile)));
     fresh.slice(0, Math.max(free, 0)).forEach((tile) => this.#ask(tile, nameOf(tile)));
-    this.drawable = (isShares(state.layer) ? quick : coarse).length === 0;
+    this.drawable = coarse.length === 0;
     this.idle = wanted.length === 0;
     if (this.idle) this.canvas.dispatchEvent(new Event("complete"));
   }
@@ -87,10 +93,19 @@ export class Plane {
     this.asked.set(key, promise.id);
     try {
       const found = await promise;
-      if (!found.stopped) this.store.put(tile, { bitmap: found.bitmap });
+      const floors = tile.floors ?? 1;
+      for (let floor = 0; floor < floors && !found.stopped; floor++) {
+        const [part, whole] = [floor === floors - 1 ? (tile.part ?? 1) : 1, !tile.columns];
+        // What is above the part stays transparent.
+        const above = (floors - 2 + (tile.part ?? 1) - floor) * SIZE;
+        const bitmap = whole ? found.bitmap : cut(found.bitmap, above);
+        this.store.put({ ...tile, j: tile.j + floor }, { bitmap, part });
+      }
+      if (tile.columns) found.bitmap?.close();
     } catch (error) {
       // A tile without a picture is marked; it is not asked for again.
-      this.store.put(tile, { bitmap: null, error: error.message });
+      for (let floor = 0; floor < (tile.floors ?? 1); floor++)
+        this.store.put({ ...tile, j: tile.j + floor }, { bitmap: null, error: error.message });
       say(`A part of the picture is missing: ${error.message}`);
     }
     if (this.asked.get(key) === promise.id) this.asked.delete(key);
@@ -112,6 +127,13 @@ export class Plane {
     progress.hidden = there === all;
     progress.textContent = `${there} of ${all} parts${failed ? `; red: ${failed} failed` : ""}`;
   }
+}
+
+/** The rows of a tile, from one on; above the first row nothing. */
+function cut(bitmap, from) {
+  const canvas = new OffscreenCanvas(bitmap.width, SIZE);
+  canvas.getContext("2d").drawImage(bitmap, 0, -from);
+  return canvas.transferToImageBitmap();
 }
 
 /** Marks a part that is not computed, or red one that failed: no fate is drawn in lines. */
@@ -145,7 +167,11 @@ export function paint(context, plane, ratio) {
   context.clip();
   if (plane.overlay) plane.overlay.paint(context, box);
   else paintTiles(context, plane, box);
-  if (!plane.overlay && state.pin) paintPin(context, box);
+  if (!plane.overlay) {
+    if (plane.hovered) paintOrbit(context, box, plane.hovered, 0.5);
+    if (plane.orbit && state.pin) paintOrbit(context, box, plane.orbit, 1);
+    if (state.pin) paintPin(context, box);
+  }
   context.restore();
   context.strokeStyle = ink;
   context.lineWidth = 1;
@@ -156,33 +182,60 @@ export function paint(context, plane, ratio) {
 export const axesOf = (plane) =>
   plane.overlay ? plane.overlay.axes(plane.size) : planeAxes(state.view, plane.size, plane.legend.fixedPoints);
 
+/** In the dark the colours are dimmed: a large light area would dazzle. */
+const dark = matchMedia("(prefers-color-scheme: dark)");
+export const dimmed = () => (dark.matches ? 0.82 : 1);
+
 function paintTiles(context, plane, box) {
   const ratio = window.devicePixelRatio || 1;
   const pixels = { width: box.width * ratio, height: box.height * ratio };
   const snap = (value) => Math.round(value * ratio) / ratio;
   for (const tile of needed(state.view, state.layer, pixels, { x: 0, alpha: 0 })) {
-    const picture = plane.store.best(tile);
-    const { x, alpha } = windowOf(tile);
+    const pictures = plane.store.best(tile);
+    const { x, alpha } = windowOf({ ...tile, part: 1 });
     const from = place(state.view, x[0], alpha[1], box);
     const to = place(state.view, x[1], alpha[0], box);
     const [left, top] = [snap(MARGIN.left + from.left), snap(MARGIN.top + from.top)];
     const [right, bottom] = [snap(MARGIN.left + to.left), snap(MARGIN.top + to.top)];
+    context.globalAlpha = dimmed();
     context.imageSmoothingEnabled = (right - left) * ratio < SIZE;
-    if (picture)
+    for (const picture of pictures)
       context.drawImage(
         picture.bitmap,
         picture.left,
         picture.top,
-        picture.size,
-        picture.size,
+        picture.width,
+        picture.height,
         left,
         top,
         right - left,
         bottom - top,
       );
+    context.globalAlpha = 1;
     const failed = plane.store.hasFailed(tile);
-    if (failed || !picture) hatch(context, left, top, right - left, bottom - top, failed);
+    if (failed || pictures.length === 0) hatch(context, left, top, right - left, bottom - top, failed);
   }
+}
+
+/** The speeds of an orbit, one above or below the other at its mass ratio: a ring for each, smaller from hop to hop. */
+function paintOrbit(context, box, { m, speeds }, strength) {
+  const places = speeds.map((alpha) => place(state.view, toX(state.view, m), alpha, box));
+  context.globalAlpha = strength;
+  for (const [color, width] of [
+    ["#fff", 3],
+    ["#000", 1.2],
+  ]) {
+    context.strokeStyle = color;
+    context.lineWidth = width;
+    context.beginPath();
+    places.forEach(({ left, top }, k) => {
+      const radius = Math.max(5 - 0.4 * k, 1.5);
+      context.moveTo(MARGIN.left + left + radius, MARGIN.top + top);
+      context.arc(MARGIN.left + left, MARGIN.top + top, radius, 0, 2 * Math.PI);
+    });
+    context.stroke();
+  }
+  context.globalAlpha = 1;
 }
 
 function paintPin(context, box) {

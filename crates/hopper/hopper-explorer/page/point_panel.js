@@ -3,10 +3,11 @@ import { parse, pretty, show, star } from "./numbers.js";
 import { change, say, state } from "./state.js";
 
 const panel = document.getElementById("point");
-panel.innerHTML = `<h2>A point</h2>
-  <div class="numbers"><label for="pin-m"><i>M</i></label><input id="pin-m" inputmode="decimal" autocomplete="off">
-  <label for="pin-alpha"><i>α</i></label><input id="pin-alpha" inputmode="decimal" autocomplete="off"></div>
-  <div id="fate" aria-live="polite"></div>`;
+panel.innerHTML = `<h2 class="verdict" id="verdict" aria-live="polite">A start</h2>
+  <div class="numbers"><label for="pin-m">mass ratio <i>M</i></label><input id="pin-m" inputmode="decimal" autocomplete="off">
+  <label for="pin-alpha">lift-off speed <i>α</i></label><input id="pin-alpha" inputmode="decimal" autocomplete="off"></div>
+  <div id="fate"></div>`;
+const verdict = document.getElementById("verdict");
 const [m, alpha] = ["pin-m", "pin-alpha"].map((id) => document.getElementById(id));
 
 const typed = new Set(); // inputs whose text is not read yet
@@ -53,8 +54,10 @@ export function showFate(found) {
     first?.slope === null || !first
       ? ""
       : `<p class="soft">∂α′/∂α = ${show(first.slope)}, ∂α′/∂M = ${show(first.massRatioSlope)}</p>`;
+  const words = fate.plain[0].toUpperCase() + fate.plain.slice(1);
+  verdict.innerHTML = `<i class="swatch" style="background:${fate.color}"></i> ${words} <span class="soft">${pretty(fate.name)}</span>`;
   document.getElementById("fate").innerHTML =
-    `<p class="verdict"><i class="swatch" style="background:${fate.color}"></i>${pretty(fate.name)}</p><p>${reason(found)}</p><p id="proof"></p>${slopes}`;
+    `<p>${reason(found)}</p><p id="proof"></p>${slopes}`;
 }
 
 /** Whether the fate is proved. */
@@ -69,6 +72,7 @@ export function showProof({ fate }, { fate: proved }) {
 
 /** A sentence in place of a fate. */
 export function showSentence(text) {
+  verdict.textContent = "A start";
   const line = document.createElement("p");
   line.textContent = text;
   document.getElementById("fate").replaceChildren(line);

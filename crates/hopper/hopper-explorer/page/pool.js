@@ -8,7 +8,7 @@ const SILENCE = 15000;
 const STOPPING = 1500;
 
 export class Pool {
-  /** `module` is a promise: workers load their scripts while it is compiled. They start at the first question, or by `warm`. */
+  /** `module` gives a promise: workers load their scripts while it is compiled. They start at the first question, or by `warm`. */
   constructor(module, count) {
     this.module = module;
     this.next = 1;
@@ -33,12 +33,16 @@ export class Pool {
   /** Sends a message as soon as the module is there; messages keep their order. */
   #tell(member, message) {
     const { worker } = member;
-    this.module.then(
+    this.module().then(
       (module) => {
         worker.postMessage(message(module));
         member.heard = performance.now();
       },
-      () => {},
+      (error) => {
+        // What does not load is asked for again by the next job.
+        member.job?.fail(new Error(`a part of the page cannot be loaded: ${error.message}`));
+        member.job = null;
+      },
     );
   }
 

@@ -4,15 +4,15 @@ import { address } from "./link.js";
 import { axesOf, paint } from "./plane.js";
 import { withTexts } from "./png_text.js";
 import { layers, state } from "./state.js";
-import { isShares, stripOf } from "./tiles.js";
+import { QUICK, isShares, stripOf } from "./tiles.js";
 import { toM } from "./view.js";
 
 /** Pixels of a table each way. */
 const TABLE = 256;
 
 /** The parameters in words. */
-export function parameters(deep) {
-  const { view, layer, pin, depth } = state;
+export function parameters(deep, layer = state.layer) {
+  const { view, pin, depth } = state;
   const window = depth
     ? deep.words()
     : `M from ${toM(view, view.x[0])} to ${toM(view, view.x[1])}${view.logarithmic ? " (logarithmic)" : ""}, alpha from ${view.alpha[0]} to ${view.alpha[1]}`;
@@ -77,14 +77,13 @@ ${svgAxes(axesOf(plane))}
 /** A table of pixels' middles with their values, computed for exactly this window. */
 export async function csv(pool, desk, deep) {
   if (state.depth) throw new Error("the deep view has shares, no table; save it as PNG or SVG");
-  if (isShares(state.layer))
-    throw new Error(`the layer "${layers[state.layer].name}" has shares, no table; show fates or hops to save one`);
   const {
     view: { x, alpha, logarithmic },
-    layer,
   } = state;
+  // Shares have no table of one number a pixel: the fates of the middles have.
+  const layer = isShares(state.layer) ? QUICK : state.layer;
   // Now: the view may have changed when the answers come.
-  const lines = [`# ${parameters(deep)}`, `# ${address()}`, `M,alpha,${layers[layer].columns}`];
+  const lines = [`# ${parameters(deep, layer)}`, `# ${address()}`, `M,alpha,${layers[layer].columns}`];
   const job = { layer, logarithmic, x, alpha, columns: TABLE, rows: TABLE, values: true, strip: stripOf(layer) };
   const places = await desk.ask("places", job);
   const { values } = await pool.ask("tile", job);
@@ -115,6 +114,27 @@ export function orbitCsv(found, deep) {
   const head = "hop,speed,error,sudden_lift_offs,flight_time,energy_loss,slope,mass_ratio_slope";
   return new Blob([[`# ${parameters(deep)}`, `# ${address()}`, head, ...rows].join("\n"), "\n"], { type: "text/csv" });
 }
+
+function panel(id, deep) {
+  const drawing = document.getElementById(id).querySelector("svg");
+  if (!drawing) throw new Error("pin a point first");
+  const style = getComputedStyle(document.documentElement);
+  const colored = drawing.outerHTML
+    .replace(/var\((--\w+)\)/g, (_, name) => style.getPropertyValue(name))
+    .replace("<svg ", `<svg color="#000" `)
+    .replace("</title>", `</title><desc>${parameters(deep)}</desc>`);
+  return new Blob([colored], { type: "image/svg+xml" });
+}
+
+/** The files that are offered: pairs of a name and a function that saves. */
+export const offers = ({ plane, deep, pool, desk, shown }) => [
+  ["PNG", async (wait) => download(await png(plane, deep, wait), "hopper.png")],
+  ["SVG", async (wait) => download(await svg(plane, deep, wait), "hopper.svg")],
+  ["CSV", async () => download(await csv(pool, desk, deep), "hopper.csv")],
+  ["the orbit as CSV", async () => download(orbitCsv(shown(), deep), "hopper-orbit.csv")],
+  ["the map as SVG", async () => download(panel("map", deep), "hopper-map.svg")],
+  ["the motion as SVG", async () => download(panel("stage", deep), "hopper-stage.svg")],
+];
 
 /** Hands a file to the reader. */
 export function download(blob, name) {

@@ -1,4 +1,5 @@
-// Eight stops. Each is a view and some sentences.
+// Eight stops. Each is a view and some sentences, in a small dialog beside the plane.
+import { change } from "./state.js";
 
 const plane = (x, alpha, more = {}) => ({
   view: { logarithmic: false, x, alpha },
@@ -53,3 +54,42 @@ export const stops = ({ fixedPoints, home, figure9, layers }) => [
     depth: { m: 0.12, alpha: 11.920553918335775, depth: 100 },
   },
 ];
+
+const box = document.getElementById("stop");
+
+/** The tour. `openDepth` flies to an edge, `giveUp` ends what was asked for before. */
+export class Tour {
+  constructor(legend, openDepth, giveUp) {
+    [this.stops, this.openDepth, this.giveUp, this.at] = [stops(legend), openDepth, giveUp, -1];
+  }
+
+  get runs() {
+    return this.at >= 0;
+  }
+
+  /** Goes to a stop; any other number ends the tour. */
+  go(next) {
+    const before = this.runs ? null : document.activeElement;
+    this.giveUp();
+    this.opener ??= before;
+    this.at = next >= 0 && next < this.stops.length ? next : -1;
+    box.hidden = !this.runs;
+    if (!this.runs) {
+      this.opener?.focus();
+      this.opener = null;
+      return;
+    }
+    const { title, text, fields, open, depth } = this.stops[this.at];
+    const [first, last] = [this.at === 0, this.at === this.stops.length - 1];
+    box.innerHTML = `<h2 id="stop-title" tabindex="-1">${this.at + 1} of ${this.stops.length}. ${title}</h2><p>${text}</p><div class="row">
+      <button data-go="-1"${first ? " disabled" : ""}>Previous</button><button data-go="1">${last ? "End" : "Next"}</button><button data-go="end">Close</button></div>`;
+    box.querySelectorAll("[data-go]").forEach((button) => {
+      button.onclick = () => this.go(button.dataset.go === "end" ? -1 : this.at + Number(button.dataset.go));
+    });
+    // The heading is read, and the buttons come next; keys of the page still work.
+    box.querySelector("h2").focus({ preventScroll: true });
+    if (open) document.getElementById(open).open = true;
+    change({ ...fields });
+    if (depth) this.openDepth(depth.m, depth.alpha, depth.depth);
+  }
+}

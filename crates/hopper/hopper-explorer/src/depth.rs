@@ -23,13 +23,13 @@ pub struct Depth {
 const MOST_PIXELS: usize = 1024;
 
 impl Depth {
-    /// The boundary point nearest to a speed, at most 10⁻³ away.
+    /// The boundary point nearest to a speed.
     ///
     /// # Errors
-    /// The refusals of [`EdgeChart::near`], [`FollowedEdge::new`] and [`PhaseBasins::new`].
+    /// The refusals of [`EdgeChart::nearest`], [`FollowedEdge::new`] and [`PhaseBasins::new`].
     pub fn near(mass_ratio: f64, alpha: f64) -> Result<Self, Refusal> {
         let fates = Fates::new(MassRatio::new(mass_ratio)?)?;
-        let chart = EdgeChart::near(&fates, alpha)?;
+        let chart = EdgeChart::nearest(&fates, alpha)?;
         let edge = FollowedEdge::new(&chart)?;
         let circle = PhaseBasins::new(&fates, chart.n(), CircleLimits::default())?;
         Ok(Depth { fates, chart, edge, circle })

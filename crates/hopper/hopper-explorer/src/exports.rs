@@ -2,10 +2,12 @@
 //! `answer_place`.
 
 use crate::answer;
+#[cfg(feature = "deep")]
 use crate::depth::Depth;
 use crate::json::Json;
 use crate::refusal::Refusal;
 use crate::tile::{Tile, numbered, strip};
+#[cfg(feature = "deep")]
 use std::cell::RefCell;
 
 /// The address of the last answer.
@@ -105,23 +107,27 @@ pub(crate) extern "C" fn units(mass_ratio: f64, mass: f64, stiffness: f64, gravi
 }
 
 /// The circle of fates of α*_n, as JSON.
+#[cfg(feature = "deep")]
 #[unsafe(no_mangle)]
 pub(crate) extern "C" fn circle(mass_ratio: f64, n: u32) -> u32 {
     json(crate::circle::circle_json(mass_ratio, u64::from(n)))
 }
 
 /// The basins between two fixed points at one mass ratio, as JSON.
+#[cfg(feature = "deep")]
 #[unsafe(no_mangle)]
 pub(crate) extern "C" fn intervals(mass_ratio: f64, first: u32, last: u32) -> u32 {
     json(crate::circle::intervals_json(mass_ratio, u64::from(first), u64::from(last)))
 }
 
+#[cfg(feature = "deep")]
 thread_local! {
     /// The boundary point of the deep view: its chart takes longer than its frames.
     static DEPTH: RefCell<Option<Depth>> = const { RefCell::new(None) };
 }
 
 /// Opens the chart of the boundary point next to a speed; its numbers as JSON.
+#[cfg(feature = "deep")]
 #[unsafe(no_mangle)]
 pub(crate) extern "C" fn open_depth(mass_ratio: f64, alpha: f64) -> u32 {
     let known = DEPTH.with_borrow(|kept| {
@@ -139,6 +145,7 @@ pub(crate) extern "C" fn open_depth(mass_ratio: f64, alpha: f64) -> u32 {
 }
 
 /// The pixels of the window of half height 10^−`depth` about the opened boundary point.
+#[cfg(feature = "deep")]
 #[unsafe(no_mangle)]
 pub(crate) extern "C" fn depth_frame(depth: f64, columns: usize, rows: usize) -> u32 {
     answer::keep(DEPTH.with_borrow(|kept| match kept {

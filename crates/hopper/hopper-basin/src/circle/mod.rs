@@ -17,6 +17,7 @@
 //!   edge_pixels.rs          the shares between pairs of speeds near it
 //!   edge_window.rs          the pixels of windows about it, at one mass ratio and in the (M, α) plane
 //!   edge_search.rs          the speeds near a given one that come to a fixed point
+//!   nearest_edge.rs         the one nearest to a speed, at any distance
 //!   local_fractions.rs      p_{n,k}: the share of every fate, with bounds
 //!   gap_count.rs            the number of gaps between boundary points, at any scale
 //!   upwards.rs              the vertical axis of a raster of shares
@@ -38,6 +39,7 @@ pub(crate) mod fundamental_domain;
 pub(crate) mod gap_count;
 pub(crate) mod labelled_speeds;
 pub(crate) mod local_fractions;
+mod nearest_edge;
 pub(crate) mod phase_basins;
 pub(crate) mod phase_shares;
 pub(crate) mod share_column;

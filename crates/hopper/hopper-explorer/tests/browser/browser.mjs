@@ -21,11 +21,16 @@ export const launch = () =>
     ],
   });
 
-/** A page at an address, with its complete picture; an error of the page fails the test at its end. */
+/** The address with points in place of shares, which take long: where a test does not ask for another layer. */
+const withPoints = (hash) => (/layer=|^ $/.test(hash) ? hash.trim() : `${hash}${hash ? "&" : "#"}layer=fate`);
+
+/** A page at an address, with its complete picture; an error of the page fails the test at its end. A hash of a space is a first visit. */
 export async function open(browser, hash = "", options = {}) {
   const context = await browser.newContext({
     viewport: { width: 1000, height: 700 },
     acceptDownloads: true,
+    // What glides is where it goes at once.
+    reducedMotion: "reduce",
     ...options,
   });
   context.setDefaultTimeout(READY.timeout);
@@ -36,9 +41,9 @@ export async function open(browser, hash = "", options = {}) {
     if (!request.url().startsWith(url) && !/^(data|blob):/.test(request.url()))
       page.problems.push(`loads ${request.url()}`);
   });
-  await page.goto(url + hash);
+  await page.goto(url + withPoints(hash));
   await page.waitForFunction(() => window.explorer !== undefined, null, READY);
-  if (!/depth=\d/.test(hash)) await page.waitForFunction(ready, null, READY);
+  if (hash !== " " && !/depth=\d/.test(hash)) await page.waitForFunction(ready, null, READY);
   return page;
 }
 
