@@ -88,7 +88,7 @@ class Cell:
             return
         run = Run(self.basins.map, self.line["run"])
         check_start(run, self.box)
-        if isinstance(self.fate, str):
+        if isinstance(self.fate, str) and self.image is None:
             if run.stopped != self.fate:
                 raise Unconfirmed(f"the execution does not end at {self.fate}")
         elif run.stopped is not None:

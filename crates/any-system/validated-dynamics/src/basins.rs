@@ -5,7 +5,7 @@ use crate::cells::{Cells, Place, part_of};
 use crate::enclosed_map::EnclosedMap;
 use crate::trap::Trap;
 use crate::undecided::Error;
-use crate::windows::{Division, check, share_of};
+use crate::windows::{Division, share_of};
 use hybrid_system::Label;
 use interval_arithmetic::Enclosure;
 use std::collections::{BTreeMap, HashMap};
@@ -125,7 +125,7 @@ impl ProvedBasins {
         division: Division,
         watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<ProvedBasins, Error> {
-        check(maps, windows, division)?;
+        division.check(maps, windows)?;
         let windows: Vec<Vec<Enclosure>> = windows.iter().map(|window| window.to_vec()).collect();
         let mut basins = ProvedBasins {
             traps,

@@ -32,7 +32,10 @@ pub(crate) fn images<M: EnclosedMap + Sync>(
 ) -> Vec<Result<Known, Error>> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let share = cells.len().div_ceil(threads).max(1);
-    let of_cell = |cell: &OpenCell| known(maps[cell.window], (maps.len(), traps), cell);
+    let of_cell = |cell: &OpenCell| {
+        let next = (cell.window + 1) % maps.len();
+        known((maps[cell.window], maps[next]), (next == 0, traps), cell)
+    };
     std::thread::scope(|scope| {
         let parts: Vec<_> = cells
             .chunks(share)
@@ -47,9 +50,9 @@ pub(crate) fn images<M: EnclosedMap + Sync>(
 }
 
 /// What one image shows of a cell.
-fn known(
-    map: &impl EnclosedMap,
-    (maps, traps): (usize, &[Trap]),
+fn known<M: EnclosedMap>(
+    (map, next): (&M, &M),
+    (leads_to_first, traps): (bool, &[Trap]),
     cell: &OpenCell,
 ) -> Result<Known, Error> {
     let trapped = traps.iter().position(|trap| cell.window == 0 && trap.contains(&cell.points));
@@ -58,7 +61,9 @@ fn known(
     }
     match map.carry(StartSet::of_box(&cell.points).without_derivatives()) {
         Ok(carried) => {
-            let leads_to_first = cell.window + 1 == maps;
+            if map.leads_into(&carried, next).is_err() {
+                return Ok(Known::Open(None));
+            }
             let in_trap = |trap: &Trap| leads_to_first && trap.contains_set(&carried.set);
             Ok(match traps.iter().position(in_trap) {
                 Some(trap) => Known::Fate(ProvedFate::Trap(trap)),

@@ -33,6 +33,17 @@ pub trait EnclosedMap {
         Ok(None)
     }
 
+    /// An error unless the images, with these events, are where another map begins: the map itself, if it is iterated.
+    ///
+    /// # Errors
+    /// [`Reason::OtherMode`](crate::Reason::OtherMode), of maps that have modes.
+    fn leads_into(&self, _carried: &Carried, _next: &Self) -> Result<(), Error>
+    where
+        Self: Sized,
+    {
+        Ok(())
+    }
+
     /// The images of all points of a box, with derivatives.
     ///
     /// # Errors

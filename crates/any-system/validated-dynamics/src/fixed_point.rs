@@ -1,6 +1,6 @@
 //! Fixed points that exist: Krawczyk's method.
 
-use crate::enclosed_map::{EnclosedMap, MapImage};
+use crate::enclosed_map::{EnclosedMap, MapImage, StartSet};
 use crate::matrix::{Matrix, common, exact, middle, offsets, sums};
 use crate::multipliers::{Multiplier, multipliers};
 use crate::undecided::{Error, Reason};
@@ -68,7 +68,7 @@ impl ProvedFixedPoint {
 /// ```
 ///
 /// # Errors
-/// [`Error::Undecided`]: [`Reason::NoPoint`] if Newton's method does not converge from the guess, [`Reason::Singular`] for derivatives that
+/// [`Error::Undecided`]: [`Reason::OtherMode`] for a map that does not lead back to the mode in which it begins; [`Reason::NoPoint`] if Newton's method does not converge from the guess, [`Reason::Singular`] for derivatives that
 /// may have the eigenvalue 1, [`Reason::NotInside`], and what the map does not decide.
 pub fn fixed_point(
     map: &impl EnclosedMap,
@@ -80,6 +80,8 @@ pub fn fixed_point(
         return Error::argument("guess", format!("{size} finite numbers are needed"));
     }
     let (centre, inverse) = newton(map, guess, parameters)?;
+    let whole = StartSet::of_box(&[exact(&centre), parameters.to_vec()].concat());
+    map.leads_into(&map.carry(whole.without_derivatives())?, map)?;
     let at_centre = map.image(&[exact(&centre), parameters.to_vec()].concat())?;
     let off = offsets(&at_centre.values, &centre);
     let step = Matrix::of_numbers(&inverse).apply(&off);

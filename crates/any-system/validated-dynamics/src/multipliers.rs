@@ -35,7 +35,10 @@ impl Multiplier {
     /// Bounds of the absolute value.
     pub fn size(&self) -> Enclosure {
         let (real, imaginary) = (Enclosure::from(self.real), Enclosure::from(self.imaginary));
-        let centre = (real.squared() + imaginary.squared()).sqrt().unwrap_or(Enclosure::WHOLE);
+        let sum = real.squared() + imaginary.squared();
+        // Rounding may lead a sum of squares below 0.
+        let sum = Enclosure::new(sum.low().max(0.0), sum.high());
+        let centre = sum.sqrt().unwrap_or(Enclosure::WHOLE);
         let found = centre.widened(self.radius);
         Enclosure::new(found.low().max(0.0), found.high())
     }

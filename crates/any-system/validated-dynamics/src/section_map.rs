@@ -158,6 +158,18 @@ impl EnclosedMap for SectionMap<'_> {
         }
     }
 
+    fn leads_into(&self, carried: &Carried, next: &Self) -> Result<(), Error> {
+        let ended = carried.events.last().and_then(|event| event.next);
+        let wanted = next.system.modes[next.chart.mode].name;
+        match ended == Some(wanted) {
+            true => Ok(()),
+            false => Err(Error::of_variables(
+                Reason::OtherMode { ended, wanted },
+                &carried.set.hull()[..self.dimension()],
+            )),
+        }
+    }
+
     fn as_json(&self) -> Option<(Option<Value>, Value)> {
         let chart = &self.chart;
         let map = json!({

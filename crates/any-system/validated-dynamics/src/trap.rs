@@ -9,7 +9,7 @@ use crate::multipliers::eigenbasis;
 use crate::set::AffineSet;
 use crate::undecided::{Error, Reason};
 use interval_arithmetic::Enclosure;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Schur};
 
 /// The largest contraction that is tried has the size of the fixed point, or 1 if that is smaller. The next ones are a fourth as large each, so often:
 /// down to 10⁻²⁴ of it, for models in units in which all numbers are small.
@@ -21,6 +21,13 @@ const SMALLER_TRIES: usize = 40;
 /// factor of 1.09.
 const GROWN: f64 = 2.0;
 const LEAST_GROWN: f64 = 1.04;
+
+/// How much shorter each direction of Schur's form is than the one before: not at all, and as much as an entry above the diagonal may need that is large
+/// beside the multipliers.
+const SHORTER: [f64; 2] = [1.0, 0.05];
+
+/// The most steps of the iteration to Schur's form: many more than any matrix needs.
+const SCHUR_STEPS: usize = 10_000;
 
 /// A trap of this size is not grown: its map is linear, or nearly so.
 const LARGEST: f64 = 1e100;
@@ -86,7 +93,8 @@ impl Trap {
         self.contraction
     }
 
-    /// The largest trap about an attracting fixed point that is found with the directions of its eigenvectors.
+    /// The largest trap about an attracting fixed point that is found with the directions of its eigenvectors, or where these are nearly
+    /// parallel, with those of Schur's form.
     ///
     /// ```
     /// use equations::{Formulas, Names};
@@ -117,21 +125,30 @@ impl Trap {
         }
         let own =
             Matrix::from_fn(count, count, |row, column| fixed.image.derivatives.at(row, column));
-        let basis = eigenbasis(&own.middle()).map(|(basis, _)| basis);
-        let directions = basis.filter(|basis| basis.clone().lu().try_inverse().is_some());
-        let directions = directions.unwrap_or_else(|| DMatrix::identity(count, count));
         let centre = middle(&fixed.point);
         let mut size = centre.iter().fold(1.0, |largest: f64, x| largest.max(x.abs()));
+        let all = directions(&own.middle());
         let mut found = None;
-        for _ in 0..SMALLER_TRIES {
-            match Trap::proved(map, &centre, &directions, size, &fixed.parameters) {
-                Ok(Some(trap)) => {
-                    found = Some(trap);
-                    break;
+        'sizes: for _ in 0..SMALLER_TRIES {
+            for directions in &all {
+                match Trap::proved(map, &centre, directions, size, &fixed.parameters) {
+                    Ok(Some(trap)) => {
+                        found = Some(trap);
+                        break 'sizes;
+                    }
+                    Ok(None) => {}
+                    Err(Error::Undecided(undecided)) => {
+                        if matches!(
+                            undecided.reason,
+                            Reason::OtherMode { .. } | Reason::Interrupted
+                        ) {
+                            return Err(Error::Undecided(undecided));
+                        }
+                    }
+                    Err(error) => return Err(error),
                 }
-                Ok(None) | Err(Error::Undecided(_)) => size *= SMALLER,
-                Err(error) => return Err(error),
             }
+            size *= SMALLER;
         }
         let reason = Reason::NotInside { tries: SMALLER_TRIES };
         let found = found.ok_or_else(|| Error::of_variables(reason, &fixed.point))?;
@@ -172,7 +189,9 @@ impl Trap {
         }
         *images -= 1;
         match map.carry(self.start(u).without_derivatives()) {
-            Ok(carried) if self.contains_set(&carried.set) => {
+            Ok(carried)
+                if self.contains_set(&carried.set) && map.leads_into(&carried, map).is_ok() =>
+            {
                 parts.push(u.to_vec());
                 return Ok(true);
             }
@@ -237,6 +256,7 @@ impl Trap {
         };
         let u = vec![Enclosure::new(-size, size); count];
         let carried = map.carry(trap.start(&u))?;
+        map.leads_into(&carried, map)?;
         let Some(chain) = carried.chain else { return Ok(None) };
         let slopes = trap.inverse.times(&chain.matrix());
         let own = Matrix::from_fn(count, count, |row, column| slopes.at(row, column));
@@ -268,4 +288,25 @@ impl Trap {
         set.centre().len() == self.centre.len()
             && self.coordinates(set).iter().all(|u| u.magnitude() <= self.size)
     }
+}
+
+/// Directions in which a map may contract: the eigenvectors of its derivative, and those of Schur's form, where a matrix with multiple eigenvalues is
+/// triangular, with the later ones shorter, so that what is above the diagonal is small.
+fn directions(derivative: &DMatrix<f64>) -> Vec<DMatrix<f64>> {
+    let eigenvectors = eigenbasis(derivative).map(|(basis, _)| basis);
+    let mut found: Vec<DMatrix<f64>> = eigenvectors.into_iter().collect();
+    if let Some(schur) = Schur::try_new(derivative.clone(), f64::EPSILON, SCHUR_STEPS) {
+        let (vectors, _) = schur.unpack();
+        for shorter in SHORTER {
+            let mut scaled = vectors.clone();
+            let mut length = 1.0;
+            for mut column in scaled.column_iter_mut() {
+                column *= length;
+                length *= shorter;
+            }
+            found.push(scaled);
+        }
+    }
+    found.retain(|basis| basis.clone().lu().try_inverse().is_some());
+    found
 }

@@ -255,7 +255,8 @@ fn step_length<'c>(
         true => pow(error / size, 1.0 / k as f64),
         false => f64::INFINITY,
     };
-    let length = [order - 1, order].into_iter().zip(last).map(of_term).fold(f64::INFINITY, f64::min);
+    let length =
+        [order - 1, order].into_iter().zip(last).map(of_term).fold(f64::INFINITY, f64::min);
     length.is_finite().then_some(length)
 }
 
@@ -271,7 +272,8 @@ fn natural_length(centre: &Coefficients<Enclosure>) -> f64 {
         false => f64::INFINITY,
     };
     let natural = (1..=2).map(of_term).fold(f64::INFINITY, f64::min);
-    if natural.is_finite() { natural } else { 1.0 }
+    // Not as long as a straight way to 0 takes: a step should not end on a surface there.
+    if natural.is_finite() { 1.5 * natural } else { 1.0 }
 }
 
 /// A step that is tried.

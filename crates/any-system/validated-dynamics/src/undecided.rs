@@ -143,6 +143,17 @@ pub enum Reason {
         /// The number of boxes that were tried.
         tries: usize,
     },
+    /// The map leads to another mode than that from which it is to be applied again, or to the end of the execution.
+    #[error(
+        "the map ends {}, and is to begin in the mode {wanted} again: it has no orbits of its own",
+        ended.map_or("the execution".to_owned(), |mode| format!("in the mode {mode}"))
+    )]
+    OtherMode {
+        /// The mode after the last event; `None` if this event ends the execution.
+        ended: Option<Label>,
+        /// The mode in which the next map begins.
+        wanted: Label,
+    },
     /// Newton's method found no point.
     #[error(
         "Newton's method found no fixed point near the start: the last step had the length {step:e}"
@@ -185,6 +196,11 @@ pub enum Error {
 }
 
 impl Error {
+    /// True if an event ends the execution of all points.
+    pub(crate) fn is_stop(&self) -> bool {
+        matches!(self, Error::Undecided(undecided) if matches!(undecided.reason, Reason::Stopped { .. }))
+    }
+
     /// A statement that is not proved.
     pub(crate) fn not_proved(
         reason: Reason,

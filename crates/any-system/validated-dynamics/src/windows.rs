@@ -26,45 +26,50 @@ pub(crate) fn share_of(points: &[Enclosure], window: &[Enclosure]) -> Enclosure 
     sides.fold(Enclosure::ONE, |share, side| share * side)
 }
 
-/// An error unless there is a window for each map, with cells of this division.
-pub(crate) fn check<M: EnclosedMap>(
-    maps: &[&M],
-    windows: &[&[Enclosure]],
-    division: Division,
-) -> Result<(), Error> {
-    if maps.is_empty() || maps.len() != windows.len() {
-        let given = windows.len();
-        return Error::argument("windows", format!("{given} windows for {} maps", maps.len()));
-    }
-    for (map, window) in maps.iter().zip(windows) {
-        let is_side = |x: &Enclosure| x.low() < x.high() && x.width().is_finite();
-        let needed = map.dimension();
-        if window.len() != needed || needed != maps[0].dimension() || !window.iter().all(is_side) {
+impl Division {
+    /// An error unless there is a window for each map, with cells of this division: what [`ProvedBasins::new`](crate::ProvedBasins::new) asks of them.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] with what is wrong.
+    pub fn check<M: EnclosedMap>(self, maps: &[&M], windows: &[&[Enclosure]]) -> Result<(), Error> {
+        let division = self;
+        if maps.is_empty() || maps.len() != windows.len() {
+            let given = windows.len();
+            return Error::argument("windows", format!("{given} windows for {} maps", maps.len()));
+        }
+        for (map, window) in maps.iter().zip(windows) {
+            let is_side = |x: &Enclosure| x.low() < x.high() && x.width().is_finite();
+            let needed = map.dimension();
+            if window.len() != needed
+                || needed != maps[0].dimension()
+                || !window.iter().all(is_side)
+            {
+                return Error::argument(
+                    "window",
+                    format!("{needed} intervals of finite, positive widths are needed"),
+                );
+            }
+        }
+        let sides = maps[0].dimension();
+        if sides == 0 || sides > MOST_SIDES {
             return Error::argument(
-                "window",
-                format!("{needed} intervals of finite, positive widths are needed"),
+                "maps",
+                format!("from 1 to {MOST_SIDES} variables are needed, not {sides}"),
             );
         }
-    }
-    let sides = maps[0].dimension();
-    if sides == 0 || sides > MOST_SIDES {
-        return Error::argument(
-            "maps",
-            format!("from 1 to {MOST_SIDES} variables are needed, not {sides}"),
-        );
-    }
-    if !(division.first <= division.last && division.last <= DEEPEST) {
-        return Error::argument("division", format!("first ≤ last ≤ {DEEPEST} is needed"));
-    }
-    let cells = interval_arithmetic::pow(2.0, (sides as f64) * f64::from(division.first));
-    match cells * maps.len() as f64 <= division.images as f64 {
-        true => Ok(()),
-        false => {
-            let reason = format!(
-                "{} images are fewer than the first {cells} cells of each window",
-                division.images
-            );
-            Error::argument("division", reason)
+        if !(division.first <= division.last && division.last <= DEEPEST) {
+            return Error::argument("division", format!("first ≤ last ≤ {DEEPEST} is needed"));
+        }
+        let cells = interval_arithmetic::pow(2.0, (sides as f64) * f64::from(division.first));
+        match cells * maps.len() as f64 <= division.images as f64 {
+            true => Ok(()),
+            false => {
+                let reason = format!(
+                    "{} images are fewer than the first {cells} cells of each window",
+                    division.images
+                );
+                Error::argument("division", reason)
+            }
         }
     }
 }

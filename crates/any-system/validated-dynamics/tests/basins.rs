@@ -5,8 +5,8 @@ use example_systems::spring_leg::spring_leg_that_falls;
 use hybrid_system::Equations;
 use std::ops::ControlFlow;
 use validated_dynamics::{
-    Budget, Division, EnclosedMap, Enclosure, Error, ProvedBasins, ProvedFate, SectionMap,
-    StartSet, Trap, ValidatedSystem, divided, fixed_point, halves,
+    Budget, Certificate, Division, EnclosedMap, Enclosure, Error, ProvedBasins, ProvedFate,
+    SectionMap, StartSet, Trap, ValidatedSystem, divided, fixed_point, halves,
 };
 
 /// x → 1.5x − 0.5x³ attracts to ±1 and repels from 0. The basin of 1 has the part (0, √3) about it; 1.55 is mapped to 0.46, and no interval about 1
@@ -190,4 +190,66 @@ fn basins_show_progress_within_a_round_and_keep_what_is_proved_when_they_end() {
     assert!(own > 0.0 && other == 0.0);
     let cells = basins.cells();
     assert!(!cells.is_empty() && cells.iter().all(|cell| cell.window == 0));
+}
+
+/// A ramp of 0.3 a unit of time to a wall that ends the execution: cells beside the wall stop, the others later.
+#[test]
+fn cells_that_stop_later_have_their_own_images_in_a_certificate() {
+    let ramp = Equations::new(&["x"], &[])
+        .mode_text("flow", &["0.3 + 0*x"])
+        .rising_text("later", "t - 1")
+        .rising_text("wall", "x - 1")
+        .stops();
+    let system = ValidatedSystem::new(&ramp).unwrap();
+    let chart = system.chart("flow", &["x"], &["x", "0"]).unwrap();
+    let map = SectionMap::new(&system, chart, "later", 1, &["x"]).unwrap().recorded();
+    let window = [Enclosure::new(-1.0, 0.95)];
+    let division = Division { first: 5, last: 6, images: 1000 };
+    let basins = ProvedBasins::new(&[&map], vec![], &[&window], division).unwrap();
+    let mut certificate = Certificate::new("ramp");
+    certificate.basins(&map, &basins, &[]).unwrap();
+    let text = certificate.text();
+    let cells: Vec<&str> = text.lines().filter(|line| line.contains("\"cell\"")).collect();
+    let led = cells.iter().filter(|line| !line.contains("\"image\":null")).count();
+    assert!(led > 20 && led < cells.len(), "{led} of {}", cells.len());
+}
+
+/// From a the model goes to b, and never back: a map that ends in b has no orbits of its own.
+#[test]
+fn a_map_that_ends_in_another_mode_or_at_a_stop_is_not_iterated() {
+    let relay = Equations::new(&["x"], &[])
+        .mode_text("a", &["1 - x"])
+        .rising_text("switch", "x - 0.5")
+        .to("b")
+        .mode_text("b", &["-x"])
+        .falling_text("back", "x - 0.2");
+    let system = ValidatedSystem::new(&relay).unwrap();
+    let chart = system.chart("a", &["x"], &["x"]).unwrap();
+    let map = SectionMap::new(&system, chart, "back", 1, &["x"]).unwrap();
+    let error = fixed_point(&map, &[0.2], &[]).unwrap_err().to_string();
+    assert!(error.contains("ends in the mode b") && error.contains("in the mode a"), "{error}");
+    let fall = Equations::new(&["x"], &[])
+        .mode_text("fall", &["-1 + 0*x"])
+        .falling_text("floor", "x")
+        .stops();
+    let system = ValidatedSystem::new(&fall).unwrap();
+    let chart = system.chart("fall", &["x"], &["x"]).unwrap();
+    let map = SectionMap::new(&system, chart, "floor", 1, &["x + 1"]).unwrap();
+    let error = fixed_point(&map, &[0.9], &[]).unwrap_err().to_string();
+    assert!(error.contains("ends the execution"), "{error}");
+}
+
+/// Of multiple eigenvalues the eigenvectors are parallel, or any two.
+#[test]
+fn traps_of_multiple_multipliers_are_found() {
+    for formulas in [
+        ["x/2", "y/2"],
+        ["x/2 + y", "y/2"],
+        ["x/2 + x*y", "y/2 - x^2"],
+        ["x/3 + 2*y + x*y", "y/3 - y^3"],
+    ] {
+        let map = map_of(&["x", "y"], &formulas);
+        let trap = Trap::new(&map, &fixed_point(&map, &[0.01, 0.01], &[]).unwrap(), 500).unwrap();
+        assert!(trap.contraction() < 1.0 && trap.size() > 1e-3, "{formulas:?} {trap:?}");
+    }
 }

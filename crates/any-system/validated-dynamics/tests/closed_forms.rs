@@ -4,7 +4,9 @@ use crate::models::oscillator;
 use hybrid_system::Equations;
 use proptest::prelude::*;
 use std::ops::ControlFlow;
-use validated_dynamics::{EnclosedMap, Enclosure, Matrix, SectionMap, ValidatedSystem, fixed_point};
+use validated_dynamics::{
+    EnclosedMap, Enclosure, Matrix, SectionMap, ValidatedSystem, fixed_point,
+};
 
 /// Closed forms are computed with some roundings.
 fn holds(found: Enclosure, exact: f64) -> bool {
@@ -140,5 +142,7 @@ fn a_state_of_rest_stays_and_its_neighbours_are_linear() {
     // e^(-5/2) at an angle of 5 √3/2.
     let multiplier = &rest.multipliers[0];
     let size = multiplier.real.hypot(multiplier.imaginary);
-    assert!(multiplier.radius < 1e-6 && (size - 0.082_084_998_623_898_8).abs() <= multiplier.radius);
+    assert!(
+        multiplier.radius < 1e-6 && (size - 0.082_084_998_623_898_8).abs() <= multiplier.radius
+    );
 }

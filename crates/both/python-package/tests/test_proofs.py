@@ -10,14 +10,14 @@ import nonsmooth as ns
 
 def oscillator(**parameters):
     return ns.System(
-        lambda t, x, p: [x[1], p.F * np.cos(1.3 * t) - 0.1 * x[1] - x[0]],
+        lambda t, x, p: [x[1], p.F * np.cos(p.w * t) - 0.1 * x[1] - x[0]],
         states="x v",
-        parameters={"F": 1.0, **parameters},
+        parameters={"F": 1.0, "w": 1.3, **parameters},
         guards=[ns.Guard("stop", lambda t, x, p: x[0] - 0.5, "rising", reset=lambda t, x, p: [x[0], -0.8 * x[1]])],
     )
 
 
-QUESTION = {"guess": {"v": -1.48, "s": 0.16}, "start": ["0.5", "v", "s"], "read": ["v", "t - 2*pi/1.3"]}
+QUESTION = {"guess": {"v": -1.48, "s": 0.16}, "start": ["0.5", "v", "s"], "read": ["v", "t - 2*pi/w"]}
 
 
 def test_an_orbit_with_impacts_is_proved_and_holds_that_of_a_long_run():
@@ -73,7 +73,7 @@ BASINS = {
 def test_proved_basins_have_the_fates_of_runs():
     seen = []
     basins = ns.proved_basins(well(), "later", progress=lambda done, all: seen.append((done, all)), **BASINS)
-    assert seen and seen[-1] == (basins.images, 20_000)
+    assert seen[0][1] == 20_000 and seen[-1] == (basins.images, basins.images)
     assert basins.surfaces == [] and len(basins.traps) == 2
     assert basins.shares.sum() > 0.6 and abs(basins.shares[0] - basins.shares[1]) < 0.01
     points = np.random.default_rng(1).uniform([-1.5, -1], [1.5, 1], (60, 2))
@@ -135,3 +135,16 @@ def test_wrong_questions_about_basins_say_why():
     with pytest.raises(ns.InputError, match="variables"):
         basins.at([1.0, 2.0, 3.0])
     assert basins.at([5.0, 0.0]) == -1 and basins.at([np.nan, 0.0]) == -1
+
+
+def test_a_map_that_ends_in_another_mode_is_no_return():
+    relay = ns.System(
+        {"a": ["1 - x"], "b": ["-x"]},
+        states="x",
+        guards=[
+            ns.Guard("switch", "x - 0.5", "rising", modes=["a"], to="b"),
+            ns.Guard("back", "x - 0.2", "falling", modes=["b"]),
+        ],
+    )
+    with pytest.raises(ns.UndecidedError, match="ends in the mode b"):
+        ns.proved_orbit(relay, "back", guess={"x": 0.2}, start=["x"], mode="a")

@@ -205,12 +205,18 @@ impl Certificate {
         for cell in basins.cells() {
             let is_inside = |trap: &Trap| trap.contains(&cell.points);
             let start = || StartSet::of_box(&cell.points).without_derivatives();
-            let run = match cell.fate {
-                ProvedFate::Trap(trap) if is_inside(&basins.traps()[trap]) => None,
-                ProvedFate::Trap(_) => Some(recorded(map.carry(start())?)?),
-                ProvedFate::Stopped(_) => {
-                    Some(map.end_of(start())?.ok_or_else(not_recorded)?.as_json())
-                }
+            let is_trapped =
+                matches!(cell.fate, ProvedFate::Trap(trap) if is_inside(&basins.traps()[trap]));
+            let run = match is_trapped {
+                true => None,
+                // Its own image: that of a cell whose points stop later is among the cells before.
+                false => Some(match map.carry(start()) {
+                    Ok(carried) => recorded(carried)?,
+                    Err(error) if error.is_stop() => {
+                        map.end_of(start())?.ok_or_else(not_recorded)?.as_json()
+                    }
+                    Err(error) => return Err(error),
+                }),
             };
             let fate = match cell.fate {
                 ProvedFate::Trap(trap) => json!(traps[trap]),

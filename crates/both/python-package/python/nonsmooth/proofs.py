@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
-from ._arguments import whole
+from ._arguments import numbers, whole
 from .errors import InputError
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ class ProvedTrap:
     size: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ProvedBasins:
     """Which starts of a window come to which trap, or stop at which surface. A code is the place of a fate in ``traps + surfaces``; −1 is open."""
 
@@ -89,7 +89,7 @@ class ProvedBasins:
 
     def at(self, points: Any) -> NDArray[np.int64]:
         """The codes of the fates of points: an array in whose last axis the variables are."""
-        points = np.asarray(points, dtype=float)
+        points = numbers(points)
         if points.ndim == 0 or points.shape[-1] != len(self._window):
             raise InputError(f"points have {len(self._window)} variables in the last axis; the shape is {points.shape}")
         rows = np.ascontiguousarray(points.reshape(-1, points.shape[-1]))
@@ -97,7 +97,7 @@ class ProvedBasins:
 
     def raster(self, pixels: int | Sequence[int]) -> NDArray[np.int64]:
         """The codes at the middles of equal pixels of the window: an array with one axis for each variable."""
-        counts = [pixels] * len(self._window) if isinstance(pixels, int) else list(pixels)
+        counts = list(pixels) if isinstance(pixels, Iterable) else [pixels] * len(self._window)
         counts = [whole("pixels", count, 1) for count in counts]
         if len(counts) != len(self._window):
             raise InputError(f"pixels has {len(counts)} numbers for {len(self._window)} variables")
@@ -130,13 +130,24 @@ def _question(
     intervals: Mapping[str, tuple[float, float]],
     certificate: str | PathLike[str] | None,
 ) -> dict[str, Any]:
+    for name, texts in (("start", start), ("read", read)):
+        if isinstance(texts, str):
+            raise InputError(f"{name}= is a list of formulas, not the text {texts!r}")
+    if read is not None and len(read) != len(variables):
+        raise InputError(f"read= has {len(read)} formulas for the variables {', '.join(variables)}")
+    if certificate is not None and not (Path(certificate).name and Path(certificate).parent.is_dir()):
+        raise InputError(f"certificate= is a file in a folder that exists, not {str(certificate)!r}")
     return {
         "mode": system._first_mode(mode),
         "surface": surface,
         "variables": variables + list(intervals),
-        "states": list(start) + list(intervals),
+        "states": [str(text) for text in start] + list(intervals),
         "read": variables if read is None else list(read),
-        "intervals": [(name, float(low), float(high)) for name, (low, high) in intervals.items()],
+        # Outwards: the decimals that were written are inside.
+        "intervals": [
+            (name, float(np.nextafter(low, -np.inf)), float(np.nextafter(high, np.inf)))
+            for name, (low, high) in intervals.items()
+        ],
         "count": whole("count", count, 1),
         "certificate": None if certificate is None else Path(certificate).stem,
     }
@@ -159,15 +170,19 @@ def proved_orbit(
     intervals: Mapping[str, tuple[float, float]] | None = None,
     certificate: str | PathLike[str] | None = None,
 ) -> ProvedOrbit:
-    """Proves that the return map to a surface has exactly one fixed point near a guess, or raises :class:`UndecidedError` with the reason.
+    """Proves that the map to a surface has exactly one fixed point in a box that Newton's method finds from a guess, or raises :class:`UndecidedError` with the reason.
 
     The variables of the map are the names of ``guess``. ``start`` has a formula of them for each component of the state, and one for the time, the last component,
     if the model uses it. ``read`` are formulas of the state after the event number ``count`` of the surface, one for each variable; without it, the variables
     are names of the state. ``intervals`` are parameters with two ends: the result holds for each value of them.
 
+    The fixed point is a periodic orbit if ``start`` gives back the state after the event: of what is read, with a time that is less by a whole number of
+    periods of the forcing. A map that ends in another mode than it begins is refused.
+
     ``certificate`` is a file for the numbers of the proof, which the project's ``check_certificate.py`` confirms. The proof takes longer then.
 
-    Parameters are the decimals that Python prints: 0.2 is 1/5. Numbers inside of a function are their doubles, exactly.
+    Parameters are the decimals that Python prints: 0.2 is 1/5. Numbers inside of a function are their doubles, exactly: a period of the forcing is best
+    written with a parameter, ``t - 2*pi/w``.
 
     >>> import nonsmooth as ns
     >>> section = ns.Guard("section", "x", "rising")
@@ -178,7 +193,7 @@ def proved_orbit(
     ...     guards=[section],
     ... )
     >>> orbit = ns.proved_orbit(rossler, "section", guess={"y": -8.4, "z": 0.03}, start=["0", "y", "z"])
-    >>> orbit.saddle, bool(orbit.point[0, 0] < -8.380941742829 < orbit.point[0, 1] + 1e-11)
+    >>> orbit.saddle, bool(abs(orbit.point[0].mean() + 8.38094174283) < 1e-11)
     (True, True)
     """
     variables = list(guess)
@@ -213,9 +228,13 @@ def proved_basins(
 
     The map is that of :func:`proved_orbit`: its variables are the names of ``window``. Each guess is near a fixed point that attracts, about which a trap is proved. A cell
     has a fate if it is in a trap, if its image is in cells with this fate, or if all its points stop at a surface. Cells are divided from
-    2⁻ᶠⁱʳˢᵗ of the window's sides down to 2⁻ˡᵃˢᵗ, with at most so many ``images``. ``progress`` is a function of (images, all images), or True for a bar.
+    2**-first of the window's sides down to 2**-last; an image is computed once for each cell, and of at most so many ``images``. The traps are proved before,
+    which takes seconds. ``progress`` is a function of (images, all images), or True for a bar.
 
-    For a flow without a section of its own, take a guard of the time: the map is then that over a fixed time.
+    For a flow without a section of its own, take a guard of the time: the map is then that over a fixed time. If the model is forced, this is a whole period,
+    from the time 0.
+
+    With a ``certificate`` the sets are wider, so that more cells may stay open, and the file is large: some kilobytes a cell.
 
     >>> import nonsmooth as ns
     >>> well = ns.System(["v", "x - x^3 - v"], states="x v", guards=[ns.Guard("later", "t - 2", "rising")])
@@ -237,6 +256,8 @@ def proved_basins(
     """
     variables = list(window)
     for guess in guesses:
+        if not isinstance(guess, Mapping):
+            raise InputError(f"a guess has a number for each variable by its name, as {{'x': 1.0}}, not {guess!r}")
         if set(guess) != set(variables):
             raise InputError(f"a guess has {sorted(guess)}, but the window has {sorted(variables)}")
     question = _question(system, surface, variables, start, read, mode, count, {}, certificate)

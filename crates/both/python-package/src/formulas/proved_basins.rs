@@ -131,7 +131,12 @@ pub(crate) fn _proved_basins(
         Some(progress) => progress.call1((done, division.images)).map(drop),
         None => Ok(()),
     };
-    in_background(py, work, of_proof, report)
+    let found = in_background(py, work, of_proof, report)?;
+    // Cells that are left over end it before all images are used up.
+    if let Some(progress) = &progress {
+        progress.call1((found.basins.images, found.basins.images))?;
+    }
+    Ok(found)
 }
 
 fn prove(
@@ -143,19 +148,27 @@ fn prove(
     told: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<ProvedBasins, Error> {
     question.answer(equations, watch, |map, _| {
+        let window: Vec<Enclosure> = window
+            .iter()
+            .map(|&(low, high)| Enclosure::between(low, high))
+            .collect::<Result<_, _>>()?;
+        // Before the traps, which take seconds.
+        division.check(&[map], &[&window])?;
         let mut certificate = question.certificate.as_deref().map(Certificate::new);
         let (mut traps, mut orbits, mut numbers) = (Vec::new(), Vec::new(), Vec::new());
         for guess in guesses {
             let orbit = fixed_point(map, guess, &[])?;
             let trap = Trap::new(map, &orbit, TRAP_IMAGES)?;
+            if let Some(other) = traps.iter().position(|other: &Trap| other.contains(&orbit.point)) {
+                let reason = format!("number {} leads to the fixed point of number {}", traps.len() + 1, other + 1);
+                return Err(Error::Argument { what: "guesses".to_owned(), reason });
+            }
             if let Some(certificate) = &mut certificate {
                 numbers.push(certificate.trap(map, &trap)?);
             }
             traps.push(trap);
             orbits.push(found(&orbit));
         }
-        let window: Vec<Enclosure> =
-            window.iter().map(|&(low, high)| Enclosure::between(low, high)).collect::<Result<_, _>>()?;
         let basins =
             validated_dynamics::ProvedBasins::watched(&[map], traps, &[&window], division, told)?;
         if let Some(certificate) = &mut certificate {
