@@ -10,10 +10,10 @@ let timers = [];
 let entry = null; // the address of the last view that stayed; null until there is one
 let moves = false; // whether the present entry is of a view that has not stayed yet
 
-/** An address is followed: its view is the present entry. */
-export const begin = () => {
+/** An address is followed: what is shown now is the present entry; or what is shown next, if a part of it is still looked for. */
+export const begin = (waits) => {
   timers.forEach(clearTimeout);
-  [entry, moves] = [null, false];
+  [entry, moves] = [waits ? null : write(state), false];
 };
 
 /** Keeps the address up to date some times a second. A change begins an entry, which is that of the view that stays. */

@@ -211,6 +211,7 @@ async function showSame() {
     const [title, text, copy] = ["p", "pre", "button"].map((tag) => document.createElement(tag));
     title.textContent = name;
     text.textContent = code;
+    Object.assign(text, { tabIndex: 0, role: "region", ariaLabel: name });
     copy.textContent = "Copy";
     copy.onclick = () => navigator.clipboard.writeText(code).then(() => say("Copied."), () => say("The browser does not allow copying; mark the text."));
     return [title, text, copy];
@@ -234,12 +235,11 @@ function showLegend() {
 }
 
 // The tour, which is loaded when it begins.
-let tour = null;
-async function goTo(next) {
-  if (!tour && next < 0) return;
-  tour ??= new (await import("./tour.js")).Tour(legend, openDepth, () => { wish += 1; halt(); });
-  tour.go(next);
-}
+let touring = null;
+const goTo = (next) => {
+  touring ??= import("./tour.js").then(({ Tour }) => new Tour(legend, openDepth, () => { wish += 1; halt(); }));
+  return touring.then((tour) => tour.go(next(tour)));
+};
 
 async function saveDialog() {
   const [{ save }, { offers }] = await Promise.all([dialogs(), files()]);
@@ -310,13 +310,13 @@ keys({
   "+": scale(1 / 1.5, 1 / 1.5), "=": scale(1 / 1.5, 1 / 1.5), "-": scale(1.5, 1.5), "−": scale(1.5, 1.5),
   X: scale(1 / 1.5, 1), x: scale(1.5, 1), A: scale(1, 1 / 1.5), a: scale(1, 1.5),
   Enter: pinCentre, h: goHome, l: () => setLogarithmic(!state.view.logarithmic), ...Object.fromEntries(layers.map((_, k) => [k + 1, setLayer(k)])),
-  d: deepHere, t: () => goTo(0), n: () => tour?.runs && goTo(tour.at + 1), p: () => tour?.at > 0 && goTo(tour.at - 1),
-  Escape: () => { if (state.depth) leaveDepth(); goTo(-1); }, z: () => history.back(), y: () => history.forward(), g: places,
+  d: deepHere, t: () => goTo(() => 0), n: () => touring && goTo(({ runs, at }) => (runs ? at + 1 : -1)), p: () => touring && goTo(({ at }) => (at > 0 ? at - 1 : at)),
+  Escape: () => { if (state.depth) leaveDepth(); if (touring) goTo(() => -1); }, z: () => history.back(), y: () => history.forward(), g: places,
   " ": () => play(), ",": () => step(-1), ".": () => step(1), s: saveDialog, c: share, "?": help,
 });
 byId("home").onclick = goHome;
 byId("deep").onclick = deepHere;
-byId("tour").onclick = () => goTo(tour?.runs ? -1 : 0);
+byId("tour").onclick = () => goTo(({ runs }) => (runs ? -1 : 0));
 byId("places").onclick = places;
 byId("back-view").onclick = () => history.back();
 byId("forth-view").onclick = () => history.forward();
@@ -352,11 +352,11 @@ listen((names) => {
 function follow(hash) {
   wish += 1;
   halt();
-  begin();
   const { fields, wrong } = read(hash);
   const { depth, embedded, ...rest } = fields;
   if (embedded) embed();
   change({ view: home, layer: usual, pin: null, depth: null, ...rest });
+  begin(depth !== undefined);
   if (depth) openDepth(depth.m, depth.alpha, depth.depth);
   if (wrong.length > 0) queueMicrotask(() => say(`A part of the address makes no sense and is left out: ${wrong.join(", ")}`));
 }

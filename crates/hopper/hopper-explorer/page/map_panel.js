@@ -53,7 +53,7 @@ export function showMap({ pieces, stars, undecided }, { massRatio, speeds, groun
     .join("");
   panel.innerHTML = `<h2>The map at <i>M</i> = ${show(massRatio)}</h2><div class="picture">${drawing.markup()}</div>
     <p class="soft">Red: the orbit. Bands: the traps, with their lengths below. Drag along the picture to move α.${undecided ? ` ${undecided} points of the curve are not decided and left out.` : ""}</p>
-    <div class="wide"><table><thead><tr><th></th><th>α*</th><th>trap</th><th>ends at</th><th>crisis <i>M</i></th><th>grounding <i>M</i></th></tr></thead><tbody>${rows}</tbody></table></div>`;
+    <div class="wide" tabindex="0" role="region" aria-label="Fixed points and their traps"><table><thead><tr><td></td><th>α*</th><th>trap</th><th>ends at</th><th>crisis <i>M</i></th><th>grounding <i>M</i></th></tr></thead><tbody>${rows}</tbody></table></div>`;
 }
 
 let held = false;

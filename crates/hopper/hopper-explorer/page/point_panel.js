@@ -97,6 +97,6 @@ export function showOrbit({ orbit, errors, grounded, hops }) {
           .join("")
       : "");
   document.querySelector("#orbit div").innerHTML =
-    `<div class="wide"><table><thead><tr><th>hop</th><th>α</th><th>error ≤</th><th>sudden</th><th>energy lost</th><th>∂α′/∂α</th></tr></thead>` +
+    `<div class="wide" tabindex="0" role="region" aria-label="The orbit hop by hop"><table><thead><tr><th>hop</th><th>α</th><th>error ≤</th><th>sudden</th><th>energy lost</th><th>∂α′/∂α</th></tr></thead>` +
     `<tbody>${listed.map(row).join("")}</tbody></table></div>${grounded ? "<p>The last hop ends on the ground.</p>" : '<p class="soft">And so on.</p>'}`;
 }

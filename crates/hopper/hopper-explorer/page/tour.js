@@ -69,6 +69,7 @@ export class Tour {
 
   /** Goes to a stop; any other number ends the tour. */
   go(next) {
+    if (next < 0 && !this.runs) return;
     const before = this.runs ? null : document.activeElement;
     this.giveUp();
     this.opener ??= before;

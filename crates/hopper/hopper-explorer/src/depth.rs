@@ -36,6 +36,7 @@ impl Depth {
     }
 
     /// Whether this is the chart about exactly this speed.
+    #[cfg(feature = "deep")]
     pub(crate) fn is_at(&self, mass_ratio: f64, alpha: f64) -> bool {
         self.chart.mass_ratio().value() == mass_ratio && self.chart.point().0 == alpha
     }

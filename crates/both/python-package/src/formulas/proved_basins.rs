@@ -159,8 +159,13 @@ fn prove(
         for guess in guesses {
             let orbit = fixed_point(map, guess, &[])?;
             let trap = Trap::new(map, &orbit, TRAP_IMAGES)?;
-            if let Some(other) = traps.iter().position(|other: &Trap| other.contains(&orbit.point)) {
-                let reason = format!("number {} leads to the fixed point of number {}", traps.len() + 1, other + 1);
+            if let Some(other) = traps.iter().position(|other: &Trap| other.contains(&orbit.point))
+            {
+                let reason = format!(
+                    "number {} leads to the fixed point of number {}",
+                    traps.len() + 1,
+                    other + 1
+                );
                 return Err(Error::Argument { what: "guesses".to_owned(), reason });
             }
             if let Some(certificate) = &mut certificate {

@@ -12,17 +12,16 @@ const browser = await launch();
 say("browser", `Chromium ${browser.version()}, ${availableParallelism()} cores`);
 
 const sizes = readdirSync(site).map((name) => [name, gzipSync(readFileSync(`${site}/${name}`), { level: 9 }).length]);
-const all = sizes.reduce((sum, [, size]) => sum + size, 0);
-const core = sizes.find(([name]) => name === "core.wasm")[1];
-say("all files by gzip -9", `${(all / 1000).toFixed(0)} kB, of which the core has ${(core / 1000).toFixed(0)} kB`);
+const sizeOf = new Map(sizes);
 
-// First picture: all of the window in coarse tiles; complete: in fine ones. The best of three, each with an empty
+// First picture: all of the window in coarse points; complete: in fine ones. The best of three, each with an empty
 // cache.
 const first = [];
+let fetched = [];
 for (let k = 0; k < 3; k++) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
   const page = await context.newPage();
-  await page.goto(url);
+  await page.goto(`${url}#layer=fate`);
   const coarse = await page.waitForFunction(() => window.explorer?.plane.drawable && performance.now(), null, {
     ...READY,
     polling: "raf",
@@ -31,12 +30,20 @@ for (let k = 0; k < 3; k++) {
     ...READY,
     polling: "raf",
   });
-  first.push([await coarse.jsonValue(), await fine.jsonValue()]);
+  const paint = await page.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0].startTime);
+  first.push([paint, await coarse.jsonValue(), await fine.jsonValue()]);
+  fetched = await page.evaluate(() => ["index.html", ...performance.getEntriesByType("resource").map(({ name }) => name.split("/").at(-1))]);
   await context.close();
 }
-first.sort((a, b) => a[0] - b[0]);
+first.sort((a, b) => a[1] - b[1]);
+// A worker's scripts are no entries of the page.
+const before = new Set([...fetched, "worker.js"]);
+const kilobytes = (names) => ([...names].reduce((sum, name) => sum + (sizeOf.get(name) ?? 0), 0) / 1000).toFixed(1);
+say("fetched before the complete picture, by gzip -9", `${kilobytes(before)} kB, of which the core has ${kilobytes(["core.wasm"])} kB`);
+for (const [name] of sizes.filter(([name]) => !before.has(name) && name !== "explorer.html"))
+  say(`fetched when it is first used: ${name}`, `${kilobytes([name])} kB`);
 say(
-  "first picture, complete picture after the start of loading",
+  "first paint, first picture, complete picture of points",
   `${first[0].map((time) => time.toFixed(0)).join(" ms, ")} ms`,
 );
 
@@ -64,6 +71,22 @@ for (const tile of native.tiles.filter(({ pixels }) => pixels === 256)) {
     `256² tile in a worker, ${where}`,
     `${best.toFixed(1)} ms; native ${tile.milliseconds.toFixed(1)} ms: ${(best / tile.milliseconds).toFixed(2)} ×`,
   );
+}
+
+// Exact shares of the home view: a fourth of the columns, then all of them.
+{
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+  const page = await context.newPage();
+  await page.goto(url);
+  const shares = (test) => page.waitForFunction(test, null, { timeout: 240_000, polling: 200 }).then(() => page.evaluate(() => performance.now()));
+  const few = await shares(() => {
+    const { plane, state } = window.explorer ?? {};
+    return plane?.drawable && ![...plane.asked.keys()].some((key) => !key.startsWith(`${state.layer}/`) || key.includes("/64/")) && plane.asked.size > 0;
+  });
+  const all = await shares(() => window.explorer.plane.idle);
+  const workers = await page.evaluate(() => explorer.pool.members.length);
+  say(`exact shares at home, a fourth of the columns, all: ${workers} worker(s)`, `${(few / 1000).toFixed(0)} s, ${(all / 1000).toFixed(0)} s`);
+  await context.close();
 }
 
 // The panels of a pinned point: from the click to the last drawing.
