@@ -9,6 +9,7 @@
 #![allow(clippy::print_stdout)] // a program
 
 use hybrid_system::{Equations, Label};
+use std::f64::consts::PI;
 use std::ops::ControlFlow;
 use std::time::Instant;
 use validated_dynamics::{
@@ -49,8 +50,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .within(Limits { width: WIDEST, ..Limits::default() });
     let trap = Trap::new(&later, &fixed_point(&later, &[0.0, 0.0], &[])?, 2000)?;
     println!("at rest: a trap of size {:.3}, {:?}", trap.size(), begin.elapsed());
-    // 1e-7 less than a whole turn, whose ends are no doubles.
-    let window = [Enclosure::new(-3.1415926, 3.1415926), Enclosure::new(-10.0, 10.0)];
+    // A little less than a whole turn, whose ends are no doubles.
+    let half = PI - 1e-7;
+    let window = [Enclosure::new(-half, half), Enclosure::new(-10.0, 10.0)];
     let division = Division { first, last, images };
     let mut watch = |progress: Progress| {
         let (share, images) = (100.0 * progress.proved, progress.images);

@@ -141,7 +141,7 @@ fn a_state_of_rest_stays_and_its_neighbours_are_linear() {
     assert!(rest.is_attracting() && rest.point[0].contains(0.0));
     // e^(-5/2) at an angle of 5 √3/2.
     let multiplier = &rest.multipliers[0];
-    let size = multiplier.real.hypot(multiplier.imaginary);
+    let size = pxfm::f_hypot(multiplier.real, multiplier.imaginary);
     assert!(
         multiplier.radius < 1e-6 && (size - 0.082_084_998_623_898_8).abs() <= multiplier.radius
     );

@@ -20,6 +20,9 @@ const OPEN: i64 = -1;
 /// The orbit of a trap, its centre, its directions as rows of a matrix, and its size.
 type FoundTrap = (Found, Vec<f64>, Vec<Vec<f64>>, f64);
 
+/// The ends of cells, and the codes of their fates.
+type FoundCells<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i64>>);
+
 /// The basins of nonsmooth.proved_basins. Codes count the traps, and then the surfaces.
 #[pyclass(frozen, module = "nonsmooth._native")]
 pub(crate) struct ProvedBasins {
@@ -81,10 +84,7 @@ impl ProvedBasins {
     }
 
     /// The cells with a fate, with the low and then the high ends of each one in a row, and the codes of their fates.
-    fn cells<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i64>>)> {
+    fn cells<'py>(&self, py: Python<'py>) -> PyResult<FoundCells<'py>> {
         let cells = self.basins.cells();
         let row = |points: &[Enclosure]| {
             let low = points.iter().map(|x| x.low());
