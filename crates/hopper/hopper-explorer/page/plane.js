@@ -184,7 +184,7 @@ export const axesOf = (plane) =>
 
 /** In the dark the colours are dimmed: a large light area would dazzle. */
 const dark = matchMedia("(prefers-color-scheme: dark)");
-export const dimmed = () => (dark.matches ? 0.82 : 1);
+export const dimmed = () => (dark.matches ? 0.7 : 1);
 
 function paintTiles(context, plane, box) {
   const ratio = window.devicePixelRatio || 1;
