@@ -2,7 +2,7 @@
 
 use basin_of_attraction::Label;
 use hopper_asymptotics::{Offset, Side};
-use hopper_basin::{CircleLimits, EdgeChart, Error, Fates, HopperFate, PhaseBasins};
+use hopper_basin::{CircleLimits, EdgeChart, Error, Fates, HopperFate, PhaseBasins, edge_phase};
 use hopper_reference::rows;
 use passive_hopper::{Arithmetic, ExtendedOrbit, ExtendedStep, MassRatio};
 
@@ -182,4 +182,22 @@ fn from_every_point_an_edge_is_found() {
         }
     }
     assert!(EdgeChart::nearest(&fates(0.2), f64::NAN).is_err());
+}
+
+/// Ψ grows as |δ|^(−1/3): a thousandth of the distance is ten times as many hops.
+#[test]
+fn the_phase_at_the_end_of_a_window_turns_with_its_depth() {
+    let fates = fates(0.12);
+    let chart = EdgeChart::near(&fates, 11.920553918335775).unwrap();
+    let circle = circle(&fates, chart.n());
+    let whole = |depth: f64| -> f64 {
+        let phase = edge_phase(&chart, &circle, depth).unwrap();
+        assert!(phase.error() < 1e-3 && (0.0..1.0).contains(&phase.fraction()));
+        phase.whole().to_string().parse().unwrap()
+    };
+    let ratio = whole(30.0) / whole(27.0);
+    // But for a logarithm of the number of hops.
+    assert!((ratio - 10.0).abs() < 1e-5, "{ratio}");
+    assert!(edge_phase(&chart, &circle, 100.0).unwrap().error() > 1.0);
+    assert!(edge_phase(&chart, &circle, f64::NAN).is_err());
 }

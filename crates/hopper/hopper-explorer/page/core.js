@@ -62,6 +62,11 @@ export class Core {
   openDepth(m, alpha) {
     return this.#json(this.exports.open_depth(m, alpha));
   }
+  /** The place on the circle at the lower end of such a frame; null where there is none. */
+  depthPhase(depth, m, alpha) {
+    this.openDepth(m, alpha);
+    return this.#json(this.exports.depth_phase(depth));
+  }
   /** The frame about the opened boundary point, or about the one at (m, alpha): a worker that replaces a dead one opens it again. */
   depthFrame(depth, columns, rows, m, alpha) {
     if (m !== undefined) this.openDepth(m, alpha);

@@ -48,6 +48,7 @@ export class Deep {
       return;
     }
     this.busy = true;
+    if (pixels === QUICK) await this.#findPhase(depth, about);
     try {
       const data = await this.desk.ask("depthFrame", depth, pixels, pixels, about.massRatio, about.alpha);
       const bitmap = await createImageBitmap(new ImageData(data, pixels, pixels));
@@ -60,6 +61,27 @@ export class Deep {
     this.busy = false;
     this.plane.refresh();
     this.request();
+  }
+
+  /** The place on the circle with which a window ends: what changes with the depth. */
+  async #findPhase(depth, about) {
+    try {
+      const found = await this.desk.ask("depthPhase", depth, about.massRatio, about.alpha);
+      this.phase = { depth, about, ...found };
+    } catch (error) {
+      this.phase = null;
+    }
+    if (state.depth) say(this.words());
+  }
+
+  #phaseInWords({ depth, about }) {
+    const { phase } = this;
+    if (phase?.about !== about || phase.depth !== depth) return "";
+    const exponent = phase.more + phase.turns.length - 1;
+    const hops = exponent < 3 ? phase.turns : `${phase.turns[0]}.${phase.turns.slice(1)}·${powerOfTen(exponent)}`;
+    // From some 10⁻⁴⁵ on the fraction is not known.
+    const place = phase.error < 0.005 ? `phase ${phase.fraction.toFixed(2)} of the circle` : "a phase that is not known";
+    return `. The window ends at ${place}: an orbit from there lingers for ${hops} hops`;
   }
 
   /** The quick frame and the fine one of the present depth: both, those that are there, and those that failed. */
@@ -107,7 +129,7 @@ export class Deep {
     const { depth, about } = state.depth;
     return (
       `Half height ${powerOfTen(-depth)} about p = ${show(about.alpha, 12)} at M = ${show(about.massRatio, 8)}: a boundary point that ` +
-      `comes to the fixed point ${pretty(`α*_${about.n}`)} in ${about.hops} hops`
+      `comes to the fixed point ${pretty(`α*_${about.n}`)} in ${about.hops} hops${this.#phaseInWords(state.depth)}`
     );
   }
 }

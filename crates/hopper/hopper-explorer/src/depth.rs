@@ -5,7 +5,8 @@ use crate::labels;
 use crate::refusal::Refusal;
 use crate::tile::opaque;
 use hopper_basin::{
-    CircleLimits, EdgeChart, Fates, FollowedEdge, HopperFate, PhaseBasins, edge_frame, frame_slant,
+    CircleLimits, EdgeChart, Fates, FollowedEdge, HopperFate, PhaseBasins, edge_frame, edge_phase,
+    frame_slant,
 };
 use hopper_figures::share_pixels;
 use passive_hopper::MassRatio;
@@ -61,6 +62,26 @@ impl Depth {
     /// The boundary point as text, for tests.
     pub fn text(&self) -> String {
         self.json().finish()
+    }
+
+    /// The place on the circle with which the window of half height 10^−`depth` ends, and the turns until there, as JSON: the fraction of Ψ with its error, and
+    /// the whole number as three digits with a power of ten.
+    ///
+    /// # Errors
+    /// The refusals of [`edge_phase`].
+    pub fn phase(&self, depth: f64) -> Result<String, Refusal> {
+        Ok(self.phase_json(depth)?.finish())
+    }
+
+    pub(crate) fn phase_json(&self, depth: f64) -> Result<Json, Refusal> {
+        let phase = edge_phase(&self.chart, &self.circle, depth)?;
+        let digits = phase.whole().to_string();
+        let first: String = digits.chars().take(3).collect();
+        Ok(Json::object()
+            .number("fraction", phase.fraction())
+            .number("error", phase.error())
+            .text("turns", &first)
+            .integer("more", (digits.len() - first.len()) as u64))
     }
 
     /// The pixels of the window of half height 10^−`depth` about the point, the highest row first.

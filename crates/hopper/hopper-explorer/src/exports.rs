@@ -153,3 +153,13 @@ pub(crate) extern "C" fn depth_frame(depth: f64, columns: usize, rows: usize) ->
         None => Err(Refusal::new("no boundary point is open; open one before its frames")),
     }))
 }
+
+/// The place on the circle with which such a window ends, as JSON.
+#[cfg(feature = "deep")]
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn depth_phase(depth: f64) -> u32 {
+    json(DEPTH.with_borrow(|kept| match kept {
+        Some(open) => open.phase_json(depth),
+        None => Err(Refusal::new("no boundary point is open; open one before its phase")),
+    }))
+}

@@ -12,7 +12,7 @@ use crate::circle::upwards::Upwards;
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use basin_of_attraction::{Grid, Interval, Label};
-use hopper_asymptotics::Offset;
+use hopper_asymptotics::{Offset, Phase};
 
 /// Most pixels of a frame each way: its shares then take a gigabyte.
 const MOST_PIXELS: usize = 1 << 13;
@@ -58,6 +58,16 @@ pub fn edge_window(
     let end = |row: usize| Offset::new(mantissa * place(row), exponent);
     let pairs = (0..rows).map(|row| Ok((end(row)?, end(row + 1)?)));
     edge_pixels(fates, chart, circle, &pairs.collect::<Result<Vec<_>, Error>>()?, 0.0)
+}
+
+/// Ψ at the distance 10^{−`depth`} from the point of `chart`, on the side of the circle: whose fraction is the place on the circle that a window of
+/// this height ends with.
+///
+/// # Errors
+/// As [`EdgeChart::phase`].
+pub fn edge_phase(chart: &EdgeChart, circle: &PhaseBasins, depth: f64) -> Result<Phase, Error> {
+    let (mantissa, exponent) = power_of_ten(depth);
+    chart.phase(circle, Offset::new(-chart.slope().signum() * mantissa, exponent)?)
 }
 
 /// The half width of an [`edge_frame`] in mass ratio, divided by its half height in speed.

@@ -140,6 +140,22 @@ for (const [m, alpha] of [
   });
 }
 
+onPage("at a deep edge the phase is written and moves", "#depth=0.12,11.920553918335775,30", async (page) => {
+  const phase = async () => {
+    await page.waitForFunction(() => /phase \d\.\d\d of the circle: .* lingers/.test(document.getElementById("say").textContent), null, READY);
+    return /phase (\d\.\d\d) of the circle: .* for (\S+) hops/.exec(await page.textContent("#say")).slice(1);
+  };
+  const [first, turns] = await phase();
+  assert.match(turns, /^\d\.\d\d·10(⁹|¹⁰)$/);
+  await page.evaluate(() => explorer.change({ depth: { ...explorer.state.depth, depth: 30.2 } }));
+  await page.waitForFunction((first) => {
+    const found = /phase (\d\.\d\d) of/.exec(document.getElementById("say").textContent);
+    return found && found[1] !== first;
+  }, first, READY);
+  await page.evaluate(() => explorer.change({ depth: { ...explorer.state.depth, depth: 100 } }));
+  await page.waitForFunction(() => /a phase that is not known: .* for \d\.\d\d·10³/.test(document.getElementById("say").textContent), null, READY);
+});
+
 onPage(
   "a double click zooms, a zoom glides, and a plane that is thrown goes on",
   "",
