@@ -1,6 +1,7 @@
 """Periodic orbits that exist, and basins: what is proved holds what runs find, and what is not proved is an exception."""
 
 import json
+import pickle
 
 import numpy as np
 import pytest
@@ -134,6 +135,8 @@ def test_wrong_questions_about_basins_say_why():
     basins = ns.proved_basins(well(), "later", **{**BASINS, "last": 4})
     with pytest.raises(ns.InputError, match="variables"):
         basins.at([1.0, 2.0, 3.0])
+    with pytest.raises(TypeError, match="certificate"):
+        pickle.dumps(basins)
     assert basins.at([5.0, 0.0]) == -1 and basins.at([np.nan, 0.0]) == -1
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
@@ -86,6 +86,9 @@ class ProvedBasins:
     images: int
     _window: list[tuple[float, float]]
     _native: _native.ProvedBasins
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("ProvedBasins hold their proof and are not pickled: keep .cells, .codes and .shares, or a certificate")
 
     def at(self, points: Any) -> NDArray[np.int64]:
         """The codes of the fates of points: an array in whose last axis the variables are."""
