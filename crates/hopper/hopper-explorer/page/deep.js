@@ -21,10 +21,10 @@ export class Deep {
     this.busy = false;
   }
 
-  /** Opens the boundary point next to a speed, if it is still wanted when it is found. */
+  /** Opens the boundary point next to a speed, if it is still wanted when it is found: `wanted` may fly there first. */
   async open(m, alpha, depth, wanted = () => true) {
     const about = await this.desk.ask("openDepth", m, alpha);
-    if (!wanted()) return;
+    if (!(await wanted(about))) return;
     this.frames.forEach(({ bitmap }) => bitmap?.close());
     this.frames = [];
     change({ depth: { m, alpha: about.alpha, depth, about } });

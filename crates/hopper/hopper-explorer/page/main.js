@@ -97,30 +97,38 @@ function lookForEdge(focus) {
     const height = view.alpha[1] - view.alpha[0];
     try {
       const about = await well.ask("openDepth", toM(view, focus.x), focus.alpha);
-      if (state.view !== view || Math.abs(about.alpha - focus.alpha) > height) return;
+      if (state.view !== view) return;
+      if (Math.abs(about.alpha - focus.alpha) > height) {
+        if (tooFine(view.alpha)) say(`The zoom ends where doubles do. The nearest edge is at α = ${show(about.alpha, 12)}.`);
+        return;
+      }
       await deep.open(about.massRatio, about.alpha, -Math.log10(height / 2));
     } catch (error) { say(`The zoom ends where doubles do: ${error.message}`); }
   }, 150);
 }
 
 let wish = 0; // counts the deep views that were asked for, and given up before they came
-async function openDepth(m, alpha, depth) {
+async function openDepth(m, alpha, depth, fly = null) {
   const mine = ++wish;
   say("Looking for the edge …");
-  try { await deep.open(m, alpha, depth, () => mine === wish); } catch (error) { say(error.message); }
+  try { await deep.open(m, alpha, depth, async (about) => mine === wish && (!fly || (await fly(about))) && mine === wish); } catch (error) { say(error.message); }
 }
 
 function deepHere() {
   if (state.depth) return leaveDepth();
   const focus = state.pin ?? { m: toM(state.view, pointAt(centre()).x), alpha: pointAt(centre()).alpha };
-  openDepth(focus.m, focus.alpha, Math.max(-Math.log10((state.view.alpha[1] - state.view.alpha[0]) / 2), SHALLOWEST + 0.5));
+  openDepth(focus.m, focus.alpha, Math.max(-Math.log10((state.view.alpha[1] - state.view.alpha[0]) / 2), SHALLOWEST + 0.5), (about) => glide(windowAbout(about, 1e-5)));
+}
+
+/** The window of this half height about an edge. */
+function windowAbout({ massRatio, alpha }, half) {
+  const view = { logarithmic: false, x: [massRatio - half, massRatio + half], alpha: [alpha - half, alpha + half] };
+  return withLogarithm(view, state.view.logarithmic);
 }
 
 function leaveDepth() {
   const { about, depth } = state.depth;
-  const half = 10 ** -Math.min(Math.max(depth, 2), 7);
-  const x = [about.massRatio - half, about.massRatio + half];
-  const view = withLogarithm({ logarithmic: false, x, alpha: [about.alpha - half, about.alpha + half] }, state.view.logarithmic);
+  const view = windowAbout(about, 10 ** -Math.min(Math.max(depth, 2), 7));
   change({ depth: null, view });
 }
 
