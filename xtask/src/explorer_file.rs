@@ -51,11 +51,11 @@ pub(crate) fn one_file(folder: &Path) -> Result<String, Error> {
     for name in names.iter().filter(|name| name.ends_with(".js") && *name != "sw.js") {
         add(name, &text(name)?);
     }
-    let (index, style) = (text("index.html")?, text("style.css")?);
+    let index = text("index.html")?;
     let mut page = String::new();
     for line in index.lines() {
-        if line.contains("rel=\"stylesheet\"") {
-            let _ = writeln!(page, "<style>\n{style}</style>");
+        if let Some(style) = line.strip_prefix("<link rel=\"stylesheet\" href=\"") {
+            let _ = writeln!(page, "<style>\n{}</style>", text(style.trim_end_matches("\">"))?);
         } else if line == "</body>" {
             let _ = writeln!(page, "{parts}{LOADER}{line}");
         } else if !line.starts_with("<link") && !line.starts_with("<script type") {

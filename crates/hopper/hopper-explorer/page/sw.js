@@ -4,6 +4,7 @@ const FILES = [
   "./",
   "index.html",
   "style.css",
+  "screens.css",
   "icon.svg",
   "core.wasm",
   "deep.wasm",
