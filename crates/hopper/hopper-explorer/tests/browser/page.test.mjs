@@ -379,9 +379,9 @@ onPage("keyboard only", "", async (page) => {
   assert.equal((await view(page)).logarithmic, true);
   await page.keyboard.press("t");
   for (let k = 0; k < 7; k++) await page.keyboard.press("n");
-  assert.match(await page.textContent("#stop"), /8 of 8/);
+  await page.waitForFunction(() => /^8 of 8/.test(document.getElementById("stop").textContent), null, READY);
   await page.keyboard.press("n");
-  assert.ok(await page.isHidden("#stop"));
+  await page.waitForSelector("#stop", { state: "hidden" });
   await page.keyboard.press("Escape");
   await page.keyboard.press("h");
   await page.keyboard.press("?");
