@@ -85,10 +85,12 @@ impl<'s> Tube<'s> {
         let varied = series.varied(set.hull(), &identity, order + 1).map_err(Reason::Domain)?;
         let scale = scale(&centre, set);
         let mut step = Step { series, varied: &varied, order, length: 0.0 };
-        let own = step_length(centre.states(), order, error * scale);
+        let own = |k: usize| largest(centre.states(), k);
         // A state of rest says nothing of times: those near it do.
-        let length = own.or_else(|| step_length(varied.derivatives(), order, error));
-        let length = length.unwrap_or_else(|| natural_length(&centre));
+        let near = |k: usize| largest(varied.derivatives(), k);
+        let length = step_length(own, order, error * scale)
+            .or_else(|| step_length(near, order, error))
+            .unwrap_or_else(|| natural_length(own));
         step.length = (part * length).min(longest);
         let mut refused = Reason::NoSolution { step: step.length };
         for _ in 0..TRIES {
@@ -238,40 +240,26 @@ fn scale(centre: &Coefficients<Enclosure>, set: &AffineSet) -> f64 {
     if largest > 0.0 { largest } else { 1.0 }
 }
 
-/// The length of a step at which the last two terms of some components are as large as the error. `None` if they are 0, or as small as what
-/// rounding makes of 0.
-fn step_length<'c>(
-    components: impl Iterator<Item = &'c [Enclosure]>,
-    order: usize,
-    error: f64,
-) -> Option<f64> {
-    let mut last = [0.0; 2];
-    for series in components {
-        for (size, k) in last.iter_mut().zip([order - 1, order]) {
-            *size = series[k].magnitude().max(*size);
-        }
-    }
-    let of_term = |(k, size): (usize, f64)| match size > NOTHING {
-        true => pow(error / size, 1.0 / k as f64),
-        false => f64::INFINITY,
-    };
-    let length =
-        [order - 1, order].into_iter().zip(last).map(of_term).fold(f64::INFINITY, f64::min);
+/// The largest coefficient k of some components.
+fn largest<'c>(components: impl Iterator<Item = &'c [Enclosure]>, k: usize) -> f64 {
+    components.map(|series| series[k].magnitude()).fold(0.0, f64::max)
+}
+
+/// The time at which a coefficient k of this size is a term as large as wanted; infinite for one that is 0 but for rounding.
+fn time_of(wanted: f64, size: f64, k: usize) -> f64 {
+    if size > NOTHING { pow(wanted / size, 1.0 / k as f64) } else { f64::INFINITY }
+}
+
+/// The length of a step at which the last two terms are as large as the error, by the sizes of coefficients. `None` if they are 0.
+fn step_length(size: impl Fn(usize) -> f64, order: usize, error: f64) -> Option<f64> {
+    let length = time_of(error, size(order - 1), order - 1).min(time_of(error, size(order), order));
     length.is_finite().then_some(length)
 }
 
 /// For motions that are polynomials of a low degree: the length at which the start and the terms up to the second are equally large.
-fn natural_length(centre: &Coefficients<Enclosure>) -> f64 {
-    let size = |k: usize| {
-        let of_components = centre.states().map(|series| series[k].magnitude());
-        of_components.fold(0.0, f64::max)
-    };
+fn natural_length(size: impl Fn(usize) -> f64) -> f64 {
     let start = if size(0) > 0.0 { size(0) } else { 1.0 };
-    let of_term = |k: usize| match size(k) > NOTHING {
-        true => pow(start / size(k), 1.0 / k as f64),
-        false => f64::INFINITY,
-    };
-    let natural = (1..=2).map(of_term).fold(f64::INFINITY, f64::min);
+    let natural = time_of(start, size(1), 1).min(time_of(start, size(2), 2));
     // Not as long as a straight way to 0 takes: a step should not end on a surface there.
     if natural.is_finite() { 1.5 * natural } else { 1.0 }
 }

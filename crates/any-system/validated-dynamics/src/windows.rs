@@ -32,7 +32,6 @@ impl Division {
     /// # Errors
     /// [`Error::Argument`] with what is wrong.
     pub fn check<M: EnclosedMap>(self, maps: &[&M], windows: &[&[Enclosure]]) -> Result<(), Error> {
-        let division = self;
         if maps.is_empty() || maps.len() != windows.len() {
             let given = windows.len();
             return Error::argument("windows", format!("{given} windows for {} maps", maps.len()));
@@ -57,16 +56,16 @@ impl Division {
                 format!("from 1 to {MOST_SIDES} variables are needed, not {sides}"),
             );
         }
-        if !(division.first <= division.last && division.last <= DEEPEST) {
+        if !(self.first <= self.last && self.last <= DEEPEST) {
             return Error::argument("division", format!("first ≤ last ≤ {DEEPEST} is needed"));
         }
-        let cells = interval_arithmetic::pow(2.0, (sides as f64) * f64::from(division.first));
-        match cells * maps.len() as f64 <= division.images as f64 {
+        let cells = interval_arithmetic::pow(2.0, (sides as f64) * f64::from(self.first));
+        match cells * maps.len() as f64 <= self.images as f64 {
             true => Ok(()),
             false => {
                 let reason = format!(
                     "{} images are fewer than the first {cells} cells of each window",
-                    division.images
+                    self.images
                 );
                 Error::argument("division", reason)
             }
