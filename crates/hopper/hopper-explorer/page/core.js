@@ -62,7 +62,7 @@ export class Core {
   openDepth(m, alpha) {
     return this.#json(this.exports.open_depth(m, alpha));
   }
-  /** The place on the circle at the lower end of such a frame; null where there is none. */
+  /** The place on the circle at the end of such a frame. */
   depthPhase(depth, m, alpha) {
     this.openDepth(m, alpha);
     return this.#json(this.exports.depth_phase(depth));

@@ -2,7 +2,7 @@
 import { MARGIN, deepAxes, powerOfTen } from "./axes.js";
 import { change, say, state } from "./state.js";
 import { pretty, show } from "./numbers.js";
-import { dimmed, hatch } from "./plane.js";
+import { MARK, dimmed, hatch, outlined } from "./plane.js";
 
 /** Pixels of the first and of the last frame, each way. */
 const QUICK = 48;
@@ -108,16 +108,7 @@ export class Deep {
     }
     context.globalAlpha = 1;
     if (this.parts.failed) hatch(context, MARGIN.left, MARGIN.top, box.width, box.height, true);
-    for (const [color, width] of [
-      ["#fff", 4],
-      ["#000", 1.6],
-    ]) {
-      context.strokeStyle = color;
-      context.lineWidth = width;
-      context.beginPath();
-      context.arc(middle.left, middle.top, 7, 0, 2 * Math.PI);
-      context.stroke();
-    }
+    outlined(context, MARK, () => context.arc(middle.left, middle.top, 7, 0, 2 * Math.PI));
   }
 
   axes(size) {

@@ -98,8 +98,10 @@ export class Plane {
         const [part, whole] = [floor === floors - 1 ? (tile.part ?? 1) : 1, !tile.columns];
         // What is above the part stays transparent.
         const above = (floors - 2 + (tile.part ?? 1) - floor) * SIZE;
-        const bitmap = whole ? found.bitmap : cut(found.bitmap, above);
-        this.store.put({ ...tile, j: tile.j + floor }, { bitmap, part });
+        const own = { ...tile, j: tile.j + floor, part };
+        // A tower begins below the tiles that are wanted: a finer picture stays, and is not computed again.
+        if (tile.columns === FEW && this.store.isFine(own)) continue;
+        this.store.put(own, { bitmap: whole ? found.bitmap : cut(found.bitmap, above), part });
       }
       if (tile.columns) found.bitmap?.close();
     } catch (error) {
@@ -217,41 +219,44 @@ function paintTiles(context, plane, box) {
   }
 }
 
-/** The speeds of an orbit, one above or below the other at its mass ratio: a ring for each, smaller from hop to hop. */
-function paintOrbit(context, box, { m, speeds }, strength) {
-  const places = speeds.map((alpha) => place(state.view, toX(state.view, m), alpha, box));
-  context.globalAlpha = strength;
+/** Draws a path in black with a white border, which is seen on every colour: lines of these two widths. */
+export function outlined(context, [border, line], path) {
   for (const [color, width] of [
-    ["#fff", 3],
-    ["#000", 1.2],
+    ["#fff", border],
+    ["#000", line],
   ]) {
     context.strokeStyle = color;
     context.lineWidth = width;
     context.beginPath();
+    path();
+    context.stroke();
+  }
+}
+
+/** The widths of the mark of a point. */
+export const MARK = [4, 1.6];
+
+/** The speeds of an orbit, one above or below the other at its mass ratio: a ring for each, smaller from hop to hop. */
+function paintOrbit(context, box, { m, speeds }, strength) {
+  const places = speeds.map((alpha) => place(state.view, toX(state.view, m), alpha, box));
+  context.globalAlpha = strength;
+  outlined(context, [3, 1.2], () =>
     places.forEach(({ left, top }, k) => {
       const radius = Math.max(5 - 0.4 * k, 1.5);
       context.moveTo(MARGIN.left + left + radius, MARGIN.top + top);
       context.arc(MARGIN.left + left, MARGIN.top + top, radius, 0, 2 * Math.PI);
-    });
-    context.stroke();
-  }
+    }),
+  );
   context.globalAlpha = 1;
 }
 
 function paintPin(context, box) {
   const { left, top } = place(state.view, toX(state.view, state.pin.m), state.pin.alpha, box);
-  for (const [color, width] of [
-    ["#fff", 4],
-    ["#000", 1.6],
-  ]) {
-    context.strokeStyle = color;
-    context.lineWidth = width;
-    context.beginPath();
+  outlined(context, MARK, () => {
     context.arc(MARGIN.left + left, MARGIN.top + top, 7, 0, 2 * Math.PI);
     context.moveTo(MARGIN.left + left - 12, MARGIN.top + top);
     context.lineTo(MARGIN.left + left - 4, MARGIN.top + top);
     context.moveTo(MARGIN.left + left + 4, MARGIN.top + top);
     context.lineTo(MARGIN.left + left + 12, MARGIN.top + top);
-    context.stroke();
-  }
+  });
 }

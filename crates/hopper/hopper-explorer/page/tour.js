@@ -90,7 +90,7 @@ export class Tour {
     // The heading is read, and the buttons come next; keys of the page still work.
     box.querySelector("h2").focus({ preventScroll: true });
     if (open) document.getElementById(open).open = true;
-    change({ ...fields });
+    change(fields);
     if (depth) this.openDepth(depth.m, depth.alpha, depth.depth);
   }
 }

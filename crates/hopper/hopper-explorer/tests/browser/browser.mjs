@@ -1,5 +1,7 @@
 // The headless Chromium of the tests, and pages that are ready.
+import assert from "node:assert/strict";
 import { createRequire } from "node:module";
+import { after, before, test } from "node:test";
 
 const { chromium } = createRequire(process.env.EXPLORER_MODULES)("playwright-core");
 export const url = process.env.EXPLORER_URL;
@@ -46,6 +48,28 @@ export async function open(browser, hash = "", options = {}) {
   if (hash !== " " && !/depth=\d/.test(hash)) await page.waitForFunction(ready, null, READY);
   return page;
 }
+
+/** What tests of a file share: a browser, and `onPage` for a test with its own page, which may have no errors, and loads nothing from elsewhere. */
+export function pages() {
+  let browser;
+  before(async () => {
+    browser = await launch();
+  });
+  after(() => browser.close());
+  const onPage = (name, hash, use, options) =>
+    test(name, { timeout: 180_000 }, async () => {
+      const page = await open(browser, hash, options);
+      try {
+        await use(page);
+        assert.deepEqual(page.problems, []);
+      } finally {
+        await page.context().close();
+      }
+    });
+  return { onPage, browser: () => browser };
+}
+export const view = (page) => page.evaluate(() => explorer.state.view);
+export const settled = (page) => page.waitForFunction(ready, null, READY);
 
 /** FNV-1a of bytes, as in native_answers.rs; to be called in the page. */
 export const DIGEST = `(bytes) => {

@@ -5,28 +5,11 @@ import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { after, before, test } from "node:test";
-import { DIGEST, READY, launch, open, ready, url } from "./browser.mjs";
+import { test } from "node:test";
+import { DIGEST, READY, open, pages, ready, settled, url, view } from "./browser.mjs";
 
 const native = JSON.parse(readFileSync(process.env.EXPLORER_NATIVE, "utf8"));
-let browser;
-before(async () => {
-  browser = await launch();
-});
-after(() => browser.close());
-
-/** A test with its own page; the page may have no errors, and loads nothing from elsewhere. */
-const onPage = (name, hash, use, options) =>
-  test(name, { timeout: 180_000 }, async () => {
-    const page = await open(browser, hash, options);
-    try {
-      await use(page);
-      assert.deepEqual(page.problems, []);
-    } finally {
-      await page.context().close();
-    }
-  });
-const view = (page) => page.evaluate(() => explorer.state.view);
+const { onPage, browser } = pages();
 const said = (page) => page.textContent("#say");
 const span = ([low, high]) => high - low;
 /** A change, and the picture that it asks for. `settled` alone would see the picture before. */
@@ -39,7 +22,6 @@ const complete = (page, fields) =>
       }).then(() => null),
     fields,
   );
-const settled = (page) => page.waitForFunction(ready, null, READY);
 
 onPage("the first picture has several colours", "", async (page) => {
   const colors = await page.evaluate(() => {
@@ -278,7 +260,7 @@ onPage("a link gives the same bits", "", async (page) => {
   await page.evaluate((fields) => explorer.change(fields), fields);
   await page.waitForFunction(() => location.hash.includes("hops=7"));
   const hash = new URL(page.url()).hash;
-  const other = await open(browser, hash);
+  const other = await open(browser(), hash);
   const state = await other.evaluate(() => explorer.state);
   for (const [name, value] of Object.entries(fields)) assert.deepEqual(state[name], value, name);
   await other.context().close();
@@ -717,7 +699,7 @@ onPage("beside new numbers stands no old fate", "#pin=0.2,7", async (page) => {
 
 /** What a page says that cannot start. */
 async function refusal(address, { init, missing, javaScriptEnabled = true }) {
-  const context = await browser.newContext({ javaScriptEnabled, serviceWorkers: "block" });
+  const context = await browser().newContext({ javaScriptEnabled, serviceWorkers: "block" });
   const page = await context.newPage();
   if (init) await page.addInitScript(init);
   if (missing) await context.route(`**/${missing}`, (route) => route.fulfill({ status: 404 }));
@@ -747,7 +729,7 @@ test(
   "without the script of its workers the picture is red, and no worker starts for ever",
   { timeout: 60_000 },
   async () => {
-    const context = await browser.newContext({ serviceWorkers: "block" });
+    const context = await browser().newContext({ serviceWorkers: "block" });
     let asked = 0;
     await context.route("**/worker.js", (route) => {
       asked += 1;
@@ -941,7 +923,7 @@ onPage("the same on the command line and in Rust", "#pin=0.2,7", async (page) =>
 });
 
 test("one file works without a server", { timeout: 180_000 }, async () => {
-  const context = await browser.newContext({ offline: true });
+  const context = await browser().newContext({ offline: true });
   context.setDefaultTimeout(READY.timeout);
   const page = await context.newPage();
   const problems = [];

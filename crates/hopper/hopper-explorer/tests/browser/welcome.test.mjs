@@ -1,30 +1,12 @@
 // What a first visitor sees, and the ways through the plane: history, places, edges, for every hand and eye.
 import assert from "node:assert/strict";
 import { createRequire } from "node:module";
-import { after, before, test } from "node:test";
-import { DIGEST, READY, launch, open, ready } from "./browser.mjs";
+import { DIGEST, READY, pages, settled, view } from "./browser.mjs";
 
 const axe = createRequire(process.env.EXPLORER_MODULES).resolve("axe-core");
-let browser;
-before(async () => {
-  browser = await launch();
-});
-after(() => browser.close());
-
-const onPage = (name, hash, use, options) =>
-  test(name, { timeout: 180_000 }, async () => {
-    const page = await open(browser, hash, options);
-    try {
-      await use(page);
-      assert.deepEqual(page.problems, []);
-    } finally {
-      await page.context().close();
-    }
-  });
+const { onPage } = pages();
 /** A first visit. */
 const FIRST = " ";
-const view = (page) => page.evaluate(() => explorer.state.view);
-const settled = (page) => page.waitForFunction(ready, null, READY);
 const time = (page) => page.inputValue("#time").then(Number);
 const MOVING = { reducedMotion: "no-preference" };
 
