@@ -30,6 +30,14 @@ def cut(lines, keep):
     return [{**lines[0], "name": "cut", "lines": len(kept)}, *kept]
 
 
+def with_cells(lines, nth, count, keep):
+    """The first cells of the basins with this number, and the lines that are kept."""
+    basins = at(lines, "basins", nth)
+    own = [{**lines[basins], "cells": count}, *lines[basins + 1 : basins + 1 + count]]
+    kept = [*cut(lines, keep), *own]
+    return put(kept, 0, ["lines"], len(kept) - 1)
+
+
 def answer(folder, lines, texts=None):
     """(True, sentence) for a file that passes, or (False, reason)."""
     path = os.path.join(folder, "changed.jsonl")
@@ -258,6 +266,43 @@ def of_cells(lines):
     yield from of_a_run(lines, led, ["run"])
 
 
+def of_sets(lines):
+    wild, keeps = at(lines, "map", 1), at(lines, "keeps")
+    basins, first = at(lines, "basins"), at(lines, "cell")
+    escapes, stays = ["sets", 1, 1], ["sets", 0, 1]
+    part = next(k for k, part in enumerate(lines[keeps]["parts"]) if near_the_middle(part["box"]))
+    own = ["parts", part]
+    yield "a smaller set that escapes", put(lines, wild, [*escapes, 0], "x^2 - 1e6"), None
+    yield "a smaller set that stays", put(lines, wild, [*stays, 0], lambda text: text + " - 0.5"), None
+    yield "a larger set that stays", put(lines, wild, stays, lambda all_: all_[:3]), None
+    yield "a condition of another variable", put(lines, wild, [*escapes, 0], "z - 1"), None
+    yield "a set without conditions", put(lines, wild, escapes, []), None
+    yield "a set with the name of another", put(lines, wild, ["sets", 1, 0], "stays"), None
+    yield "a set without a name", put(lines, wild, ["sets", 1, 0], ""), None
+    yield "another map with the sets", put(lines, wild, ["parameters", 0, 1], "1.5"), None
+    yield "a map with sets that is applied twice", put(lines, wild, ["times"], 2), None
+    yield "another set that is kept", put(lines, keeps, ["set"], "escapes"), None
+    yield "no set that is kept", put(lines, keeps, ["set"], "wall"), None
+    yield "a set of another map", put(lines, keeps, ["map"], 0), None
+    yield "a box that images leave", put(lines, keeps, ["box", 0, 1], 1.0), None
+    yield "a wider box", put(lines, keeps, ["box", 1, 1], 0.7), None
+    yield "a part less", put(lines, keeps, ["parts"], lambda parts: parts[:part] + parts[part + 1 :]), None
+    yield "a part wider than its run", put(lines, keeps, [*own, "run", "start", 2, 0], lambda r: r / 2), None
+    yield "a part of another run", put(lines, keeps, [*own, "run"], lines[keeps]["parts"][0]["run"]), None
+    yield "a part without steps", put(lines, keeps, [*own, "run", "steps"], []), None
+    yield "an image that is smaller", put(lines, keeps, [*own, "run", "steps", 0, 1, 2], [1e-9, 1e-9]), None
+    yield "the other set", put(lines, first, ["fate"], "escapes" if lines[first]["fate"] == "stays" else "stays"), None
+    yield "a set that is none", put(lines, first, ["fate"], "wall"), None
+    yield "a cell of a set without a run", put(lines, first, ["run"], None), None
+    yield "a cell of a set without steps", put(lines, first, ["run", "steps"], []), None
+    yield "more cells of sets", put(lines, basins, ["cells"], lambda n: n + 1), None
+
+
+def near_the_middle(box):
+    """True for a part of Hénon's quadrilateral, whose run is looked at."""
+    return all(low <= 0 <= high for low, high in box)
+
+
 def without_growth(lines):
     """The lines with traps that do not grow."""
     return [{**line, "growth": []} if line.get("kind") == "trap" else line for line in lines]
@@ -274,9 +319,8 @@ def main():
     traps = cut(without_growth(runner), lambda line: line["kind"] == "trap")
     falls = cut(runner, lambda line: line["kind"] == "leads")
     grown = cut(henon, lambda line: line["kind"] == "trap")
-    few = cut(henon, lambda line: line["kind"] in ("trap", "basins"))
-    few = [*few, *[line for line in henon if line.get("kind") == "cell"][:400]]
-    few = put(put(few, 0, ["lines"], len(few) - 1), at(few, "basins"), ["cells"], 400)
+    few = with_cells(henon, 0, 400, lambda line: line["kind"] == "trap")
+    sets = with_cells(henon, 1, 40, lambda line: line["kind"] == "keeps")
     suites = [
         ("rossler", rossler, (of_rossler,)),
         ("impacts", cut(impacts, lambda line: line == first), (of_the_form, of_impacts, of_a_fixed_point)),
@@ -285,6 +329,7 @@ def main():
         ("fall", falls, (of_the_form, of_a_fall)),
         ("grown trap", grown, (of_a_trap,)),
         ("cells", few, (of_the_form, of_cells)),
+        ("sets", sets, (of_sets,)),
     ]
     failed = total = 0
     with tempfile.TemporaryDirectory() as own:

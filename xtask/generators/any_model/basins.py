@@ -6,7 +6,7 @@ from certificate_file import Refuted, Unconfirmed
 
 from .boxes import Cells
 from .runs import Run, box_of, check_start
-from .systems import at
+from .systems import FormulaMap, at
 
 
 class Basins:
@@ -21,12 +21,12 @@ class Basins:
             raise Refuted("a window in other variables than its map")
         self.cells, self.areas = Cells(self.window), {}
 
-    def add(self, cell):
-        """Writes down a cell, whose image must be in cells of its fate."""
+    def add(self, cell, joins):
+        """Writes down a cell, whose image must be in cells of its fate, at which is looked if the cell joins those before."""
         if self.cells.count == self.wanted:
             raise Refuted("more cells than the line of the basins says")
         image = cell.image
-        if image is not None and not cell.is_led_in:
+        if joins and image is not None and not cell.is_led_in:
             if not self.cells.hold(*image, cell.fate):
                 raise Refuted("a cell whose image may be outside of the cells of its fate that stand before it")
         self.cells.add(cell.box, cell.fate)
@@ -40,19 +40,21 @@ class Basins:
             raise Refuted(f"{self.cells.count} cells, and the line of the basins says {self.wanted}")
 
     def derived(self):
-        shown = ", ".join(f"at least {rounded_down(area)} {fate_text(fate)}" for fate, area in self.areas.items())
+        end = "the set" if isinstance(self.map, FormulaMap) else "an end at"
+        shown = ", ".join(f"at least {rounded_down(area)} {fate_text(fate, end)}" for fate, area in self.areas.items())
         window = " x ".join(f"[{low!r}, {high!r}]" for low, high in self.window)
         return {
             "claim": "basins",
             "map": self.number,
             "window": [list(side) for side in self.window],
             "share": float(rounded_down(sum(self.areas.values(), arb(0)))),
+            "shares": {str(fate): float(rounded_down(area)) for fate, area in self.areas.items()},
             "text": f"of the points of {window}, by area, by the map {self.map.text()}: {shown or 'nothing'}",
         }
 
 
-def fate_text(fate):
-    return f"converge to the fixed point of trap {fate}" if isinstance(fate, int) else f"come to an end at {fate}"
+def fate_text(fate, end):
+    return f"converge to the fixed point of trap {fate}" if isinstance(fate, int) else f"come to {end} {fate}"
 
 
 def rounded_down(share):
@@ -90,6 +92,6 @@ class Cell:
         check_start(run, self.box)
         if isinstance(self.fate, str) and self.image is None:
             if run.stopped != self.fate:
-                raise Unconfirmed(f"the execution does not end at {self.fate}")
+                raise Unconfirmed(f"not all points come to an end at {self.fate}")
         elif run.stopped is not None:
             raise Refuted("a cell whose execution ends")

@@ -45,8 +45,9 @@ class Cells:
 
     def add(self, box, fate):
         """Gives a cell its fate. Refuses a box that is no cell, and one of which a part has a fate."""
-        node, own = self.root, list(self.window)
+        node, own, above = self.root, list(self.window), []
         while own != box:
+            above.append(node)
             if "fate" in node:
                 raise Refuted("a cell that lies in another one")
             part = 0
@@ -64,6 +65,12 @@ class Cells:
             raise Refuted("a cell that stands twice, or of which a part has a fate")
         node["fate"] = fate
         self.count += 1
+        # A node all of whose parts have one fate answers for them.
+        for parent in reversed(above):
+            parts = [parent.get(part, {}) for part in range(1 << len(box))]
+            if any(part.get("fate", part.get("all")) != fate for part in parts):
+                break
+            parent["all"] = fate
 
     def hold(self, centre, rows, radii, fate):
         """True if all points c + A r of a set are in cells of one fate, for certain."""
@@ -78,6 +85,8 @@ class Cells:
             return node["fate"] == fate
         if not node:
             return False
+        if node.get("all") == fate:
+            return True
         for part in range(1 << len(own)):
             halves = []
             for axis, (low, high) in enumerate(own):

@@ -7,7 +7,7 @@ import re
 from certificate_file import Refuted, guarded, lines_of
 
 from .basins import Basins, Cell
-from .claims import FixedPoint, Leads, Trap
+from .claims import FixedPoint, Keeps, Leads, Trap
 from .known import check_known
 from .systems import FormulaMap, SectionMap, System
 
@@ -19,12 +19,14 @@ FIELDS = {
     "fixed-point": FixedPoint.FIELDS,
     "trap": Trap.FIELDS,
     "leads": Leads.FIELDS,
+    "keeps": Keeps.FIELDS,
     "basins": Basins.FIELDS,
     "cell": Cell.FIELDS,
 }
 MAPS = [
     "system mode variables states surface count read".split(),
     "system variables parameters formulas dimension times".split(),
+    "system variables parameters formulas dimension times sets".split(),
 ]
 
 
@@ -43,14 +45,15 @@ def wrong_field(kind, line):
 
 
 class Reader:
-    """What the lines before have said, and what each line claims."""
+    """What the lines before have said, and what each line claims. What holds between lines takes the most time: one of two readings looks at it."""
 
-    def __init__(self):
+    def __init__(self, joins=True):
+        self.joins = joins
         self.systems, self.maps, self.traps, self.led, self.derived = [], [], [], [], []
         self.open = None
 
-    def add(self, line, confirms=True):
-        """The claims of a line: (number of them, what confirms one). A second reading joins nothing."""
+    def add(self, line):
+        """The claims of a line: (number of them, what confirms one)."""
         kind = line["kind"]
         if kind != "cell":
             self.end()
@@ -65,10 +68,14 @@ class Reader:
             claim = Trap(line, self.maps)
             self.traps.append(claim)
             return 1, lambda _: self.derived.append(claim.confirm())
-        elif kind == "leads":
-            claim = Leads(line, self.maps, self.traps, self.led)
-            self.led.append(claim)
-            claim.join()
+        elif kind in ("leads", "keeps"):
+            if kind == "leads":
+                claim = Leads(line, self.maps, self.traps, self.led)
+                self.led.append(claim)
+            else:
+                claim = Keeps(line, self.maps)
+            if self.joins:
+                claim.join()
             self.derived.append(claim.derived())
             return len(claim.boxes), claim.confirm
         elif kind == "basins":
@@ -77,7 +84,7 @@ class Reader:
             if self.open is None:
                 raise Refuted("a cell without basins")
             claim = Cell(line, self.open, self.traps)
-            self.open.add(claim)
+            self.open.add(claim, self.joins)
             return 1, lambda _: claim.confirm()
         return 0, None
 
@@ -102,7 +109,7 @@ def check(path, sample=None, seed=1, found=None):
         raise Refuted(f"line 1: no certificate of version {VERSION}")
     if not isinstance(header["name"], str) or not re.fullmatch(r"[\w-]+", header["name"]):
         raise Refuted("line 1: its name is none of letters, digits and signs")
-    reader, models = Reader(), []
+    reader, models = Reader(joins=False), []
     for number, line in lines:
         count, _ = guarded(number, reader.add, line)
         counts.append((line["kind"], count))

@@ -7,7 +7,7 @@ from certificate_file import Refuted, Unconfirmed
 from .boxes import covers
 from .runs import Run, ball_box, box_of, check_start
 from .sets import WrittenSet, column, identity, list_of, number
-from .systems import SectionMap, at
+from .systems import FormulaMap, SectionMap, at
 
 
 def is_inside(inner, outer):
@@ -279,4 +279,49 @@ class Leads:
             "box": self.box,
             "to": self.map.surface if self.line["to"] is None else "{} {}".format(*self.line["to"]),
             "text": f"all points with {shown} are led {where} by map {self.number}, {self.map.text()}",
+        }
+
+
+class Keeps:
+    """The part of a set of a map in a box is led into itself."""
+
+    FIELDS = "map set box parts".split()
+
+    def __init__(self, line, maps):
+        self.map, self.number, self.line, self.box = at(maps, line["map"]), line["map"], line, box_of(line["box"])
+        self.boxes = [box_of(part["box"]) for part in line["parts"]]
+        if not isinstance(self.map, FormulaMap) or self.map.times != 1 or line["set"] not in self.map.sets:
+            raise Refuted("a set of no map that is applied once")
+        if len(self.box) != len(self.map.variables) or self.map.dimension != len(self.box):
+            raise Refuted("a box in other variables than its map")
+
+    def join(self):
+        if not covers(self.boxes, self.box):
+            raise Refuted("the parts leave a gap in the box")
+        if not any(all(value > 0 for value in self._conditions(box)) for box in self.boxes):
+            raise Refuted("a set that has no whole part of the box")
+
+    def _conditions(self, box):
+        return self.map.conditions_at(self.line["set"], ball_box(box))
+
+    def confirm(self, part):
+        box, name = self.boxes[part], self.line["set"]
+        if any(value <= 0 for value in self._conditions(box)):
+            return
+        run = Run(self.map, self.line["parts"][part]["run"])
+        check_start(run, box)
+        hull = list_of(run.set.hull)
+        if not self.map.holds(name, run.set.hull):
+            raise Unconfirmed(f"an image may leave the set {name}")
+        if not all(own >= low and own <= high for own, (low, high) in zip(hull, self.box)):
+            raise Unconfirmed("an image may leave the box")
+
+    def derived(self):
+        shown = ", ".join(f"{name} in [{low!r}, {high!r}]" for name, (low, high) in zip(self.map.variables, self.box))
+        return {
+            "claim": "keeps",
+            "map": self.number,
+            "box": self.box,
+            "set": self.line["set"],
+            "text": f"all points of the set {self.line['set']} with {shown} are led into it and this box again by map {self.number}, {self.map.text()}",
         }

@@ -37,13 +37,18 @@ class Run:
             end = model.end
         else:
             self.set = self.start
-            if len(line["steps"]) != model.times or line["begin"] is not None:
-                raise Refuted(f"a run of {len(line['steps'])} steps of a map that is applied {model.times} times")
+            arrives, count = line["image"] is not None, len(line["steps"])
+            if count != model.times and (arrives or not 0 < count < model.times) or line["begin"] is not None:
+                raise Refuted(f"a run of {count} steps of a map that is applied {model.times} times")
             for place, step in enumerate(line["steps"]):
                 if len(step) != 2 or step[0] != "applied":
                     raise Refuted("a step that is not one of a map")
                 self._apply(model.field, step[1], f"step {place}")
-            end, arrives = None, True
+            end = None
+            if not arrives:
+                self.stopped = model.set_of(self.set.hull)
+                if self.stopped is None:
+                    raise Unconfirmed("the last images may be in no set of the map")
         self.image = None
         if arrives != (line["image"] is not None):
             raise Refuted("a run that comes to the surface of its map has an image, and no other one")

@@ -5,10 +5,21 @@ import re
 from certificate_file import Refuted
 
 from .flows import Field
-from .formulas import check_names, constant, polynomial, read, substituted
+from .formulas import Balls, check_names, constant, polynomial, read, substituted
+from .sets import column, list_of
 
 
+# How often a box is halved on which a condition may be 0: balls are wider than what they hold, the less so the narrower they are.
+HALVINGS = 6
 LABEL = re.compile(r"[^\W\d][\w -]*")
+
+
+def halves(hull):
+    """The two halves of a hull along its widest side."""
+    own = list_of(hull)
+    widest = max(range(len(own)), key=lambda axis: float(own[axis].rad()))
+    low, middle, high = own[widest].lower(), own[widest].mid(), own[widest].upper()
+    return [column([*own[:widest], side, *own[widest + 1 :]]) for side in (low.union(middle), middle.union(high))]
 
 
 def check_label(label):
@@ -160,7 +171,32 @@ class FormulaMap:
         if any(self.formulas[k] != ("name", self.variables[k]) for k in range(self.dimension, len(self.variables))):
             raise Refuted("parameters that do not stay what they are")
         self.field = Field(self.variables, {name: constant(tree) for name, tree in trees.items()}, self.formulas)
+        self.sets = {}
+        for name, conditions in line.get("sets", []):
+            check_label(name)
+            if name in self.sets or not conditions:
+                raise Refuted(f"the set {name} stands twice, or has no conditions")
+            self.sets[name] = [read(text) for text in conditions]
+
+    def conditions_at(self, name, hull):
+        """The values of the conditions of a set at all points of a hull."""
+        if name not in self.sets:
+            raise Refuted(f"no set {name!r}")
+        return self.field.values(self.sets[name], list_of(hull), Balls)
+
+    def holds(self, name, hull, halvings=HALVINGS):
+        """True if all points of a hull are in a set, for certain."""
+        if all(value > 0 for value in self.conditions_at(name, hull)):
+            return True
+        return halvings > 0 and all(self.holds(name, half, halvings - 1) for half in halves(hull))
+
+    def set_of(self, hull):
+        """The first set that holds all points of a hull, or None."""
+        return next((name for name in self.sets if self.holds(name, hull)), None)
 
     def text(self):
         formulas = ", ".join(self.line["formulas"])
-        return f"({', '.join(self.variables)}) -> ({formulas}), {self.times} times{with_parameters(self.line['parameters'])}"
+        sets = "".join(
+            f", {name}: where " + " and ".join(f"{text} > 0" for text in conditions) for name, conditions in self.line.get("sets", [])
+        )
+        return f"({', '.join(self.variables)}) -> ({formulas}), {self.times} times{with_parameters(self.line['parameters'])}{sets}"

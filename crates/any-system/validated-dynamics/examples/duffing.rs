@@ -1,6 +1,6 @@
 //! Duffing's oscillator ẍ + 0.15ẋ − x + x³ = 0.2 cos t: the basins of its two periodic orbits on [−2.2, 2.2]², at t = 0.
 //!
-//! `cargo run --release --example duffing -- 9 11 100000` divides the window from 2⁻⁹ of its sides down to 2⁻¹¹, with at most so many images. At last it
+//! `cargo run --release --example duffing -- 9 11 100000` divides the window from 2⁻⁹ of its sides down to 2⁻¹¹, with at most so many images; a file behind these numbers gets a certificate. At first it
 //! says how much a proof with such cells could show at best: of some cells of the last size, how many have one fate at nine of their points.
 
 #![allow(clippy::print_stdout)] // a program
@@ -12,8 +12,8 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::time::Instant;
 use validated_dynamics::{
-    Division, Enclosure, Limits, ProvedBasins, ProvedFate, SectionMap, Trap, ValidatedSystem,
-    fixed_point,
+    Certificate, Division, Enclosure, Limits, ProvedBasins, ProvedFate, SectionMap, Trap,
+    ValidatedSystem, fixed_point,
 };
 
 /// Half of the window's sides.
@@ -26,22 +26,31 @@ const LOOKED: u32 = 2000;
 const PERIODS: usize = 200;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut numbers = std::env::args().skip(1).filter_map(|word| word.parse().ok());
-    let mut number = |default: usize| numbers.next().unwrap_or(default);
-    let (first, last, images) = (number(8) as u32, number(9) as u32, number(100_000));
+    let mut words = std::env::args().skip(1);
+    let mut number =
+        |default: u32| words.next().and_then(|word| word.parse().ok()).unwrap_or(default);
+    let (first, last, images) = (number(8), number(9), number(100_000) as usize);
+    let file = words.next();
     let duffing = Equations::new(&["x", "v"], &[])
         .mode_text("flow", &["v", "0.2*cos(t) - 0.15*v + x - x^3"])
         .rising_text("period", "t - 2*pi");
     let system = ValidatedSystem::new(&duffing)?;
     let start = system.chart("flow", &["x", "v"], &["x", "v", "0"])?;
-    let period = SectionMap::new(&system, start, "period", 1, &["x", "v"])?
+    let mut period = SectionMap::new(&system, start, "period", 1, &["x", "v"])?
         .within(Limits { width: 1.0, ..Limits::default() });
+    if file.is_some() {
+        period = period.recorded();
+    }
+    let mut certificate = Certificate::new("duffing");
     let begin = Instant::now();
-    let mut traps = Vec::new();
+    let (mut traps, mut numbers) = (Vec::new(), Vec::new());
     for guess in [[-0.8, 0.0], [1.2, 0.1]] {
         let orbit = fixed_point(&period, &guess, &[])?;
         let trap = Trap::new(&period, &orbit, 20_000)?;
         println!("x in {}, trap of size {:.3}, {:?}", orbit.point[0], trap.size(), begin.elapsed());
+        if file.is_some() {
+            numbers.push(certificate.trap(&period, &trap)?);
+        }
         traps.push(trap);
     }
     let at_best = with_one_fate(&traps, last)?;
@@ -56,6 +65,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     })?;
     for trap in [0, 1] {
         println!("basin {trap}: {:.2} %", 100.0 * basins.share(ProvedFate::Trap(trap)));
+    }
+    if let Some(file) = file {
+        certificate.basins(&period, &basins, &numbers)?;
+        std::fs::write(file, certificate.text())?;
     }
     Ok(())
 }

@@ -19,7 +19,7 @@ const AT_ONCE: usize = 4096;
 pub enum ProvedFate {
     /// All points converge to the fixed point of this trap, by its place in the list.
     Trap(usize),
-    /// An event at this surface ends the execution of all points.
+    /// An event at this surface ends the execution of all points, or they come to this [set](crate::FormulaMap::with_set) of a map of formulas.
     Stopped(Label),
 }
 

@@ -237,7 +237,7 @@ fn scale(centre: &Coefficients<Enclosure>, set: &AffineSet) -> f64 {
     let curved = |series: &[Enclosure]| series[2..].iter().any(|c| *c != Enclosure::ZERO);
     let sizes = centre.states().zip(set.hull()).filter(|(series, _)| curved(series));
     let largest = sizes.map(|(_, x)| x.magnitude()).fold(0.0, f64::max);
-    if largest > 0.0 { largest } else { 1.0 }
+    if largest > NOTHING { largest } else { 1.0 }
 }
 
 /// The largest coefficient k of some components.

@@ -112,10 +112,10 @@ pub enum Reason {
         /// The limit.
         time: f64,
     },
-    /// An event that ends the execution came first.
-    #[error("an event at {surface} ends the execution")]
+    /// An event that ends the execution came first; or the images lie in a set of a map of formulas.
+    #[error("all points come to an end at {surface}")]
     Stopped {
-        /// The surface.
+        /// The surface, or the set.
         surface: Label,
     },
     /// An event may happen before the time at which the states are wanted, or after it.

@@ -2,10 +2,10 @@
 
 use crate::models::map_of;
 use example_systems::spring_leg::spring_leg_that_falls;
-use hybrid_system::Equations;
+use hybrid_system::{Equations, Label};
 use std::ops::ControlFlow;
 use validated_dynamics::{
-    Budget, Certificate, Division, EnclosedMap, Enclosure, Error, ProvedBasins, ProvedFate,
+    Budget, Certificate, Division, EnclosedMap, Enclosure, Error, ProvedBasins, ProvedFate, Reason,
     SectionMap, StartSet, Trap, ValidatedSystem, divided, fixed_point, halves,
 };
 
@@ -252,4 +252,31 @@ fn traps_of_multiple_multipliers_are_found() {
         let trap = Trap::new(&map, &fixed_point(&map, &[0.01, 0.01], &[]).unwrap(), 500).unwrap();
         assert!(trap.contraction() < 1.0 && trap.size() > 1e-3, "{formulas:?} {trap:?}");
     }
+}
+
+#[test]
+fn sets_that_points_come_to() {
+    // From |x| < 1 to 0, from |x| > 1 away.
+    let cube = map_of(&["x"], &["x^3"]);
+    let cube =
+        cube.with_set("near", &["0.25 - x^2"]).unwrap().with_set("far", &["x^2 - 4"]).unwrap();
+    let window = [Enclosure::new(-3.0, 3.0)];
+    let kept = cube.keeps("near", &window, Budget { boxes: 100, divisions: 10 }).unwrap();
+    assert!(!kept.is_empty());
+    // The map leads the other set out of the window.
+    let left = cube.keeps("far", &window, Budget { boxes: 100, divisions: 10 }).unwrap_err();
+    assert!(matches!(left.undecided().unwrap().reason, Reason::NotInside { .. }), "{left}");
+    let division = Division { first: 4, last: 14, images: 2000 };
+    let basins = ProvedBasins::new(&[&cube], Vec::new(), &[&window], division).unwrap();
+    let share = |name: &str| basins.share(ProvedFate::Stopped(Label::new(name).unwrap()));
+    assert!((0.33..=1.0 / 3.0).contains(&share("near")), "{}", share("near"));
+    assert!((0.66..=2.0 / 3.0).contains(&share("far")), "{}", share("far"));
+    for (x, end) in [(0.99, "near"), (-0.99, "near"), (1.01, "far"), (-1.01, "far")] {
+        assert_eq!(basins.fate(0, &[x]), Some(ProvedFate::Stopped(Label::new(end).unwrap())));
+    }
+    assert!(cube.clone().with_set("near", &["x"]).is_err());
+    assert!(cube.clone().with_set("third", &[]).is_err());
+    assert!(cube.clone().with_set("third", &["y"]).is_err());
+    assert!(cube.clone().with_set("third", &["t"]).is_err());
+    assert!(cube.keeps("third", &window, Budget { boxes: 100, divisions: 10 }).is_err());
 }

@@ -10,6 +10,7 @@ use written_set::rows_of;
 use crate::basins::{ProvedBasins, ProvedFate};
 use crate::enclosed_map::{Carried, EnclosedMap, StartSet};
 use crate::fixed_point::ProvedFixedPoint;
+use crate::formula_map::FormulaMap;
 use crate::matrix::{exact, middle};
 use crate::multipliers::Multiplier;
 use crate::trap::Trap;
@@ -178,6 +179,31 @@ impl Certificate {
         }));
         self.led += 1;
         Ok(self.led - 1)
+    }
+
+    /// The part in a box of a [set of the map](crate::FormulaMap::with_set) is led into itself: the parts are what
+    /// [`keeps`](crate::FormulaMap::keeps) has given.
+    ///
+    /// # Errors
+    /// As [`fixed_point`](Self::fixed_point).
+    pub fn keeps(
+        &mut self,
+        map: &FormulaMap,
+        set: &str,
+        whole: &[Enclosure],
+        parts: &[Vec<Enclosure>],
+    ) -> Result<(), Error> {
+        let number = self.map(map)?;
+        let mut written = Vec::new();
+        for part in parts {
+            let run = map.end_of(StartSet::of_box(part).without_derivatives())?;
+            let run = run.ok_or_else(not_recorded)?.as_json();
+            written.push(json!({"box": pairs(part), "run": run}));
+        }
+        self.lines.push(json!({
+            "kind": "keeps", "map": number, "set": set, "box": pairs(whole), "parts": written,
+        }));
+        Ok(())
     }
 
     /// The basins of traps of the file, by their numbers: a line for each cell with a fate, behind those in which its image is.
