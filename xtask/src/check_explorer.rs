@@ -79,7 +79,7 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
         node.arg(tests.join("measure.mjs"));
     } else {
         node.args(["--test", "--test-concurrency=1"]);
-        node.args(["page.test.mjs", "welcome.test.mjs"].map(|name| tests.join(name)));
+        node.args(["page.test.mjs", "welcome.test.mjs", "numbers.test.mjs"].map(|name| tests.join(name)));
     }
     node.env("EXPLORER_URL", format!("http://127.0.0.1:{port}/")).env("CHROMIUM", browser);
     node.env("EXPLORER_NATIVE", &native).env("EXPLORER_MODULES", folder.join("driver/"));

@@ -18,7 +18,9 @@ pub enum Element {
     U32,
     /// Of 64 bits.
     U64,
-    /// Floating-point numbers of 64 bits.
+    /// Floating-point numbers of 32 bits.
+    F32,
+    /// Of 64 bits.
     F64,
 }
 
@@ -47,6 +49,7 @@ pub fn npy_header(order: Order, element: Element, rows: usize, columns: usize) -
         Element::U16 => "<u2",
         Element::U32 => "<u4",
         Element::U64 => "<u8",
+        Element::F32 => "<f4",
         Element::F64 => "<f8",
     };
     let mut text = format!(

@@ -56,7 +56,12 @@ pub(crate) fn layers(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
         entry.set_item("name", layer.name)?;
         entry.set_item("about", layer.about)?;
         let values = layer.values();
-        entry.set_item("dtype", values.map(|values| format!("uint{}", 8 * values.bytes)))?;
+        let kind = |values: &Values| match values.meaning {
+            Meaning::Reals(_) => "float",
+            Meaning::Fates { .. } | Meaning::Numbers { .. } => "uint",
+        };
+        let dtype = values.map(|values| format!("{}{}", kind(values), 8 * values.bytes));
+        entry.set_item("dtype", dtype)?;
         entry.set_item("columns", values.map(|values| values.table_columns(layer.key)))?;
         let fates = values.map(|values| matches!(values.meaning, Meaning::Fates { .. }));
         entry.set_item("fates", fates)?;
@@ -123,6 +128,9 @@ pub(crate) fn basin_region<'py>(
         Region { grid, columns: begin..end, threads, progress: progress_function(py, progress)? };
     // Each number fits: a test of the table of layers says so.
     match values.bytes {
+        _ if matches!(values.meaning, Meaning::Reals(_)) => {
+            call.array(py, values, |number| f32::from_bits(number as u32))
+        }
         2 => call.array(py, values, |number| number as u16),
         4 => call.array(py, values, |number| number as u32),
         _ => call.array(py, values, |number| number),

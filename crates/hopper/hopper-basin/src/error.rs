@@ -130,6 +130,14 @@ pub enum Error {
         /// The largest number of hops.
         hops: usize,
     },
+    /// No edge of grounding is near a speed.
+    #[error("no edge of grounding within {within} of {alpha:?}; give a speed nearer to one")]
+    NoGroundingEdge {
+        /// The speed given.
+        alpha: f64,
+        /// The distance searched.
+        within: f64,
+    },
     /// An offset outside the range of a chart.
     #[error("the offset {y:e} is outside the chart about the edge: it holds up to {radius:e}")]
     OutsideChart {

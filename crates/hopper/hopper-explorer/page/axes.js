@@ -77,23 +77,25 @@ function logTicks([low, high], most) {
   return { base: null, marks };
 }
 
-/** Lines and texts about a boundary point: places in half heights. */
-export function deepAxes(depth, slant, size) {
+/** Lines and texts about a boundary point: places in half heights. The point is this far from the middle. */
+export function deepAxes(depth, slant, size, [right, up]) {
   const box = inner(size);
   const bottom = MARGIN.top + box.height;
   const parts = [];
-  for (const part of [-1, -0.5, 0, 0.5, 1]) {
+  for (const part of [-2, -1.5, -1, -0.5, 0, 0.5, 1, 1.5, 2]) {
     const label = part === 0 ? "0" : `${part < 0 ? "−" : "+"}${Math.abs(part)}`;
-    const x = MARGIN.left + ((part + 1) / 2) * box.width;
-    const y = MARGIN.top + ((1 - part) / 2) * box.height;
-    parts.push(
-      { line: [x, bottom, x, bottom + 5 * unit] },
-      { text: label, x, y: bottom + 18 * unit, anchor: "middle" },
-    );
-    parts.push(
-      { line: [MARGIN.left - 5 * unit, y, MARGIN.left, y] },
-      { text: label, x: MARGIN.left - 8 * unit, y: y + 4 * unit, anchor: "end" },
-    );
+    const x = MARGIN.left + ((part + right + 1) / 2) * box.width;
+    const y = MARGIN.top + ((1 - part - up) / 2) * box.height;
+    if (Math.abs(part + right) <= 1)
+      parts.push(
+        { line: [x, bottom, x, bottom + 5 * unit] },
+        { text: label, x, y: bottom + 18 * unit, anchor: "middle" },
+      );
+    if (Math.abs(part + up) <= 1)
+      parts.push(
+        { line: [MARGIN.left - 5 * unit, y, MARGIN.left, y] },
+        { text: label, x: MARGIN.left - 8 * unit, y: y + 4 * unit, anchor: "end" },
+      );
   }
   const scale = powerOfTen(-depth);
   parts.push({

@@ -67,6 +67,11 @@ export class Core {
     this.openDepth(m, alpha);
     return this.#json(this.exports.depth_phase(depth));
   }
+  /** The fate at a point of such a frame, in half widths and half heights from its middle. */
+  depthLabel(depth, x, y, m, alpha) {
+    this.openDepth(m, alpha);
+    return this.#json(this.exports.depth_label(depth, x, y));
+  }
   /** The frame about the opened boundary point, or about the one at (m, alpha): a worker that replaces a dead one opens it again. */
   depthFrame(depth, columns, rows, m, alpha) {
     if (m !== undefined) this.openDepth(m, alpha);

@@ -1,12 +1,17 @@
-// The deep view: the chart of a boundary point, at any scale. The boundary point stays in the middle.
+// The deep view: the chart of a boundary point, at any scale. The boundary point may be moved to the edge of the picture.
 import { MARGIN, deepAxes, powerOfTen } from "./axes.js";
 import { change, say, state } from "./state.js";
 import { pretty, show } from "./numbers.js";
 import { MARK, dimmed, hatch, outlined } from "./plane.js";
 
-/** Pixels of the first and of the last frame, each way. */
+/** Pixels of the first frame and of the fine one, each way; behind it comes one with the pixels of the screen, up to the largest. */
 const QUICK = 48;
 const FINE = 256;
+const LARGEST = 1536;
+/** Depths from which a frame of the screen takes longer than a second: the fine one is the last. */
+const SLOW = 300;
+/** A frame of twice the size shows what is there when the point is not in the middle. */
+const TWICE = Math.log10(2);
 /** Frames that are kept. */
 const KEPT = 48;
 /** Depths at which the chart is left for the plane, and the deepest one: there a fine frame takes seconds, and at 2000 half a minute. */
@@ -27,26 +32,61 @@ export class Deep {
     if (!(await wanted(about))) return;
     this.frames.forEach(({ bitmap }) => bitmap?.close());
     this.frames = [];
-    change({ depth: { m, alpha: about.alpha, depth, about } });
+    change({ depth: { m, alpha: about.alpha, depth, about, shift: [0, 0] } });
+  }
+
+  /** Moves the point away from the middle, up to the edge of the picture: in half widths and half heights. */
+  move(right, up) {
+    const [x, y] = state.depth.shift;
+    const within = (place) => Math.min(Math.max(place, -1), 1);
+    change({ depth: { ...state.depth, shift: [within(x + right), within(y + up)] } });
+  }
+
+  /** The fate at a place of the canvas, in words. */
+  async at({ left, top }, { width, height }) {
+    const { depth, about, shift } = state.depth;
+    const [x, y] = [(2 * left) / width - 1 - shift[0], 1 - (2 * top) / height - shift[1]];
+    const fate = await this.desk.ask("depthLabel", depth, x, y, about.massRatio, about.alpha);
+    const times = (place, exponent) => `${show(place, 3)}·${powerOfTen(exponent)}`;
+    return `α − p = ${times(y, -depth)}, M − M₀ = ${times(x, Math.log10(about.slant) - depth)}: ${fate.plain}`;
+  }
+
+  /** Pixels of the best frame each way. */
+  #most() {
+    const { width, height } = this.plane.box;
+    const ratio = window.devicePixelRatio || 1;
+    return state.depth.depth > SLOW ? FINE : Math.min(Math.max(FINE, Math.round(ratio * Math.max(width, height))), LARGEST);
+  }
+
+  /** The next frame that is wanted: its depth and its pixels. */
+  #next() {
+    const { depth, shift } = state.depth;
+    const has = (own, pixels) => this.frames.some((frame) => frame.depth === own && frame.pixels >= pixels);
+    const most = this.#most();
+    const wanted = [[depth, QUICK]];
+    if (shift.some((place) => place !== 0)) wanted.push([depth - TWICE, FINE]);
+    wanted.push([depth, FINE], [depth, most]);
+    if (shift.some((place) => place !== 0)) wanted.push([depth - TWICE, Math.min(2 * most, LARGEST)]);
+    return wanted.find(([own, pixels]) => !has(own, pixels));
   }
 
   /** Zooms by a factor about the boundary point; true if the plane is to be shown again. */
   zoom(factor) {
     const depth = Math.min(state.depth.depth - Math.log10(factor), DEEPEST);
-    change({ depth: { ...state.depth, depth } });
+    change({ depth: { ...state.depth, depth, shift: [0, 0] } });
     return depth < SHALLOWEST;
   }
 
-  /** Asks for the frames of the present depth: a quick one, then a fine one. */
+  /** Asks for the frames of the present depth: a quick one, then finer ones. */
   async request() {
     if (this.busy || !state.depth) return;
-    const { depth, about } = state.depth;
-    const here = this.frames.filter((frame) => frame.depth === depth);
-    const pixels = here.length === 0 ? QUICK : here.some((frame) => frame.pixels === FINE) ? 0 : FINE;
-    if (pixels === 0) {
+    const { about } = state.depth;
+    const next = this.#next();
+    if (!next) {
       this.plane.canvas.dispatchEvent(new Event("complete"));
       return;
     }
+    const [depth, pixels] = next;
     this.busy = true;
     if (pixels === QUICK) await this.#findPhase(depth, about);
     try {
@@ -56,7 +96,7 @@ export class Deep {
       while (this.frames.length > KEPT) this.frames.shift().bitmap?.close();
     } catch (error) {
       say(`No picture at this depth: ${error.message}`);
-      if (state.depth?.about === about) this.frames.push({ depth, pixels: FINE, bitmap: null });
+      if (state.depth?.about === about) this.frames.push({ depth, pixels: LARGEST, bitmap: null });
     }
     this.busy = false;
     this.plane.refresh();
@@ -74,9 +114,11 @@ export class Deep {
     if (state.depth) say(this.words());
   }
 
+  /** What changes with the depth. */
   #phaseInWords({ depth, about }) {
     const { phase } = this;
     if (phase?.about !== about || phase.depth !== depth) return "";
+    if (about.kind === "grounding") return `, which is ${powerOfTen(phase.lastSpeedExponent)} at the ${about.side === "above" ? "upper" : "lower"} end`;
     const exponent = phase.more + phase.turns.length - 1;
     const hops = exponent < 3 ? phase.turns : `${phase.turns[0]}.${phase.turns.slice(1)}·${powerOfTen(exponent)}`;
     // From some 10⁻⁴⁵ on the fraction is not known.
@@ -88,14 +130,17 @@ export class Deep {
   get parts() {
     const here = this.frames.filter(({ depth }) => depth === state.depth.depth);
     const failed = here.some(({ bitmap }) => !bitmap);
-    const fine = here.some(({ pixels, bitmap }) => bitmap && pixels === FINE);
+    const fine = here.some(({ pixels, bitmap }) => bitmap && pixels >= FINE);
     return { all: 2, there: fine ? 2 : here.filter(({ bitmap }) => bitmap).length, failed: failed ? 1 : 0 };
   }
 
   paint(context, box) {
-    const { depth } = state.depth;
+    const { depth, shift } = state.depth;
     hatch(context, MARGIN.left, MARGIN.top, box.width, box.height);
-    const middle = { left: MARGIN.left + box.width / 2, top: MARGIN.top + box.height / 2 };
+    const middle = {
+      left: MARGIN.left + ((1 + shift[0]) * box.width) / 2,
+      top: MARGIN.top + ((1 - shift[1]) * box.height) / 2,
+    };
     // The wider a frame, the earlier it is drawn; a fine one after a quick one of the same depth.
     const sorted = [...this.frames].sort((a, b) => a.depth - b.depth || a.pixels - b.pixels);
     for (const frame of sorted) {
@@ -112,12 +157,18 @@ export class Deep {
   }
 
   axes(size) {
-    return deepAxes(state.depth.depth, state.depth.about.slant, size);
+    return deepAxes(state.depth.depth, state.depth.about.slant, size, state.depth.shift);
   }
 
   /** The view in words. */
   words() {
     const { depth, about } = state.depth;
+    if (about.kind === "grounding")
+      return (
+        `Half height ${powerOfTen(-depth)} about p = ${show(about.alpha, 12)} at M = ${show(about.massRatio, 8)}: an edge of grounding, ` +
+        `where hop ${about.hops} just uses up the energy. The picture is the same at every depth: ${about.side} p the hopper lifts off ` +
+        `once more, at α′ = √(${show(about.growth, 4)} |α − p|), and hops ever lower. Only this speed changes${this.#phaseInWords(state.depth)}`
+      );
     return (
       `Half height ${powerOfTen(-depth)} about p = ${show(about.alpha, 12)} at M = ${show(about.massRatio, 8)}: a boundary point that ` +
       `comes to the fixed point ${pretty(`α*_${about.n}`)} in ${about.hops} hops${this.#phaseInWords(state.depth)}`

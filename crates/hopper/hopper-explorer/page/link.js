@@ -3,12 +3,13 @@ import { DEEPEST } from "./deep.js";
 import { layers, state } from "./state.js";
 import { isView } from "./view.js";
 
-export function write({ view, layer, pin, hops, depth }) {
+export function write({ view, layer, pin, other, hops, depth }) {
   const parts = [
     `${view.logarithmic ? "log" : "lin"}=${[...view.x, ...view.alpha].join(",")}`,
     `layer=${layers[layer].key}`,
   ];
   if (pin) parts.push(`pin=${pin.m},${pin.alpha}`, `hops=${hops}`);
+  if (other) parts.push(`with=${other.m},${other.alpha}`);
   if (document.body.classList.contains("embedded")) parts.push("embed");
   if (depth) parts.push(`depth=${depth.m},${depth.alpha},${depth.depth}`);
   return `#${parts.join("&")}`;
@@ -39,10 +40,10 @@ export function read(hash) {
       const found = layers.findIndex(({ key, otherKey }) => key === value || otherKey === value);
       good = found >= 0;
       if (good) fields.layer = found;
-    } else if (name === "pin") {
+    } else if (name === "pin" || name === "with") {
       const all = doubles(value, 2);
       good = all !== null && all[0] > 0 && all[1] > 0;
-      if (good) fields.pin = { m: all[0], alpha: all[1] };
+      if (good) fields[name === "pin" ? "pin" : "other"] = { m: all[0], alpha: all[1] };
     } else if (name === "hops") {
       good = /^\d{1,2}$/.test(value) && Number(value) >= 1;
       if (good) fields.hops = Number(value);

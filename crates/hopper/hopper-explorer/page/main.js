@@ -1,11 +1,13 @@
 // Puts the parts together: state in, pictures and panels out.
 import { MARGIN } from "./axes.js";
+import { Column } from "./column.js";
 import { Core } from "./core.js";
 import { Deep, SHALLOWEST } from "./deep.js";
 import { gestures } from "./gestures.js";
 import { ZOOM, glide, halt, thrown } from "./glide.js";
 import { begin, keep } from "./history.js";
 import { keys } from "./keys.js";
+import { numberAt, paintLegend } from "./legend.js";
 import { read } from "./link.js";
 import { hideMap, isHeld, showMap } from "./map_panel.js";
 import { GENTLE, measure, play, showMotion, start as startMotion, stateAt, step } from "./motion_panel.js";
@@ -35,6 +37,7 @@ const dialogs = () => import("./dialogs.js");
 const files = () => import("./save.js");
 const same = () => import("./same.js");
 const circles = () => import("./circle_panel.js");
+const comparing = () => import("./compare.js");
 
 // A host that does not know the type of the file is no reason to stop.
 const compiled = (name) => WebAssembly.compileStreaming(fetch(name)).catch(async () => WebAssembly.compile(await (await fetch(name)).arrayBuffer()));
@@ -57,6 +60,7 @@ const plane = new Plane(canvas, pool, legend);
 // After the first picture, so that they do not take its time.
 canvas.addEventListener("complete", () => desk.warm(), { once: true });
 const deep = new Deep(plane, well);
+const column = (plane.column = new Column(plane, desk));
 const [left, right, bottom, top] = legend.home;
 const home = { logarithmic: false, x: [left, right], alpha: [bottom - 0.2, top] };
 const colors = new Map();
@@ -182,6 +186,7 @@ async function showPointNow(mine) {
   if (motion.refused) say(`No motion: ${motion.refused}.`);
   await measure();
   canvas.dispatchEvent(new CustomEvent("panels", { detail: found }));
+  showKept();
   const isWanted = () => mine === round && shown === found;
   desk.ask("proof", m, alpha).then((proof) => { if (isWanted()) showProof(found, proof); }, (error) => { if (isWanted()) byId("proof").textContent = `No proof: ${error.message}.`; });
   slowPanels(isWanted, m, state.depth?.about.n ?? Math.max(found.trap?.n ?? 1, found.below, 1));
@@ -212,35 +217,20 @@ function slowPanels(isWanted, m, n) {
   fill("intervals", ({ showIntervals }, found) => showIntervals(found, m, colorOf), 1, Math.min(Math.max(n, 5) + 1, 12));
 }
 
-async function showSame() {
-  const { snippets } = await same();
-  const box = byId("same").querySelector("div");
-  box.replaceChildren(...Object.entries(snippets()).flatMap(([name, code]) => {
-    const [title, text, copy] = ["p", "pre", "button"].map((tag) => document.createElement(tag));
-    title.textContent = name;
-    text.textContent = code;
-    Object.assign(text, { tabIndex: 0, role: "region", ariaLabel: name });
-    copy.textContent = "Copy";
-    copy.onclick = () => navigator.clipboard.writeText(code).then(() => say("Copied."), () => say("The browser does not allow copying; mark the text."));
-    return [title, text, copy];
-  }));
+/** The kept point beside the pinned one. */
+async function showKept() {
+  const box = byId("compare").querySelector("div");
+  if (state.other) byId("compare").open = true;
+  if (!byId("compare").open) return;
+  try {
+    const { asked, showCompared } = await comparing();
+    showCompared(box, state.other && (await asked(desk, state.other)), shown && { m: state.pin?.m, ...shown });
+  } catch (error) { box.textContent = error.message; }
 }
 
-function showLegend() {
-  const square = ({ color }) => `<i class="swatch" style="background:${color}"></i>`;
-  const swatch = (fate) => `<span title="${pretty(fate.name ?? "")}">${square(fate)}${fate.plain}</span>`;
-  const { kind, scale, color, legend: words } = state.depth ? layers.find((layer) => layer.kind === "shares") : layers[state.layer];
-  if (kind === "numbers") {
-    byId("legend").innerHTML =
-      `<span class="scale">0 <span style="background:linear-gradient(90deg,${scale.map((step) => step.color).join(",")})"></span> ${scale.at(-1).value} ${words}</span>`;
-    return;
-  }
-  const heights = legend.fates.filter(({ label }) => label > 0 && label < 65000);
-  const height = (fate, k) => `<b title="${pretty(fate.name)}">${square(fate)}${fate.label}${k === heights.length - 1 ? " and more" : ""}</b>`;
-  byId("legend").innerHTML = `<span>hops for ever, height ${heights.map(height).join("")}</span>` +
-    legend.fates.filter((fate) => !heights.includes(fate)).map(swatch).join("") +
-    (kind === "shares" ? `<span>${words}</span>` : color ? swatch({ color, plain: words }) : "");
-}
+const showSame = async () => (await same()).fill(byId("same").querySelector("div"));
+
+const showLegend = () => paintLegend(legend, state.depth ? layers.find((layer) => layer.kind === "shares") : layers[state.layer]);
 
 // The tour, which is loaded when it begins.
 let touring = null;
@@ -259,7 +249,7 @@ const places = async () => (await dialogs()).places(follow, legend, openDepth);
 
 const pan = (x, alpha) => {
   const { view } = state;
-  if (state.depth) return say("The deep view keeps the boundary point in its middle. Esc leaves it.");
+  if (state.depth) return deep.move(-2 * x, -2 * alpha);
   halt();
   change({ view: moved(view, x * (view.x[1] - view.x[0]), alpha * (view.alpha[1] - view.alpha[0])) });
 };
@@ -299,7 +289,13 @@ gestures(canvas, {
 let hovering = false;
 /** The fate under the cursor. */
 async function hover(where) {
-  if (hovering || state.depth) return;
+  if (hovering) return;
+  if (state.depth) {
+    hovering = true;
+    try { say(await deep.at(where, plane.box)); } catch (error) { say(error.message); }
+    hovering = false;
+    return;
+  }
   const { x, alpha } = pointAt(where);
   const m = toM(state.view, x);
   if (!(m > 0 && alpha > 0)) return;
@@ -308,7 +304,8 @@ async function hover(where) {
     const { fate, hops, speeds } = await desk.ask("point", m, alpha, HOVERED);
     plane.hovered = { m, speeds };
     plane.refresh();
-    say(`M = ${show(m, 8)}, α = ${show(alpha, 10)}: ${fate.plain}, ${pretty(fate.name)} after ${hops} hops`);
+    const number = await numberAt(desk, { m, alpha });
+    say(`M = ${show(m, 8)}, α = ${show(alpha, 10)}: ${fate.plain}, ${pretty(fate.name)} after ${hops} hops${number}`);
   } catch (error) { say(error.message); }
   hovering = false;
 }
@@ -333,7 +330,8 @@ byId("save").onclick = saveDialog;
 byId("help").onclick = help;
 byId("layer").onchange = ({ target }) => change({ layer: Number(target.value) });
 byId("logarithmic").onchange = ({ target }) => setLogarithmic(target.checked);
-["circle", "intervals", "same"].forEach((id) => byId(id).addEventListener("toggle", () => (id === "same" ? showSame() : showPoint())));
+const opened = { circle: showPoint, intervals: showPoint, same: showSame, compare: showKept };
+Object.entries(opened).forEach(([id, fill]) => byId(id).addEventListener("toggle", fill));
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => plane.refresh());
 
 listen((names) => {
@@ -342,8 +340,10 @@ listen((names) => {
     plane.overlay = state.depth ? deep : null;
     if (state.depth) { say(deep.words()); deep.request(); }
     plane.refresh();
+    column.request();
     keep();
   }
+  if (has("other")) { plane.refresh(); keep(); showKept(); }
   if (has("layer", "depth")) showLegend();
   if (has("view")) {
     const { view } = state;
@@ -363,7 +363,7 @@ function follow(hash) {
   const { fields, wrong } = read(hash);
   const { depth, embedded, ...rest } = fields;
   if (embedded) embed();
-  change({ view: home, layer: usual, pin: null, depth: null, ...rest });
+  change({ view: home, layer: usual, pin: null, other: null, depth: null, ...rest });
   begin(depth !== undefined);
   if (depth) openDepth(depth.m, depth.alpha, depth.depth);
   if (wrong.length > 0) queueMicrotask(() => say(`A part of the address makes no sense and is left out: ${wrong.join(", ")}`));

@@ -28,6 +28,10 @@ export class Plane {
   get box() {
     return inner(this.size);
   }
+  /** Where the picture begins within the canvas. */
+  get corner() {
+    return { left: MARGIN.left, top: MARGIN.top };
+  }
 
   refresh() {
     if (this.waiting) return;
@@ -170,6 +174,7 @@ export function paint(context, plane, ratio) {
   if (plane.overlay) plane.overlay.paint(context, box);
   else paintTiles(context, plane, box);
   if (!plane.overlay) {
+    if (state.other) paintKept(context, box);
     if (plane.hovered) paintOrbit(context, box, plane.hovered, 0.5);
     if (plane.orbit && state.pin) paintOrbit(context, box, plane.orbit, 1);
     if (state.pin) paintPin(context, box);
@@ -178,6 +183,7 @@ export function paint(context, plane, ratio) {
   context.strokeStyle = ink;
   context.lineWidth = 1;
   context.strokeRect(MARGIN.left - 0.5, MARGIN.top - 0.5, box.width + 1, box.height + 1);
+  plane.column?.paint(context, box, ink);
   paintAxes(context, axesOf(plane), ink);
 }
 
@@ -248,6 +254,12 @@ function paintOrbit(context, box, { m, speeds }, strength) {
     }),
   );
   context.globalAlpha = 1;
+}
+
+/** The point that is kept to compare: a square. */
+function paintKept(context, box) {
+  const { left, top } = place(state.view, toX(state.view, state.other.m), state.other.alpha, box);
+  outlined(context, MARK, () => context.rect(MARGIN.left + left - 6, MARGIN.top + top - 6, 12, 12));
 }
 
 function paintPin(context, box) {

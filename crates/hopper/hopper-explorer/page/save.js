@@ -3,6 +3,7 @@ import { MARGIN, letterSize, svgAxes } from "./axes.js";
 import { address } from "./link.js";
 import { axesOf, paint } from "./plane.js";
 import { withTexts } from "./png_text.js";
+import { numbersOf } from "./legend.js";
 import { layers, state } from "./state.js";
 import { QUICK, isShares, stripOf } from "./tiles.js";
 import { toM } from "./view.js";
@@ -88,10 +89,11 @@ export async function csv(pool, desk, deep) {
   const places = await desk.ask("places", job);
   const { values } = await pool.ask("tile", job);
   // A label with a flag has a bit above its code.
+  const numbers = numbersOf(values, layers[layer]);
   const valueOf = layers[layer].columns.includes(",") ? (value) => `${value & 0xffff},${value >> 16}` : String;
   for (let column = 0; column < TABLE; column++) {
     for (let row = 0; row < TABLE; row++)
-      lines.push(`${places[column]},${places[TABLE + row]},${valueOf(values[column * TABLE + row])}`);
+      lines.push(`${places[column]},${places[TABLE + row]},${valueOf(numbers[column * TABLE + row])}`);
   }
   return new Blob([lines.join("\n"), "\n"], { type: "text/csv" });
 }
@@ -129,6 +131,17 @@ function panel(id, deep) {
 /** The files that are offered: pairs of a name and a function that saves. */
 export const offers = ({ plane, deep, pool, desk, shown }) => [
   ["PNG", async (wait) => download(await png(plane, deep, wait), "hopper.png")],
+  [
+    "a large PNG",
+    async (wait) => {
+      if (state.depth) throw new Error("the deep view has the pixels of the screen; save it as PNG");
+      const words = { Description: parameters(deep), Source: address() };
+      const { large } = await import("./large.js");
+      const canvas = await large(plane, pool, wait);
+      const blob = await new Promise((done) => canvas.toBlob(done, "image/png"));
+      download(await withTexts(blob, words), "hopper-large.png");
+    },
+  ],
   ["SVG", async (wait) => download(await svg(plane, deep, wait), "hopper.svg")],
   ["CSV", async () => download(await csv(pool, desk, deep), "hopper.csv")],
   ["the orbit as CSV", async () => download(orbitCsv(shown(), deep), "hopper-orbit.csv")],

@@ -4,6 +4,7 @@ export const state = {
   view: { logarithmic: false, x: [0, 1], alpha: [4.4, 20.5] },
   layer: 0,
   pin: null, // { m, alpha }
+  other: null, // the same: a point kept to compare
   hops: 6, // hops of the motion
   depth: null, // { m, alpha, depth, about }: the deep view
 };

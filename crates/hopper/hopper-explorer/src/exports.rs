@@ -163,3 +163,13 @@ pub(crate) extern "C" fn depth_phase(depth: f64) -> u32 {
         None => Err(Refusal::new("no boundary point is open; open one before its phase")),
     }))
 }
+
+/// The fate at a point of such a window, in half widths and half heights from its middle, as JSON.
+#[cfg(feature = "deep")]
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn depth_label(depth: f64, x: f64, y: f64) -> u32 {
+    json(DEPTH.with_borrow(|kept| match kept {
+        Some(open) => open.label_json(depth, (x, y)),
+        None => Err(Refusal::new("no boundary point is open; open one before its fates")),
+    }))
+}

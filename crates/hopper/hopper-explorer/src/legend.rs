@@ -2,7 +2,6 @@
 
 use crate::json::{Json, numbers, objects};
 use crate::labels;
-use crate::tile::darkest;
 use basin_of_attraction::Label;
 use hopper_basin::{FIG_8, FIG_9, FigureWindow, HopperFate, RASTER_VERSION, first_humps};
 use hopper_figures::{Content, LAYERS, Layer, Meaning, Values, WITHOUT_FLAG, fate_colors};
@@ -53,6 +52,9 @@ fn layer(of: &Layer) -> Json {
                 Meaning::Numbers { .. } => {
                     own.text("kind", "numbers").json("scale", objects(scale(values)))
                 }
+                Meaning::Reals(_) => {
+                    own.text("kind", "reals").json("scale", objects(scale(values)))
+                }
                 Meaning::Fates { flag: None } => own.text("kind", "fates"),
                 Meaning::Fates { flag: Some(_) } => {
                     own.text("kind", "fates").text("color", WITHOUT_FLAG.css)
@@ -62,16 +64,17 @@ fn layer(of: &Layer) -> Json {
     }
 }
 
-/// The scale of numbers: equal steps of it are equal steps of log(1 + number).
+/// The scale of numbers, in equal steps of their places.
 fn scale(values: &Values) -> impl Iterator<Item = Json> {
-    let largest = darkest(values);
-    (0..=STEPS).map(move |step| {
-        let part = step as f64 / STEPS as f64;
-        let value = (pxfm::f_exp(part * pxfm::f_log(1.0 + largest as f64)) - 1.0).round() as u64;
-        let [red, green, blue] = values.color(value, largest);
-        Json::object()
-            .integer("value", value)
-            .text("color", &format!("#{red:02x}{green:02x}{blue:02x}"))
+    let steps = (0..=STEPS).map(|step| step as f64 / STEPS as f64);
+    values.scale().into_iter().flat_map(move |scale| {
+        steps.clone().map(move |place| {
+            let number = scale.number(place);
+            let [red, green, blue] = scale.color(number);
+            Json::object()
+                .number("value", number)
+                .text("color", &format!("#{red:02x}{green:02x}{blue:02x}"))
+        })
     })
 }
 

@@ -6,7 +6,7 @@
 
 use crate::refusal::Refusal;
 use basin_of_attraction::{Grid, Interval};
-use hopper_figures::{Content, LAYERS, Layer, LayerColumns, Meaning, Values};
+use hopper_figures::{Content, LAYERS, Layer, LayerColumns, Values};
 use std::ops::Range;
 
 /// Most pixels of a tile each way: its pixels then take 64 MB.
@@ -61,7 +61,7 @@ pub fn numbered(number: u32) -> Result<&'static Layer, Refusal> {
 pub struct TileStrip {
     /// Red, green, blue and opacity, the highest row first.
     pub pixels: Vec<u8>,
-    /// Column by column, each from below: the numbers of the layer, up to 2³² − 1. Empty for shares.
+    /// Column by column, each from below: the numbers of the layer, up to 2³² − 1, or the bits of an `f32`. Empty for shares.
     pub values: Vec<u32>,
 }
 
@@ -96,21 +96,12 @@ pub fn places(tile: &Tile) -> Result<Vec<f64>, Refusal> {
     Ok(all)
 }
 
-/// The number with the darkest colour: one scale for all tiles keeps neighbours comparable.
-pub(crate) fn darkest(values: &Values) -> u64 {
-    match values.meaning {
-        Meaning::Numbers { largest } => largest,
-        Meaning::Fates { .. } => 0,
-    }
-}
-
 /// The pixels of columns, the highest row first.
 fn painted(values: &Values, columns: &[Vec<u64>], rows: usize) -> Vec<u8> {
-    let largest = darkest(values);
     let mut pixels = Vec::with_capacity(4 * rows * columns.len());
     for row in (0..rows).rev() {
         for value in columns.iter().filter_map(|column| column.get(row)) {
-            pixels.extend(values.color(*value, largest));
+            pixels.extend(values.color(*value));
             pixels.push(u8::MAX);
         }
     }

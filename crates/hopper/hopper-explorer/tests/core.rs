@@ -135,11 +135,61 @@ fn wrong_questions_are_refused_with_words() {
             && tile(window((0.1, 0.2), false, (-9.0, 5.0), 4))
     );
     assert!(strip(layer("label"), &window((0.1, 0.2), false, (4.0, 5.0), 4), 3..9).is_err());
-    assert!(numbered(4).is_err());
+    assert!(numbered(99).is_err());
     let depth = Depth::near(0.12, 11.920553918335775).unwrap();
     assert!(
         depth.frame(nan, 4, 4).is_err()
             && depth.frame(1e6, 4, 4).is_err()
             && depth.frame(9.0, 5000, 4).is_err()
     );
+}
+
+/// The fraction of Ψ with which the windows end.
+fn fraction(depth: &Depth, at: f64) -> f64 {
+    let text = depth.phase(at).unwrap();
+    let digits = text.split_once(r#""fraction":"#).unwrap().1;
+    digits.split_once(',').unwrap().0.parse().unwrap()
+}
+
+#[test]
+fn windows_whose_phases_differ_by_a_quarter_look_different() {
+    let open = Depth::near(0.12, 11.920553918335775).unwrap();
+    let first = fraction(&open, 10.0);
+    let quarter = |at: f64| (fraction(&open, at) - first).rem_euclid(1.0);
+    // A turn takes some 3·10⁻³ of depth here.
+    let other =
+        (1..400).map(|k| 10.0 + 1e-5 * f64::from(k)).find(|at| (quarter(*at) - 0.25).abs() < 5e-3);
+    let frames = [10.0, other.unwrap()].map(|at| open.frame(at, 64, 64).unwrap());
+    let pixels = frames[0].chunks(4).zip(frames[1].chunks(4));
+    let differ = pixels.filter(|(one, other)| one != other).count();
+    assert!(differ >= 64 * 64 / 5, "{differ}");
+}
+
+#[test]
+fn an_edge_of_grounding_is_the_same_at_every_depth() {
+    let open = Depth::near(1.0, 5.6).unwrap();
+    assert!(open.text().contains(r#""kind":"grounding""#), "{}", open.text());
+    let frames = [1.0, 30.0, 1000.0].map(|depth| open.frame(depth, 32, 32).unwrap());
+    assert!(frames[0] == frames[1] && frames[1] == frames[2]);
+    assert!(frames[0].chunks(4).any(|pixel| pixel != &frames[0][..4]));
+    // The middle of the upper half is grounded, that of the lower one hops ever lower.
+    for (y, name) in [(0.5, "grounded"), (-0.5, "decaying")] {
+        let label = open.label(1000.0, (0.0, y)).unwrap();
+        assert!(label.contains(name), "{label}");
+    }
+    assert!(open.phase(1000.0).unwrap().contains("lastSpeedExponent"));
+}
+
+#[test]
+fn fates_of_places_are_those_of_the_pictures() {
+    let open = Depth::near(0.12, 11.920553918335775).unwrap();
+    let frame = open.frame(30.0, 8, 8).unwrap();
+    // The basin of α*_2 is a half of the window.
+    let inside = (0..8).map(|row| {
+        let y = 1.0 - (2 * row + 1) as f64 / 8.0;
+        let label = open.label(30.0, (0.0625, y)).unwrap();
+        (label.contains(r#""label":2"#), frame[4 * (8 * row + 4)..][..3].to_vec())
+    });
+    let colors: Vec<_> = inside.filter(|(is_two, _)| *is_two).map(|(_, color)| color).collect();
+    assert!(colors.len() >= 3 && colors.windows(2).all(|pair| pair[0] == pair[1]), "{colors:?}");
 }

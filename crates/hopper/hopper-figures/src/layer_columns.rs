@@ -38,7 +38,10 @@ impl LayerColumns {
     }
 
     /// What a function gives for each column.
-    fn each<T>(&self, of: impl Fn(MassRatio) -> Result<T, Error>) -> Result<Vec<T>, Error> {
+    pub(crate) fn each<T>(
+        &self,
+        of: impl Fn(MassRatio) -> Result<T, Error>,
+    ) -> Result<Vec<T>, Error> {
         self.columns.clone().map(|column| of(self.mass_ratio(column)?)).collect()
     }
 }

@@ -6,8 +6,9 @@
 use crate::basins::{BasinWindow, draw_basins, draw_pixels};
 use crate::error::Error;
 use crate::fate_colors;
-use crate::hops::{draw_hops, hop_color};
 use crate::layer_columns::{LayerColumns, fates, hops, proofs, shares};
+use crate::number_columns::{flight_times, phases, relative_losses, slopes, sudden_lift_offs};
+use crate::scales::{Scale, draw_numbers};
 use basin_of_attraction::{Grid, Label, LabelImage};
 use journal_figures::palette::Color;
 use journal_figures::{Anchor, Pen, Svg, rgb_png};
@@ -73,6 +74,86 @@ pub static LAYERS: &[Layer] = &[
             columns: proofs,
         }),
     },
+    Layer {
+        key: "phase",
+        other_key: "phase",
+        name: "phase Ψ",
+        about: "The fraction of the phase Ψ with which an orbit comes to its α*: it is the same all along the orbit",
+        legend: "fraction of the phase Ψ",
+        file: "phase",
+        pieces: "tiles of phases",
+        cost: 3.0,
+        content: Content::Values(Values {
+            bytes: 4,
+            meaning: Meaning::Reals(Scale::Turn),
+            together: 1,
+            columns: phases,
+        }),
+    },
+    Layer {
+        key: "loss",
+        other_key: "energy",
+        name: "energy lost",
+        about: "The share of the energy of the hopping that the landings of the next hop take: (α² − α′²)/α²",
+        legend: "energy lost in the next hop",
+        file: "loss",
+        pieces: "tiles of losses",
+        cost: 1.0,
+        content: Content::Values(Values {
+            bytes: 4,
+            meaning: Meaning::Reals(Scale::Linear { from: 0.0, to: 1.0 }),
+            together: 1,
+            columns: relative_losses,
+        }),
+    },
+    Layer {
+        key: "sudden",
+        other_key: "sudden",
+        name: "sudden lift-offs",
+        about: "The number of sudden lift-offs in the next hop",
+        legend: "sudden lift-offs",
+        file: "sudden",
+        pieces: "tiles of sudden lift-offs",
+        cost: 1.0,
+        content: Content::Values(Values {
+            bytes: 4,
+            meaning: Meaning::Numbers { largest: 4 },
+            together: 1,
+            columns: sudden_lift_offs,
+        }),
+    },
+    Layer {
+        key: "flight",
+        other_key: "flight",
+        name: "time of flight",
+        about: "The time of flight of the next hop, in units of 1/ω",
+        legend: "time of flight (1/ω)",
+        file: "flight",
+        pieces: "tiles of times",
+        cost: 1.0,
+        content: Content::Values(Values {
+            bytes: 4,
+            meaning: Meaning::Reals(Scale::Linear { from: 0.0, to: 50.0 }),
+            together: 1,
+            columns: flight_times,
+        }),
+    },
+    Layer {
+        key: "slope",
+        other_key: "sensitivity",
+        name: "sensitivity |∂α′/∂α|",
+        about: "How much the next lift-off speed changes with this one: |∂α′/∂α|",
+        legend: "sensitivity |∂α′/∂α|",
+        file: "slope",
+        pieces: "tiles of slopes",
+        cost: 2.0,
+        content: Content::Values(Values {
+            bytes: 4,
+            meaning: Meaning::Reals(Scale::Logarithmic { from: 0.1, to: 100.0 }),
+            together: 1,
+            columns: slopes,
+        }),
+    },
 ];
 
 /// What a value of a layer of fates has beside the code of its label if it has the flag of the layer.
@@ -128,7 +209,7 @@ pub struct Values {
 }
 
 /// What the numbers of a layer mean.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Meaning {
     /// The code of a label in the lowest 16 bits; and [`FLAG`], if the layer has a flag of this name, and the pixel
     /// has it.
@@ -141,6 +222,8 @@ pub enum Meaning {
         /// The one with the darkest colour where one scale serves many pictures. Few pixels have more.
         largest: u64,
     },
+    /// A real number: the bits of an `f32`, of NaN where there is none, as that of a hopper that is grounded.
+    Reals(Scale),
 }
 
 impl Layer {
@@ -163,19 +246,37 @@ impl Values {
     pub fn table_columns(&self, key: &'static str) -> Vec<&'static str> {
         match self.meaning {
             Meaning::Fates { flag } => ["label"].into_iter().chain(flag).collect(),
-            Meaning::Numbers { .. } => vec![key],
+            Meaning::Numbers { .. } | Meaning::Reals(_) => vec![key],
         }
     }
 
-    /// The colour of a number, on a scale up to `largest`.
-    pub fn color(&self, value: u64, largest: u64) -> [u8; 3] {
+    /// The scale of numbers where one serves many pictures; `None` for fates.
+    pub fn scale(&self) -> Option<Scale> {
         match self.meaning {
-            Meaning::Fates { flag } => {
+            Meaning::Fates { .. } => None,
+            Meaning::Numbers { largest } => Some(Scale::Counts { largest }),
+            Meaning::Reals(scale) => Some(scale),
+        }
+    }
+
+    /// What a value of a layer of numbers is.
+    pub fn number(&self, value: u64) -> f64 {
+        match self.meaning {
+            Meaning::Reals(_) => f64::from(f32::from_bits(value as u32)),
+            Meaning::Numbers { .. } | Meaning::Fates { .. } => value as f64,
+        }
+    }
+
+    /// The colour of a value.
+    pub fn color(&self, value: u64) -> [u8; 3] {
+        match (self.meaning, self.scale()) {
+            (_, Some(scale)) => scale.color(self.number(value)),
+            (meaning, None) => {
                 let label = label_of(value);
-                let bare = flag.is_some() && value & FLAG == 0 && !label.is_undecided();
+                let flagged = matches!(meaning, Meaning::Fates { flag: Some(_) });
+                let bare = flagged && value & FLAG == 0 && !label.is_undecided();
                 if bare { WITHOUT_FLAG.rgb } else { fate_colors::rgb(label) }
             }
-            Meaning::Numbers { .. } => hop_color(value.min(largest), largest),
         }
     }
 }
@@ -196,15 +297,23 @@ pub fn draw_layer(
     pixels: &[u64],
 ) -> Result<Svg, Error> {
     match values.meaning {
-        Meaning::Numbers { .. } => draw_hops(window, grid, pixels),
+        Meaning::Numbers { .. } => {
+            // One picture alone has a scale of its own.
+            let largest = pixels.iter().copied().max().unwrap_or(0);
+            let numbers: Vec<f64> = pixels.iter().map(|&value| values.number(value)).collect();
+            draw_numbers(window, grid, &numbers, (Scale::Counts { largest }, layer.legend))
+        }
+        Meaning::Reals(scale) => {
+            let numbers: Vec<f64> = pixels.iter().map(|&value| values.number(value)).collect();
+            draw_numbers(window, grid, &numbers, (scale, layer.legend))
+        }
         Meaning::Fates { flag: None } => {
             let labels = pixels.iter().map(|&value| label_of(value)).collect();
             draw_basins(window, &LabelImage { grid: *grid, labels })
         }
         Meaning::Fates { flag: Some(_) } => {
             let rows = pixels.chunks(grid.columns.max(1)).rev();
-            let colors: Vec<u8> =
-                rows.flatten().flat_map(|&value| values.color(value, 0)).collect();
+            let colors: Vec<u8> = rows.flatten().flat_map(|&value| values.color(value)).collect();
             let image = rgb_png(window.name, grid.columns, grid.rows, &colors)?;
             let with_flag = pixels.iter().filter(|&&value| value & FLAG != 0);
             let mut labels: Vec<Label> = with_flag.map(|&value| label_of(value)).collect();

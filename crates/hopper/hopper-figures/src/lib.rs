@@ -3,7 +3,7 @@
 //!
 //! | item | role |
 //! |---|---|
-//! | [`LAYERS`], [`Layer`], [`LayerColumns`], [`draw_layer`] | the table of what the pixels of a raster can show: fates, hops, shares, proofs |
+//! | [`LAYERS`], [`Layer`], [`LayerColumns`], [`draw_layer`] | the table of what the pixels of a raster can show: fates, hops, shares, proofs, phases and numbers of a hop; [`Scale`] has their colours |
 //! | [`draw_basins`], [`BasinWindow`] | a raster of fates with axes, legend and the frame of an inset |
 //! | [`label_png`], [`legend`] | its pixels alone; its legend alone |
 //! | [`draw_shares`], [`share_png`], [`share_pixels`], [`share_words`] | a raster whose pixels cover several fates |
@@ -34,7 +34,6 @@ mod coverage;
 mod error;
 pub mod fate_colors;
 mod graph;
-mod hops;
 mod layer_columns;
 mod layers;
 mod machine;
@@ -43,6 +42,8 @@ mod motion;
 mod motion_errors;
 mod motion_frames;
 mod motion_plot;
+mod number_columns;
+mod scales;
 mod shares;
 mod zoom;
 
@@ -61,5 +62,6 @@ pub use motion::{Motion, MotionEvent, Sample};
 pub use motion_errors::{SampleError, motion_with_errors};
 pub use motion_frames::{draw_frame, frame_times};
 pub use motion_plot::draw_motion;
+pub use scales::Scale;
 pub use shares::{draw_shares, share_pixels, share_png, share_words};
 pub use zoom::{ZoomPixels, draw_zoom, draw_zoom_frame};

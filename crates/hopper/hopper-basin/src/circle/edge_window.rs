@@ -70,6 +70,23 @@ pub fn edge_phase(chart: &EdgeChart, circle: &PhaseBasins, depth: f64) -> Result
     chart.phase(circle, Offset::new(-chart.slope().signum() * mantissa, exponent)?)
 }
 
+/// The fate at a point of an [`edge_frame`] below the scale of the chart: `x` half widths to the right of its middle, and `y` half heights above it. `None` for one
+/// that is undecided.
+///
+/// # Errors
+/// As [`EdgeChart::label`].
+pub fn edge_label(
+    (chart, edge): (&EdgeChart, &FollowedEdge),
+    circle: &PhaseBasins,
+    depth: f64,
+    (x, y): (f64, f64),
+) -> Result<Option<Label>, Error> {
+    let (mantissa, exponent) = power_of_ten(depth);
+    // The edge is the straight line of `edge_frame`.
+    let above = y - edge.by_mass_ratio * frame_slant(edge) * x;
+    chart.label(circle, Offset::new(mantissa * above, exponent)?)
+}
+
 /// The half width of an [`edge_frame`] in mass ratio, divided by its half height in speed.
 ///
 /// Both sides are the same part of their middle, M/p, unless the edge would then cross more than a half of the half

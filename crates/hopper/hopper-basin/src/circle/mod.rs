@@ -18,6 +18,7 @@
 //!   edge_window.rs          the pixels of windows about it, at one mass ratio and in the (M, α) plane
 //!   edge_search.rs          the speeds near a given one that come to a fixed point
 //!   nearest_edge.rs         the one nearest to a speed, at any distance
+//!   grounding_edge.rs       the nearest speed from which a hop just uses up the energy
 //!   local_fractions.rs      p_{n,k}: the share of every fate, with bounds
 //!   gap_count.rs            the number of gaps between boundary points, at any scale
 //!   upwards.rs              the vertical axis of a raster of shares
@@ -37,6 +38,7 @@ pub(crate) mod edge_window;
 pub(crate) mod falls_onto;
 pub(crate) mod fundamental_domain;
 pub(crate) mod gap_count;
+pub(crate) mod grounding_edge;
 pub(crate) mod labelled_speeds;
 pub(crate) mod local_fractions;
 mod nearest_edge;

@@ -18,7 +18,7 @@ const STEPS: i32 = 400;
 impl EdgeChart {
     /// The chart about a boundary point near `guess`, at any distance: that of [`near`](Self::near), if there is one; else that at the nearest change of
     /// fates on a grid; else about the nearest fixed point α*_n, n ≥ 1, whose trap is known. Changes without a chart, such as edges of
-    /// grounding, are passed over. It takes some tens of milliseconds, and up to seconds beside edges that have no chart.
+    /// grounding ([`GroundingEdge`](crate::GroundingEdge)), are passed over. It takes some tens of milliseconds, and up to seconds beside edges that have no chart.
     ///
     /// # Errors
     /// [`Error::NoEdge`] if no fixed point near the speed has a trap; the errors of [`Fates::fate`] for a wrong speed.
@@ -33,7 +33,7 @@ impl EdgeChart {
         stars.sort_by(|a, b| (a.1 - guess).abs().total_cmp(&(b.1 - guess).abs()));
         let nearest = stars.first().map_or(0.0, |(_, star)| (star - guess).abs());
         for change in changes(fates, guess, nearest)?.into_iter().take(CHANGES) {
-            if let Ok(found) = EdgeChart::near(fates, narrowed(fates, change)?) {
+            if let Ok(found) = EdgeChart::near(fates, narrowed(fates, change)?[0]) {
                 return Ok(found);
             }
         }
@@ -47,7 +47,7 @@ impl EdgeChart {
 }
 
 /// Neighbours of a grid about a speed whose fates differ, up to a distance, the nearest first.
-fn changes(fates: &Fates, guess: f64, distance: f64) -> Result<Vec<(f64, f64)>, Error> {
+pub(crate) fn changes(fates: &Fates, guess: f64, distance: f64) -> Result<Vec<(f64, f64)>, Error> {
     let speed = |step: i32| guess + distance * f64::from(step) / f64::from(STEPS);
     let speeds: Vec<f64> = (-STEPS..=STEPS).map(speed).filter(|speed| *speed > 0.0).collect();
     let labels = fates.labels(&speeds)?;
@@ -62,14 +62,14 @@ fn changes(fates: &Fates, guess: f64, distance: f64) -> Result<Vec<(f64, f64)>, 
     Ok(found)
 }
 
-/// A speed beside a change of fates between two speeds, to the last bit.
-fn narrowed(fates: &Fates, (left, right): (f64, f64)) -> Result<f64, Error> {
+/// Neighbouring doubles with different fates between two speeds, of which the first has the fate of `left`.
+pub(crate) fn narrowed(fates: &Fates, (left, right): (f64, f64)) -> Result<[f64; 2], Error> {
     let label = fates.labels(&[left])?;
     let (mut inside, mut outside) = (left, right);
     loop {
         let middle = inside.midpoint(outside);
         if middle == inside || middle == outside {
-            return Ok(inside);
+            return Ok([inside, outside]);
         }
         match fates.labels(&[middle])? == label {
             true => inside = middle,

@@ -5,10 +5,12 @@
 //! is grounded, with a bound on its error ([`certain_fate`]). The fate is undecided, with the reason, if neither
 //! happens within a budget of hops, or if the error reaches a verdict. The many hops along the slow side of a fixed
 //! point are jumped over ([`slow_sides`]; many starts beside one that falls onto a fixed point: [`beside_edge`]).
-//! [`fates_at_mass_ratio`] has the entries and the traps, and [`many_fates`] follows many orbits together.
+//! [`fates_at_mass_ratio`] has the entries and the traps, and [`many_fates`] follows many orbits together. The phase with which
+//! an orbit comes to its fixed point: [`asymptotic_phases`].
 //!
 //! This room uses `traps`. The raster finds the fates of many speeds faster, and gives the same labels.
 
+pub(crate) mod asymptotic_phases;
 pub(crate) mod beside_edge;
 pub(crate) mod certain_fate;
 pub(crate) mod fates_at_mass_ratio;

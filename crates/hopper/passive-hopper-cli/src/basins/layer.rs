@@ -98,7 +98,9 @@ impl StoredLayer {
         interrupt: &Interrupt,
     ) -> Result<Value, Error> {
         let size = self.values.bytes;
+        let is_real = matches!(self.values.meaning, Meaning::Reals(_));
         let element = match size {
+            _ if is_real => Element::F32,
             2 => Element::U16,
             4 => Element::U32,
             _ => Element::U64,
@@ -107,7 +109,13 @@ impl StoredLayer {
         // file.
         let header = npy_header(Order::Fortran, element, grid.rows, grid.columns);
         let (mut counts, mut values) = (BTreeMap::new(), Vec::new());
-        let mut picture = Picture::new(grid, TILE, u64::from(Label::OUTSIDE.code()));
+        let mut reals = Reals::default();
+        // A pixel that is not there has no number.
+        let absent = match is_real {
+            true => u64::from(f32::NAN.to_bits()),
+            false => u64::from(Label::OUTSIDE.code()),
+        };
+        let mut picture = Picture::new(grid, TILE, absent);
         finished.kept.assemble(
             &job.path.join(&self.array),
             &header,
@@ -121,7 +129,12 @@ impl StoredLayer {
                     word[..size].copy_from_slice(bytes);
                     u64::from_le_bytes(word)
                 }));
-                values.iter().for_each(|&value| *counts.entry(value).or_insert(0u64) += 1);
+                match is_real {
+                    true => values.iter().for_each(|&value| reals.add(self.values.number(value))),
+                    false => {
+                        values.iter().for_each(|&value| *counts.entry(value).or_insert(0u64) += 1);
+                    }
+                }
                 picture.add(tile, &values);
             },
         )?;
@@ -132,6 +145,7 @@ impl StoredLayer {
         Ok(match self.values.meaning {
             Meaning::Fates { flag } => legend(&counts, flag),
             Meaning::Numbers { .. } => summary(&counts),
+            Meaning::Reals(_) => reals.summary(),
         })
     }
 }
@@ -172,6 +186,37 @@ fn summary(counts: &BTreeMap<u64, u64>) -> Value {
     let (smallest, largest) = (counts.keys().next(), counts.keys().next_back());
     let mean = (pixels > 0).then(|| sum as f64 / pixels as f64);
     json!({ "pixels": pixels, "smallest": smallest, "largest": largest, "mean": mean })
+}
+
+/// The smallest, the largest and the mean of real numbers, of which there may be as many as pixels.
+#[derive(Debug, Default)]
+struct Reals {
+    pixels: u64,
+    without: u64,
+    ends: Option<(f64, f64)>,
+    sum: f64,
+}
+
+impl Reals {
+    fn add(&mut self, number: f64) {
+        self.pixels += 1;
+        if number.is_nan() {
+            self.without += 1;
+            return;
+        }
+        let (smallest, largest) = self.ends.unwrap_or((number, number));
+        self.ends = Some((smallest.min(number), largest.max(number)));
+        self.sum += number;
+    }
+
+    fn summary(&self) -> Value {
+        let (smallest, largest) = self.ends.unzip();
+        let mean = self.ends.map(|_| self.sum / (self.pixels - self.without) as f64);
+        json!({
+            "pixels": self.pixels, "without": self.without,
+            "smallest": smallest, "largest": largest, "mean": mean,
+        })
+    }
 }
 
 #[cfg(test)]

@@ -77,12 +77,16 @@ fn one_layer(
         Meaning::Fates { flag: Some(flag) } => {
             (format!("labels, and {FLAG} more where they are {flag}"), "the meaning of the labels")
         }
-        Meaning::Numbers { .. } => {
+        Meaning::Numbers { .. } | Meaning::Reals(_) => {
             (layer.layer.name.into(), "the smallest, the largest and the mean")
         }
     };
+    let kind = match layer.values.meaning {
+        Meaning::Reals(_) => "floating-point numbers",
+        Meaning::Numbers { .. } | Meaning::Fates { .. } => "integers",
+    };
     for (name, content) in [
-        (&layer.array, format!("{numbers}: {bits}-bit integers, {order}")),
+        (&layer.array, format!("{numbers}: {bits}-bit {kind}, {order}")),
         (&layer.picture, "the picture, with axes and legend".into()),
         (&results.summary.into(), about_summary.into()),
     ] {

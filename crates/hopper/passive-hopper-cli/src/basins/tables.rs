@@ -50,6 +50,43 @@ pub(crate) static HOPS: TableKind = TableKind {
     ],
 };
 
+/// The columns of the tables of real numbers.
+const REALS: &[Column] = &[
+    Column::new("pixels", "", "number of pixels"),
+    Column::new(
+        "without",
+        "",
+        "pixels that have no number, such as those of a hopper that is grounded",
+    ),
+    Column::new("smallest", "", "smallest number").measured(),
+    Column::new("largest", "", "largest number").measured(),
+    Column::new("mean", "", "mean over all pixels that have one").measured(),
+];
+
+const fn reals(name: &'static str, about: &'static str) -> TableKind {
+    TableKind { name, about, long: false, columns: REALS }
+}
+
+pub(crate) static PHASE: TableKind =
+    reals("phase", "the fractions of the phase Ψ, with --layer phase");
+pub(crate) static LOSS: TableKind =
+    reals("loss", "the shares of the energy that the next hop takes, with --layer loss");
+pub(crate) static FLIGHT: TableKind =
+    reals("flight", "the times of flight in units of 1/ω, with --layer flight");
+pub(crate) static SLOPE: TableKind = reals("slope", "|∂α′/∂α|, with --layer slope");
+
+pub(crate) static SUDDEN: TableKind = TableKind {
+    name: "sudden",
+    about: "the numbers of sudden lift-offs in the next hop, with --layer sudden",
+    long: false,
+    columns: &[
+        Column::new("pixels", "", "number of pixels"),
+        Column::new("smallest", "", "smallest number"),
+        Column::new("largest", "", "largest number"),
+        Column::new("mean", "", "mean over all pixels").measured(),
+    ],
+};
+
 pub(crate) static SHARES: TableKind = TableKind {
     name: "shares",
     about: "one row for each fate that occurs, with --about or --coverage",
@@ -90,8 +127,16 @@ pub(crate) static PARTS: TableKind = TableKind {
 };
 
 /// The table of each layer, by its key.
-const OF_LAYERS: [(&str, &TableKind); 3] =
-    [("label", &LABELS), ("hops", &HOPS), ("proof", &PROOFS)];
+const OF_LAYERS: [(&str, &TableKind); 8] = [
+    ("label", &LABELS),
+    ("hops", &HOPS),
+    ("proof", &PROOFS),
+    ("phase", &PHASE),
+    ("loss", &LOSS),
+    ("sudden", &SUDDEN),
+    ("flight", &FLIGHT),
+    ("slope", &SLOPE),
+];
 
 /// The table of a layer; `None` for a layer that has none.
 pub(crate) fn of_layer(key: &str) -> Option<&'static TableKind> {
@@ -99,7 +144,10 @@ pub(crate) fn of_layer(key: &str) -> Option<&'static TableKind> {
 }
 
 /// All tables, the main one first.
-pub(crate) const ALL: &[&TableKind] = &[&LABELS, &HOPS, &PROOFS, &SHARES, &EDGE, &PARTS, &FILES];
+pub(crate) const ALL: &[&TableKind] = &[
+    &LABELS, &HOPS, &PROOFS, &PHASE, &LOSS, &SUDDEN, &FLIGHT, &SLOPE, &SHARES, &EDGE, &PARTS,
+    &FILES,
+];
 
 /// The tables of a call: those that have no meaning for it are absent.
 #[derive(Debug, Default)]
@@ -126,6 +174,7 @@ impl Tables {
         self.layers.extend(match values.meaning {
             Meaning::Fates { flag } => labels(kind, flag, summary),
             Meaning::Numbers { .. } => numbers(kind, summary),
+            Meaning::Reals(_) => Some(real_numbers(kind, summary)),
         });
     }
 
@@ -190,6 +239,23 @@ fn numbers(kind: &'static TableKind, summary: &Value) -> Option<Table> {
         summary["mean"].as_f64().map(rounded_once).into(),
     ]);
     Some(table)
+}
+
+/// The table of a summary of real numbers, which are those of `f32`.
+fn real_numbers(kind: &'static TableKind, summary: &Value) -> Table {
+    let mut table = Table::new(kind);
+    let number = |name: &str| {
+        let rounded = |number: f64| Cell::measured(number, f64::from(f32::EPSILON) * number.abs());
+        summary[name].as_f64().map(rounded)
+    };
+    table.push([
+        summary["pixels"].as_u64().into(),
+        summary["without"].as_u64().into(),
+        number("smallest").into(),
+        number("largest").into(),
+        number("mean").into(),
+    ]);
+    table
 }
 
 /// The table of a legend of shares. An entry without a label is not a share.
