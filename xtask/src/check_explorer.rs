@@ -78,8 +78,11 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
     if measure {
         node.arg(tests.join("measure.mjs"));
     } else {
-        node.args(["--test", "--test-concurrency=1"]);
-        node.args(["page.test.mjs", "welcome.test.mjs", "numbers.test.mjs"].map(|name| tests.join(name)));
+        // Two at once: each waits for its page most of the time.
+        node.args(["--test", "--test-concurrency=2"]);
+        node.args(
+            ["page.test.mjs", "welcome.test.mjs", "numbers.test.mjs"].map(|name| tests.join(name)),
+        );
     }
     node.env("EXPLORER_URL", format!("http://127.0.0.1:{port}/")).env("CHROMIUM", browser);
     node.env("EXPLORER_NATIVE", &native).env("EXPLORER_MODULES", folder.join("driver/"));

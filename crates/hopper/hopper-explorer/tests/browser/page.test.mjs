@@ -347,7 +347,7 @@ onPage("keyboard only", "", async (page) => {
   const names = await page.evaluate(() =>
     [...document.querySelectorAll("#layer option")].map(({ textContent }) => textContent),
   );
-  assert.deepEqual(names, ["fate", "number of hops", "exact coverage", "proved or computed"]);
+  assert.deepEqual(names, ["fate", "number of hops", "exact coverage", "proved or computed", "phase Ψ", "energy lost", "sudden lift-offs", "time of flight", "sensitivity |∂α′/∂α|"]);
   for (const [key, layer] of [
     ["2", 1],
     ["3", 2],
