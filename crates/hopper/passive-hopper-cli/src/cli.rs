@@ -2,19 +2,17 @@
 
 use crate::commands::{self, Page};
 use crate::error::Error;
-use crate::refusal;
+use crate::program::Call;
 use crate::streams::Streams;
-use clap::error::ErrorKind;
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use std::ffi::OsString;
+use clap::{CommandFactory, Parser, Subcommand};
 
 /// The passive hopper: hops, orbits, fates, the map, its basins, and units.
 #[derive(Debug, Parser)]
 #[command(name = "hopper", version, about, long_about = ABOUT, after_long_help = EXIT_STATUS)]
 #[command(infer_long_args = false, max_term_width = 100, disable_help_subcommand = false)]
-struct Cli {
+pub(crate) struct Cli {
     #[command(subcommand)]
-    command: Command,
+    pub(crate) command: Command,
 }
 
 /// The first text of `hopper --help`.
@@ -66,9 +64,8 @@ pub(crate) enum Command {
     Manual(commands::texts::Manual),
 }
 
-impl Command {
-    /// Whether --verbose is given.
-    pub(crate) fn is_verbose(&self) -> bool {
+impl Call for Command {
+    fn is_verbose(&self) -> bool {
         match self {
             Command::Hop(options) => options.output.is_verbose(),
             Command::Orbit(options) => options.output.is_verbose(),
@@ -80,15 +77,22 @@ impl Command {
             Command::Completions(_) | Command::Manual(_) => false,
         }
     }
-}
 
-/// What the arguments ask for.
-#[derive(Debug)]
-pub(crate) enum Parsed {
-    /// A command to run.
-    Command(Box<Command>),
-    /// A text to print: help or version.
-    Text(String),
+    fn start(self: Box<Self>, streams: Streams<'_>) -> Result<(), Error> {
+        match *self {
+            Command::Hop(options) => commands::hop::run(&options, streams),
+            Command::Orbit(options) => commands::orbit::run(&options, streams),
+            Command::Fate(options) => commands::fate::run(&options, streams),
+            Command::Basins(options) => crate::basins::run(&options, streams),
+            Command::Map(options) => commands::map::run(&options, streams),
+            Command::Intervals(options) => commands::intervals::run(&options, streams),
+            Command::Units(options) => commands::units::run(&options, streams),
+            Command::Completions(options) => {
+                commands::texts::completions(&options, command_line(), streams)
+            }
+            Command::Manual(options) => commands::texts::manual(&options, command_line(), streams),
+        }
+    }
 }
 
 /// The pages of the commands, which complete their help.
@@ -107,37 +111,4 @@ pub(crate) fn command_line() -> clap::Command {
     PAGES.iter().fold(Cli::command(), |command, (name, page)| {
         command.mut_subcommand(name, |command| command.after_long_help(page.text()))
     })
-}
-
-/// Reads the arguments.
-pub(crate) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Parsed, Error> {
-    let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let matches = command_line().try_get_matches_from(&arguments);
-    match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
-        Ok(cli) => Ok(Parsed::Command(Box::new(cli.command))),
-        Err(error) => match error.kind() {
-            ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
-                Ok(Parsed::Text(error.to_string()))
-            }
-            ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => Err(Error::Misuse(
-                "a command is missing; `hopper --help` shows the commands".into(),
-            )),
-            _ => Err(Error::Misuse(refusal::line(&error, &arguments))),
-        },
-    }
-}
-
-/// Runs a command.
-pub(crate) fn start(command: Command, streams: Streams<'_>) -> Result<(), Error> {
-    match command {
-        Command::Hop(options) => commands::hop::run(&options, streams),
-        Command::Orbit(options) => commands::orbit::run(&options, streams),
-        Command::Fate(options) => commands::fate::run(&options, streams),
-        Command::Basins(options) => crate::basins::run(&options, streams),
-        Command::Map(options) => commands::map::run(&options, streams),
-        Command::Intervals(options) => commands::intervals::run(&options, streams),
-        Command::Units(options) => commands::units::run(&options, streams),
-        Command::Completions(options) => commands::texts::completions(&options, streams),
-        Command::Manual(options) => commands::texts::manual(&options, streams),
-    }
 }

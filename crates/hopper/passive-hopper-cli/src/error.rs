@@ -72,6 +72,9 @@ pub(crate) enum Error {
         /// The exit status of the signal.
         status: u8,
     },
+    /// A model of a file could not be followed, or a statement about it is not proved: in the words of the library.
+    #[error("{0}")]
+    Model(String),
     /// A figure could not be encoded.
     #[error(transparent)]
     Figure(#[from] journal_figures::Error),

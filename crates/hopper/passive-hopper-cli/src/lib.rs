@@ -1,4 +1,4 @@
-//! The program `hopper`: the passive hopper at the command line.
+//! The programs `hopper`, the passive hopper at the command line, and `nonsmooth`, any hybrid system from a file.
 //!
 //! ```text
 //!   arguments ──► cli.rs ──► commands/NAME.rs ──► a library ──► Table ──► plain text, CSV or JSON
@@ -11,6 +11,7 @@
 //! |---|---|
 //! | [`run`], [`Streams`] | one call of the program, with the streams that it reads and writes |
 //! | [`main`] | the same with the streams of the process |
+//! | [`run_nonsmooth`], [`nonsmooth_main`] | the same of `nonsmooth` |
 //!
 //! ```
 //! let (mut output, mut messages) = (Vec::new(), Vec::new());
@@ -34,11 +35,12 @@ mod cli;
 mod commands;
 mod error;
 mod interrupt;
+mod model;
 mod options;
 mod output;
 mod program;
 mod refusal;
 mod streams;
 
-pub use program::{main, run};
+pub use program::{main, nonsmooth_main, run, run_nonsmooth};
 pub use streams::Streams;

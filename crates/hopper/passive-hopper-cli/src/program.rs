@@ -1,16 +1,81 @@
-//! One call of the program: from its arguments to its exit status.
+//! One call of a program: from its arguments to its exit status.
 
-use crate::cli::{self, Parsed};
 use crate::error::Error;
-use crate::refusal;
 use crate::streams::Streams;
+use crate::{cli, model, refusal};
+use clap::FromArgMatches;
+use clap::error::ErrorKind;
 use std::ffi::OsString;
 use std::io::{BufWriter, IsTerminal, Write};
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// Runs the program with the arguments and the streams of the process.
+/// A call of one of the programs: a command with its options.
+pub(crate) trait Call {
+    /// Whether --verbose is given.
+    fn is_verbose(&self) -> bool;
+
+    /// Runs it.
+    fn start(self: Box<Self>, streams: Streams<'_>) -> Result<(), Error>;
+}
+
+/// One of the programs.
+struct Program {
+    command_line: fn() -> clap::Command,
+    call: fn(&clap::ArgMatches) -> Result<Box<dyn Call>, clap::Error>,
+}
+
+const HOPPER: Program = Program {
+    command_line: cli::command_line,
+    call: |matches| Ok(Box::new(cli::Cli::from_arg_matches(matches)?.command)),
+};
+
+const NONSMOOTH: Program = Program {
+    command_line: model::cli::command_line,
+    call: |matches| Ok(Box::new(model::cli::Cli::from_arg_matches(matches)?.command)),
+};
+
+/// What the arguments ask for.
+enum Parsed {
+    /// A command to run.
+    Command(Box<dyn Call>),
+    /// A text to print: help or version.
+    Text(String),
+}
+
+impl Program {
+    /// Reads the arguments.
+    fn parse(&self, arguments: impl IntoIterator<Item = OsString>) -> Result<Parsed, Error> {
+        let arguments: Vec<OsString> = arguments.into_iter().collect();
+        let program = (self.command_line)();
+        let name = program.get_name().to_owned();
+        let matches = program.try_get_matches_from(&arguments);
+        match matches.and_then(|matches| (self.call)(&matches)) {
+            Ok(command) => Ok(Parsed::Command(command)),
+            Err(error) => match error.kind() {
+                ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
+                    Ok(Parsed::Text(error.to_string()))
+                }
+                ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => Err(Error::Misuse(format!(
+                    "a command is missing; `{name} --help` shows the commands"
+                ))),
+                _ => Err(Error::Misuse(refusal::line(&error, &arguments))),
+            },
+        }
+    }
+}
+
+/// Runs `hopper` with the arguments and the streams of the process.
 pub fn main() -> ExitCode {
+    with_own_streams(&HOPPER)
+}
+
+/// Runs `nonsmooth` with the arguments and the streams of the process.
+pub fn nonsmooth_main() -> ExitCode {
+    with_own_streams(&NONSMOOTH)
+}
+
+fn with_own_streams(program: &Program) -> ExitCode {
     let input = std::io::stdin();
     let streams = Streams {
         input_is_terminal: input.is_terminal(),
@@ -18,23 +83,36 @@ pub fn main() -> ExitCode {
         output: &mut std::io::stdout().lock(),
         messages: &mut std::io::stderr(),
     };
-    ExitCode::from(run(std::env::args_os(), streams))
+    ExitCode::from(answer(program, std::env::args_os(), streams))
 }
 
-/// Runs one call, and returns its exit status. The first argument is the name of the program.
+/// Runs one call of `hopper`, and returns its exit status. The first argument is the name of the program.
 ///
 /// A refusal or a failure is one line on [`Streams::messages`]. A reader that closes the output ends the call
 /// without an error.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, streams: Streams<'_>) -> u8 {
+    answer(&HOPPER, arguments, streams)
+}
+
+/// Runs one call of `nonsmooth`, as [`run`] does of `hopper`.
+pub fn run_nonsmooth(arguments: impl IntoIterator<Item = OsString>, streams: Streams<'_>) -> u8 {
+    answer(&NONSMOOTH, arguments, streams)
+}
+
+fn answer(
+    program: &Program,
+    arguments: impl IntoIterator<Item = OsString>,
+    streams: Streams<'_>,
+) -> u8 {
     let Streams { input, input_is_terminal, output, messages } = streams;
     let mut output = BufWriter::new(output);
     let begin = Instant::now();
     let mut verbose = false;
-    let result = match cli::parse(arguments) {
+    let result = match program.parse(arguments) {
         Ok(Parsed::Command(command)) => {
             verbose = command.is_verbose();
             let (output, messages) = (&mut output, &mut *messages);
-            cli::start(*command, Streams { input, input_is_terminal, output, messages })
+            command.start(Streams { input, input_is_terminal, output, messages })
         }
         Ok(Parsed::Text(text)) => output.write_all(text.as_bytes()).map_err(Error::output),
         Err(refused) => Err(refused),

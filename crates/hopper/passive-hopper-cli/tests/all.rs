@@ -3,6 +3,7 @@
 
 #![allow(missing_docs, clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 
+mod any_model;
 mod basin_calls;
 mod cli_page;
 mod common;

@@ -6,7 +6,7 @@ pub(crate) mod intervals;
 pub(crate) mod map;
 pub(crate) mod orbit;
 pub(crate) mod page;
-mod search;
+pub(crate) mod search;
 pub(crate) mod texts;
 pub(crate) mod units;
 

@@ -1,6 +1,5 @@
-//! `hopper completions` and `hopper manual`: texts for shells and for `man`.
+//! `completions` and `manual`, of both programs: texts for shells and for `man`.
 
-use crate::cli::command_line;
 use crate::error::Error;
 use crate::refusal::shortened;
 use crate::streams::Streams;
@@ -22,20 +21,29 @@ pub(crate) struct Manual {
 }
 
 /// Prints what a shell needs to complete commands and options.
-pub(crate) fn completions(options: &Completions, streams: Streams<'_>) -> Result<(), Error> {
+pub(crate) fn completions(
+    options: &Completions,
+    mut program: clap::Command,
+    streams: Streams<'_>,
+) -> Result<(), Error> {
     let shell = match options.shell.as_str() {
         "bash" => Shell::Bash,
         "fish" => Shell::Fish,
         _ => Shell::Zsh,
     };
     let mut text = Vec::new();
-    clap_complete::generate(shell, &mut command_line(), "hopper", &mut text);
+    let name = program.get_name().to_owned();
+    clap_complete::generate(shell, &mut program, name, &mut text);
     streams.output.write_all(&text).map_err(Error::output)
 }
 
 /// Prints a page for `man`.
-pub(crate) fn manual(options: &Manual, streams: Streams<'_>) -> Result<(), Error> {
-    let program = command_line();
+pub(crate) fn manual(
+    options: &Manual,
+    program: clap::Command,
+    streams: Streams<'_>,
+) -> Result<(), Error> {
+    let own_name = program.get_name().to_owned();
     let command = match &options.command {
         None => program,
         Some(name) => {
@@ -45,7 +53,8 @@ pub(crate) fn manual(options: &Manual, streams: Streams<'_>) -> Result<(), Error
                 let reason = format!("there is no such command; there are: {}", names.join(", "));
                 return Err(Error::misuse("COMMAND", shortened(name), &reason));
             };
-            own.clone().display_name(format!("hopper-{name}")).bin_name(format!("hopper {name}"))
+            let own = own.clone().display_name(format!("{own_name}-{name}"));
+            own.bin_name(format!("{own_name} {name}"))
         }
     };
     let mut text = Vec::new();

@@ -19,7 +19,7 @@ pub(crate) struct TableKind {
 }
 
 /// A column.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Column {
     /// Its name, the same in all forms.
     pub(crate) name: &'static str,

@@ -1,0 +1,227 @@
+//! A model in a file: TOML or JSON with texts of formulas, or what `Equations::to_json` writes.
+
+use crate::error::Error;
+use equations::{Formulas, Names};
+use hybrid_system::Equations;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The largest file that is read: a model is some lines.
+const LARGEST: u64 = 1 << 24;
+
+/// A number, or a text with one: a formula of numbers, such as "2*pi/1.3", is one, too.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum Number {
+    Whole(i64),
+    Real(f64),
+    Text(String),
+}
+
+impl Number {
+    /// Its text. Decimals of a file are exact: 0.1 is a tenth.
+    pub(crate) fn text(&self) -> String {
+        match self {
+            Number::Whole(number) => number.to_string(),
+            Number::Real(number) => number.to_string(),
+            Number::Text(text) => text.clone(),
+        }
+    }
+}
+
+/// A model with the start of a run.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ModelFile {
+    states: Vec<String>,
+    #[serde(default)]
+    parameters: BTreeMap<String, Number>,
+    mode: Vec<Mode>,
+    #[serde(default)]
+    start: Start,
+}
+
+/// A mode: the rate of each state, and the surfaces that are watched in it.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Mode {
+    name: String,
+    rates: BTreeMap<String, Number>,
+    #[serde(default)]
+    surface: Vec<Surface>,
+}
+
+/// A surface with what happens there; without `resets`, `to` and `stops` nothing does.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Surface {
+    name: String,
+    guard: Option<String>,
+    #[serde(default)]
+    direction: Direction,
+    /// Times in place of a guard: the first one, and the time between two.
+    first: Option<Number>,
+    period: Option<Number>,
+    only_where: Option<String>,
+    #[serde(default)]
+    resets: BTreeMap<String, Number>,
+    to: Option<String>,
+    #[serde(default)]
+    stops: bool,
+}
+
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Direction {
+    Rising,
+    Falling,
+    #[default]
+    Either,
+}
+
+/// The start of a run.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Start {
+    /// The mode; without it the first one.
+    pub(crate) mode: Option<String>,
+    /// The states; those that are not named are 0.
+    #[serde(default)]
+    pub(crate) state: BTreeMap<String, Number>,
+    /// The time at which the run ends.
+    pub(crate) time: Option<f64>,
+}
+
+/// A model that was read.
+#[derive(Debug, Clone)]
+pub(crate) struct Model {
+    pub(crate) equations: Equations,
+    pub(crate) start: Start,
+    /// The modes, in their order.
+    pub(crate) modes: Vec<String>,
+}
+
+/// Reads a file. The ending .json says JSON; others are TOML.
+///
+/// # Errors
+/// [`Error::File`] for a file that cannot be read; [`Error::Misuse`] for one that is no model, with the place.
+pub(crate) fn read(path: &Path) -> Result<Model, Error> {
+    let failed = |source| Error::File { path: path.to_owned(), source };
+    let length = std::fs::metadata(path).map_err(failed)?.len();
+    let refused = |reason: String| Error::Misuse(format!("{}: {reason}", path.display()));
+    if length > LARGEST {
+        return Err(refused(format!("{length} bytes are no model; give a file below 16 MB")));
+    }
+    let text = std::fs::read_to_string(path).map_err(failed)?;
+    let is_json = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+    if is_json && text.contains("\"hybrid equations\"") {
+        let equations = Equations::from_json(&text).map_err(|error| refused(error.to_string()))?;
+        let parts = equations.mode_parts(&[]).map_err(|error| refused(error.to_string()))?;
+        let modes = parts.iter().map(|mode| mode.name.to_string()).collect();
+        return Ok(Model { equations, start: Start::default(), modes });
+    }
+    let file: ModelFile = match is_json {
+        true => serde_json::from_str(&text).map_err(|error| refused(error.to_string()))?,
+        false => toml::from_str(&text).map_err(|error| refused(in_line(&text, &error)))?,
+    };
+    let equations = equations_of(&file).map_err(&refused)?;
+    equations.check().map_err(|error| refused(error.to_string()))?;
+    let modes = file.mode.iter().map(|mode| mode.name.clone()).collect();
+    Ok(Model { equations, start: file.start, modes })
+}
+
+/// What is wrong with a text, and in which line.
+fn in_line(text: &str, error: &toml::de::Error) -> String {
+    let before = error.span().and_then(|span| text.get(..span.start));
+    let line = before.map_or(1, |before| before.lines().count().max(1));
+    format!("line {line}: {}", error.message().replace('\n', "; "))
+}
+
+/// The equations of a file.
+fn equations_of(file: &ModelFile) -> Result<Equations, String> {
+    let states: Vec<&str> = file.states.iter().map(String::as_str).collect();
+    let mut values = Vec::new();
+    for (name, value) in &file.parameters {
+        values.push((name, decimal(&value.text(), name)?));
+    }
+    let parameters: Vec<(&str, &str)> =
+        values.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
+    let mut equations = Equations::new(&states, &parameters);
+    for mode in &file.mode {
+        let what = format!("the rates of {}", mode.name);
+        let rates = in_order(&file.states, &mode.rates, &what, |state| {
+            Err(format!("{what}: none of {state}; give {state} = \"0\" if it stays"))
+        })?;
+        equations = equations.mode_text(&mode.name, &texts(&rates));
+        for surface in &mode.surface {
+            equations = with_surface(equations, &file.states, surface)?;
+        }
+    }
+    Ok(equations)
+}
+
+/// A parameter as a decimal. One that is a decimal already stays exact; a formula of numbers, such as "68*pi/180", is rounded to the nearest double.
+pub(super) fn decimal(text: &str, name: &str) -> Result<String, String> {
+    if text.trim().parse::<f64>().is_ok_and(f64::is_finite) {
+        return Ok(text.trim().to_owned());
+    }
+    let refused = |error: equations::Error| format!("the parameter {name}: {error}");
+    let formula = Names::new(&[], &[]).and_then(|names| Formulas::from_text(names, &[text]));
+    let value = formula.and_then(|formula| formula.values(0.0, &[])).map_err(refused)?;
+    Ok(value.first().copied().unwrap_or_default().to_string())
+}
+
+fn texts(all: &[String]) -> Vec<&str> {
+    all.iter().map(String::as_str).collect()
+}
+
+/// The texts of the states, in their order; `absent` gives those that are not named.
+fn in_order(
+    states: &[String],
+    named: &BTreeMap<String, Number>,
+    what: &str,
+    absent: impl Fn(&str) -> Result<String, String>,
+) -> Result<Vec<String>, String> {
+    if let Some(unknown) = named.keys().find(|name| !states.contains(name)) {
+        let known = states.join(", ");
+        return Err(format!("{what}: {unknown} is no state; the states are {known}"));
+    }
+    let own = |state: &String| named.get(state).map_or_else(|| absent(state), |own| Ok(own.text()));
+    states.iter().map(own).collect()
+}
+
+fn with_surface(
+    equations: Equations,
+    states: &[String],
+    surface: &Surface,
+) -> Result<Equations, String> {
+    let Surface { name, guard, direction, first, period, .. } = surface;
+    let mut equations = match (guard, first, period) {
+        (Some(guard), None, None) => match direction {
+            Direction::Rising => equations.rising_text(name, guard),
+            Direction::Falling => equations.falling_text(name, guard),
+            Direction::Either => equations.either_text(name, guard),
+        },
+        (None, first, Some(period)) => {
+            let first = first.as_ref().unwrap_or(period);
+            equations.clock_text(name, &first.text(), &period.text())
+        }
+        _ => {
+            let reason = "give a guard, or a period with the first time, and not both";
+            return Err(format!("the surface {name}: {reason}"));
+        }
+    };
+    if let Some(condition) = &surface.only_where {
+        equations = equations.only_where_text(condition);
+    }
+    if !surface.resets.is_empty() {
+        let what = format!("the resets of {name}");
+        let resets = in_order(states, &surface.resets, &what, |state| Ok(state.to_owned()))?;
+        equations = equations.resets_text(&texts(&resets));
+    }
+    if let Some(mode) = &surface.to {
+        equations = equations.to(mode);
+    }
+    Ok(if surface.stops { equations.stops() } else { equations })
+}

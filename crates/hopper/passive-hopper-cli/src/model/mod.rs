@@ -1,0 +1,25 @@
+//! The program `nonsmooth`: any hybrid system, from a file with its equations.
+//!
+//! ```text
+//!   file.rs      a model as TOML or JSON, and its equations
+//!   cli.rs       the commands
+//!   question.rs  what all commands ask: the model, its parameters, a start
+//!   columns.rs   tables whose columns are the states of a model
+//!   run.rs       a trajectory with its events
+//!   section.rs   the returns to a surface
+//!   branch.rs    periodic orbits along a parameter, with their bifurcations
+//!   basin.rs     attractors and the basins of a window
+//!   prove.rs     a periodic orbit that exists, with a certificate
+//! ```
+//!
+//! As `hopper` it holds no mathematics: the crates for any system answer.
+
+mod basin;
+mod branch;
+pub(crate) mod cli;
+mod columns;
+mod file;
+mod prove;
+mod question;
+mod run;
+mod section;

@@ -1,0 +1,177 @@
+//! `nonsmooth prove`: a periodic orbit that exists, with a certificate.
+
+use crate::commands::search;
+use crate::error::Error;
+use crate::model::question::{ModelOptions, failed, mode_of, named, point};
+use crate::options::form::OutputOptions;
+use crate::output::{Column, Table, TableKind};
+use crate::streams::Streams;
+use resumable_job::write_atomically;
+use std::path::PathBuf;
+use validated_dynamics::{
+    Certificate, Enclosure, ProvedFixedPoint, SectionMap, Trap, ValidatedSystem, fixed_point,
+};
+
+/// Prove that a return map has a periodic orbit near a point, with its multipliers and a part of its basin
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct Options {
+    #[command(flatten)]
+    model: ModelOptions,
+    /// The surface at which the map ends
+    #[arg(long)]
+    surface: String,
+    /// Events there until it ends
+    #[arg(long, default_value_t = 1)]
+    count: usize,
+    /// The mode in which it begins [default: that of the file, or the first one]
+    #[arg(long)]
+    mode: Option<String>,
+    /// The fixed point, roughly: the coordinates of the section, such as y=-8.4 z=0.03
+    #[arg(long, num_args = 1.., value_name = "NAME=VALUE", value_parser = named, required = true)]
+    near: Vec<(String, String)>,
+    /// The other states at the start, and the time t, as formulas of the coordinates, such as x=0; those that are not given are 0
+    #[arg(long, num_args = 1.., value_name = "NAME=FORMULA", value_parser = named)]
+    on: Vec<(String, String)>,
+    /// What is read behind the last event, in the order of the coordinates, such as y z "t - 2*pi" [default: the coordinates]
+    #[arg(long, num_args = 1.., value_name = "FORMULA", allow_hyphen_values = true)]
+    read: Vec<String>,
+    /// Boxes with which a trap is looked for about an orbit that attracts: all its points converge to the orbit
+    #[arg(long, default_value_t = 1000, value_name = "N")]
+    boxes: usize,
+    /// A certificate, which a second program confirms
+    #[arg(long)]
+    certificate: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: OutputOptions,
+}
+
+static PROVED: TableKind = TableKind {
+    name: "proved",
+    about: "what is proved: each row is an interval that holds the exact number",
+    long: false,
+    columns: &[
+        Column::new(
+            "quantity",
+            "",
+            "a coordinate of the one fixed point, the time of an event on the way, or a multiplier",
+        ),
+        Column::new("lower", "", "lower bound").bound(),
+        Column::new("upper", "", "upper bound").bound(),
+    ],
+};
+
+static ORBIT: TableKind = TableKind {
+    name: "orbit",
+    about: "the orbit",
+    long: false,
+    columns: &[
+        Column::new("kind", "", "attracting, a saddle, repelling, or not decided"),
+        Column::new("trap", "", "all starts nearer to it than this, along each coordinate, converge to it; empty without a trap").bound(),
+    ],
+};
+
+pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Error> {
+    let model = options.model.model()?;
+    let mode = mode_of(options.mode.as_deref(), &model)?;
+    let names: Vec<String> = options.near.iter().map(|(name, _)| name.clone()).collect();
+    let guess = point(&model, &names, &options.near, "--near")?;
+    let form = options.output.form(&[&PROVED, &ORBIT])?;
+    let state = |name: &String| {
+        let own = options.on.iter().find(|(known, _)| known == name);
+        let default = if names.contains(name) { name.clone() } else { "0".to_owned() };
+        own.map_or(default, |(_, formula)| formula.clone())
+    };
+    let mut states: Vec<String> = model.equations.names().states.iter().map(state).collect();
+    if !model.equations.is_autonomous() {
+        // The time is a component, too.
+        states.push(state(&"t".to_owned()));
+    }
+    let read = if options.read.is_empty() { names.clone() } else { options.read.clone() };
+    let own = options.clone();
+    let (texts, coordinates) = (read, names.clone());
+    let found = search::run(&options.output, &mut streams, move || {
+        let as_texts = |all: &[String]| -> Vec<String> { all.to_vec() };
+        let (variables, states, read) =
+            (as_texts(&coordinates), as_texts(&states), as_texts(&texts));
+        fn plain(all: &[String]) -> Vec<&str> {
+            all.iter().map(String::as_str).collect()
+        }
+        let system = ValidatedSystem::new(&model.equations).map_err(failed)?;
+        let chart = system.chart(&mode, &plain(&variables), &plain(&states)).map_err(failed)?;
+        let map = SectionMap::new(&system, chart, &own.surface, own.count, &plain(&read));
+        let mut map = map.map_err(failed)?;
+        if own.certificate.is_some() {
+            map = map.recorded();
+        }
+        let orbit = fixed_point(&map, &guess, &[]).map_err(failed)?;
+        let trap = orbit.is_attracting().then(|| Trap::new(&map, &orbit, own.boxes).ok()).flatten();
+        let mut text = None;
+        if own.certificate.is_some() {
+            let mut certificate = Certificate::new("nonsmooth");
+            certificate.fixed_point(&map, &orbit).map_err(failed)?;
+            if let Some(trap) = &trap {
+                certificate.trap(&map, trap).map_err(failed)?;
+            }
+            text = Some(certificate.text());
+        }
+        Ok((orbit, trap, text))
+    })?;
+    let (orbit, trap, text) = found;
+    if let (Some(file), Some(text)) = (&options.certificate, text) {
+        write_atomically(file, text.as_bytes())?;
+        options.output.note(&mut streams, format_args!("wrote {}", file.display()));
+    }
+    form.print(&[proved(&names, &orbit), kind(&orbit, trap.as_ref())], streams.output)
+}
+
+fn proved(names: &[String], orbit: &ProvedFixedPoint) -> Table {
+    let mut found = Table::new(&PROVED);
+    for (name, x) in names.iter().zip(&orbit.point) {
+        found.push([name.clone().into(), x.low().into(), x.high().into()]);
+    }
+    for event in &orbit.image.events {
+        let time = event.time;
+        found.push([
+            format!("time of {}", event.surface).into(),
+            time.low().into(),
+            time.high().into(),
+        ]);
+    }
+    for (at, own) in orbit.multipliers.iter().enumerate() {
+        let around = |x: f64| ((x - own.radius).next_down(), (x + own.radius).next_up());
+        let (real, imaginary) = (around(own.real), around(own.imaginary));
+        let name = format!("multiplier {}", at + 1);
+        found.push([name.clone().into(), real.0.into(), real.1.into()]);
+        if own.imaginary != 0.0 {
+            let name = format!("{name}, imaginary part");
+            found.push([name.into(), imaginary.0.into(), imaginary.1.into()]);
+        }
+    }
+    found
+}
+
+fn kind(orbit: &ProvedFixedPoint, trap: Option<&Trap>) -> Table {
+    let word = match (orbit.is_attracting(), orbit.is_saddle()) {
+        (true, _) => "attracting",
+        (_, true) => "a saddle",
+        _ => "repelling, or not decided",
+    };
+    let mut found = Table::new(&ORBIT);
+    let reach = trap.and_then(reach);
+    found.push([word.into(), reach.into()]);
+    found
+}
+
+/// Halvings until a cube is in a trap: some are enough unless its directions are nearly one.
+const HALVINGS: usize = 60;
+
+/// Half of the side of a cube about the trap's centre that is in the trap, for certain.
+fn reach(trap: &Trap) -> Option<f64> {
+    let cube = |half: f64| {
+        let side = |x: &f64| Enclosure::new((x - half).next_down(), (x + half).next_up());
+        trap.centre().iter().map(side).collect::<Vec<Enclosure>>()
+    };
+    // Directions have the length 1, so that no cube is much larger than the trap.
+    let mut halves = (0..HALVINGS).map(|k| trap.size() * 0.5f64.powi(k as i32));
+    halves.find(|half| trap.contains(&cube(*half)))
+}

@@ -1,0 +1,187 @@
+//! `nonsmooth`: files that are models, and those that are none.
+
+use passive_hopper_cli::{Streams, run_nonsmooth};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A call: its exit status, its output, and its messages.
+fn call(arguments: &[&str]) -> (u8, String, String) {
+    let (mut output, mut messages) = (Vec::new(), Vec::new());
+    let streams = Streams {
+        input: &mut std::io::empty(),
+        input_is_terminal: false,
+        output: &mut output,
+        messages: &mut messages,
+    };
+    let all = std::iter::once("nonsmooth").chain(arguments.iter().copied());
+    let code = run_nonsmooth(all.map(Into::into), streams);
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (code, text(output), text(messages))
+}
+
+fn model(name: &str) -> String {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models");
+    folder.join(name).to_str().unwrap().to_owned()
+}
+
+/// A file with this text, for one test.
+struct File(PathBuf);
+
+impl File {
+    fn new(name: &str, text: &str) -> File {
+        static NEXT: AtomicUsize = AtomicUsize::new(0);
+        let number = NEXT.fetch_add(1, Ordering::Relaxed);
+        let path = std::env::temp_dir().join(format!("{}_{number}_{name}", std::process::id()));
+        std::fs::write(&path, text).unwrap();
+        File(path)
+    }
+
+    fn path(&self) -> &str {
+        self.0.to_str().unwrap()
+    }
+}
+
+impl Drop for File {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_file(&self.0);
+    }
+}
+
+#[test]
+fn the_same_model_as_toml_as_json_and_as_equations() {
+    let toml = call(&["run", &model("thermostat.toml"), "--json"]);
+    let json = File::new(
+        "thermostat.json",
+        r#"{"states": ["room"], "parameters": {"outside": 10, "heater": 20},
+            "mode": [{"name": "on", "rates": {"room": "outside + heater - room"},
+                      "surface": [{"name": "warm", "guard": "room - 21", "direction": "rising", "to": "off"}]},
+                     {"name": "off", "rates": {"room": "outside - room"},
+                      "surface": [{"name": "cold", "guard": "room - 19", "direction": "falling", "to": "on"}]}],
+            "start": {"state": {"room": 15}, "time": 2}}"#,
+    );
+    assert_eq!(toml.0, 0, "{}", toml.2);
+    assert_eq!(call(&["run", json.path(), "--json"]).1, toml.1);
+    let equations =
+        hybrid_system::Equations::new(&["room"], &[("outside", "10"), ("heater", "20")])
+            .mode_text("on", &["outside + heater - room"])
+            .rising_text("warm", "room - 21")
+            .to("off")
+            .mode_text("off", &["outside - room"])
+            .falling_text("cold", "room - 19")
+            .to("on");
+    let file = File::new("equations.json", &equations.to_json().unwrap());
+    assert_eq!(
+        call(&["run", file.path(), "--start", "room=15", "--time", "2", "--json"]).1,
+        toml.1
+    );
+}
+
+#[test]
+fn the_bounces_of_a_ball_are_those_of_its_formula() {
+    let (code, csv, _) = call(&["run", &model("ball.toml"), "--csv"]);
+    assert_eq!(code, 0);
+    let mut time = (2.0f64 / 9.81).sqrt();
+    let mut flight = 2.0 * 0.8 * time;
+    for line in csv.lines().skip(1) {
+        let found: f64 = line.split(',').next().unwrap().parse().unwrap();
+        assert!((found - time).abs() < 1e-13, "{line}");
+        time += flight;
+        flight *= 0.8;
+    }
+    // Behind their limit there is nothing, and the end says so.
+    let (code, end, _) = call(&["run", &model("ball.toml"), "--time", "9", "--table", "end"]);
+    assert!(code == 0 && end.contains("(Zeno)"), "{end}");
+}
+
+#[test]
+fn a_proof_holds_what_a_run_finds() {
+    let certificate = File::new("rossler.jsonl", "");
+    let rossler = model("rossler.toml");
+    let proof = ["prove", &rossler, "--surface", "section", "--near", "y=-8.4", "z=0.03", "--csv"];
+    let (code, csv, messages) =
+        call(&[&proof[..], &["--certificate", certificate.path()]].concat());
+    assert_eq!(code, 0, "{messages}");
+    let numbers: Vec<f64> =
+        csv.lines().nth(1).unwrap().split(',').skip(1).map(|x| x.parse().unwrap()).collect();
+    assert!(numbers[0] < numbers[1] && numbers[1] - numbers[0] < 1e-11);
+    assert!(numbers[0] < -8.38094174282988 && -8.38094174282988 < numbers[1], "{csv}");
+    assert!(std::fs::read_to_string(&certificate.0).unwrap().contains("fixed-point"));
+    // Damped and forced: the orbit attracts, and a cube about it, too.
+    let forced = File::new(
+        "forced.toml",
+        "states = ['x', 'v']\n[[mode]]\nname = 'free'\nrates = { x = 'v', v = 'cos(t) - v - 2*x' }\n\
+         [[mode.surface]]\nname = 'period'\nguard = 't - 2*pi'\ndirection = 'rising'\n",
+    );
+    let proof =
+        ["prove", forced.path(), "--surface", "period", "--near", "x=0.5", "v=0.5", "--json"];
+    let (code, json, messages) = call(&proof);
+    assert_eq!(code, 0, "{messages}");
+    let found: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(found["orbit"][0]["kind"], "attracting");
+    assert!(found["orbit"][0]["trap"].as_f64().unwrap() > 0.1, "{json}");
+}
+
+#[test]
+fn what_is_wrong_is_said_in_one_line_with_its_place() {
+    let ball = model("ball.toml");
+    let file = |text: &str| File::new("broken.toml", text);
+    let broken = [
+        (file("states = ["), "line 1: unclosed array"),
+        (file("states = ['x']\nmodes = 3"), "unknown field `modes`"),
+        (file("states = ['x']\n[[mode]]\nname = 'a'\nrates = { x = 'sin(x' }"), "')' is expected"),
+        (file("states = ['x', 'y']\n[[mode]]\nname = 'a'\nrates = { x = 'y' }"), "none of y"),
+        (file("states = ['x']\n[[mode]]\nname = 'a'\nrates = { x = 'q + 10' }"), "q"),
+        (
+            file("states = ['x']\n[[mode]]\nname = 'a'\nrates = { x = 1, z = 2345 }"),
+            "z is no state",
+        ),
+        (
+            file(
+                "states = ['x']\n[[mode]]\nname = 'a'\nrates = { x = 1 }\n[[mode.surface]]\nname = 's'\nguard = 'x'\nto = 'b'",
+            ),
+            "b",
+        ),
+        (
+            file(
+                "states = ['x']\n[[mode]]\nname = 'a'\nrates = { x = 1 }\n[[mode.surface]]\nname = 'nothing'",
+            ),
+            "give a guard, or a period",
+        ),
+    ];
+    for (file, words) in &broken {
+        let (code, output, messages) = call(&["run", file.path(), "--time", "1"]);
+        assert_eq!((code, output.as_str()), (2, ""), "{messages}");
+        assert!(messages.contains(words) && messages.lines().count() == 1, "{words}: {messages}");
+    }
+    let refused = [
+        (vec!["run", &ball, "--start", "w=1"], 2, "there are: h, v"),
+        (vec!["run", &ball, "--start", "h"], 2, "x=1"),
+        (vec!["run", &ball, "--set", "q=1"], 2, "there are: g, restitution"),
+        (vec!["run", &ball, "--mode", "rest"], 2, "there are: flight"),
+        (vec!["section", &ball, "--surface", "roof"], 2, "there are: floor"),
+        (vec!["section", &ball, "--surface", "floor", "--skip", "5000"], 1, "no return to floor"),
+        (vec!["basin", &ball, "--window", "h=0:1", "--step", "1"], 2, "give one for each state"),
+        (vec!["prove", &ball, "--surface", "floor", "--near", "v=1"], 1, "floor"),
+        (vec!["run", "/nowhere.toml"], 1, "/nowhere.toml"),
+        (vec![], 2, "`nonsmooth --help`"),
+    ];
+    for (arguments, status, words) in refused {
+        let (code, output, messages) = call(&arguments);
+        assert_eq!((code, output.as_str()), (status, ""), "{arguments:?}: {messages}");
+        assert!(messages.contains(words) && messages.lines().count() == 1, "{words}: {messages}");
+    }
+}
+
+#[test]
+fn its_help_its_completions_and_its_manual_are_its_own() {
+    for (arguments, words) in [
+        (&["--help"][..], "rates = {"),
+        (&["prove", "--help"], "--certificate"),
+        (&["completions", "bash"], "nonsmooth"),
+        (&["manual", "basin"], "nonsmooth\\-basin"),
+    ] {
+        let (code, output, messages) = call(arguments);
+        assert_eq!(code, 0, "{messages}");
+        assert!(output.contains(words), "{arguments:?}: {output}");
+    }
+}
