@@ -2,6 +2,7 @@
 
 use crate::commands::{self, Page};
 use crate::error::Error;
+use crate::options::form::OutputOptions;
 use crate::program::Call;
 use crate::streams::Streams;
 use clap::{CommandFactory, Parser, Subcommand};
@@ -65,16 +66,16 @@ pub(crate) enum Command {
 }
 
 impl Call for Command {
-    fn is_verbose(&self) -> bool {
+    fn output(&self) -> Option<&OutputOptions> {
         match self {
-            Command::Hop(options) => options.output.is_verbose(),
-            Command::Orbit(options) => options.output.is_verbose(),
-            Command::Fate(options) => options.output.is_verbose(),
-            Command::Basins(options) => options.output.is_verbose(),
-            Command::Map(options) => options.output.is_verbose(),
-            Command::Intervals(options) => options.output.is_verbose(),
-            Command::Units(options) => options.output.is_verbose(),
-            Command::Completions(_) | Command::Manual(_) => false,
+            Command::Hop(options) => Some(&options.output),
+            Command::Orbit(options) => Some(&options.output),
+            Command::Fate(options) => Some(&options.output),
+            Command::Basins(options) => Some(&options.output),
+            Command::Map(options) => Some(&options.output),
+            Command::Intervals(options) => Some(&options.output),
+            Command::Units(options) => Some(&options.output),
+            Command::Completions(_) | Command::Manual(_) => None,
         }
     }
 

@@ -75,6 +75,12 @@ pub(crate) enum Error {
     /// A model of a file could not be followed, or a statement about it is not proved: in the words of the library.
     #[error("{0}")]
     Model(String),
+    /// Fates are undecided, and --strict was given.
+    #[error("{count} of the fates are undecided (--strict); their reasons are in the output")]
+    Undecided {
+        /// How many.
+        count: u64,
+    },
     /// A figure could not be encoded.
     #[error(transparent)]
     Figure(#[from] journal_figures::Error),

@@ -1,6 +1,7 @@
 //! One call of a program: from its arguments to its exit status.
 
 use crate::error::Error;
+use crate::options::form::OutputOptions;
 use crate::streams::Streams;
 use crate::{cli, model, refusal};
 use clap::FromArgMatches;
@@ -12,8 +13,8 @@ use std::time::Instant;
 
 /// A call of one of the programs: a command with its options.
 pub(crate) trait Call {
-    /// Whether --verbose is given.
-    fn is_verbose(&self) -> bool;
+    /// The options of its output; `None` for a text.
+    fn output(&self) -> Option<&OutputOptions>;
 
     /// Runs it.
     fn start(self: Box<Self>, streams: Streams<'_>) -> Result<(), Error>;
@@ -99,6 +100,15 @@ pub fn run_nonsmooth(arguments: impl IntoIterator<Item = OsString>, streams: Str
     answer(&NONSMOOTH, arguments, streams)
 }
 
+/// Sets the number of threads of the process, if one is given.
+fn with_threads(threads: Option<u16>) -> Result<(), Error> {
+    let Some(threads) = threads else { return Ok(()) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads));
+    // Within a process that has computed before, the number is fixed.
+    let refused = |error| Error::Misuse(format!("--threads {threads}: {error}"));
+    pool.build_global().map_err(refused)
+}
+
 fn answer(
     program: &Program,
     arguments: impl IntoIterator<Item = OsString>,
@@ -110,9 +120,13 @@ fn answer(
     let mut verbose = false;
     let result = match program.parse(arguments) {
         Ok(Parsed::Command(command)) => {
-            verbose = command.is_verbose();
+            let options = command.output();
+            verbose = options.is_some_and(OutputOptions::is_verbose);
+            let threads = options.and_then(OutputOptions::threads);
             let (output, messages) = (&mut output, &mut *messages);
-            command.start(Streams { input, input_is_terminal, output, messages })
+            with_threads(threads).and_then(|()| {
+                command.start(Streams { input, input_is_terminal, output, messages })
+            })
         }
         Ok(Parsed::Text(text)) => output.write_all(text.as_bytes()).map_err(Error::output),
         Err(refused) => Err(refused),

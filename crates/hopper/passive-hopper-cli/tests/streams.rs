@@ -116,3 +116,51 @@ fn figures_and_motions_go_to_standard_output() {
     let (position, velocity) = (next[3].parse::<f64>().unwrap(), next[4].parse::<f64>().unwrap());
     assert!((position - 1.0).abs() < 1e-12 && (velocity - 5.4319312674983316).abs() < 1e-12);
 }
+
+#[test]
+fn lines_of_json_are_the_rows() {
+    let lines = call(&["fate", "-M", "0.2", "--ndjson"], b"4.55\n7\n").output;
+    let whole = call(&["fate", "4.55", "7", "-M", "0.2", "--json"], b"").output;
+    let whole: serde_json::Value = serde_json::from_str(&whole).unwrap();
+    let rows: Vec<serde_json::Value> =
+        lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(&serde_json::Value::from(rows), &whole["fates"]);
+    // Another table, and a command whose rows come at once.
+    let landings = call(&["hop", "7", "-M", "0.2", "--ndjson", "--table", "landings"], b"").output;
+    assert_eq!(landings.lines().count(), 2);
+    assert!(call(&["hop", "7", "-M", "0.2", "--ndjson", "--csv"], b"").code == 2);
+}
+
+#[test]
+fn wrong_lines_are_passed_over_if_that_is_asked_for() {
+    let input = b"4.55\nseven\n\n7\n-1\n";
+    let found = call(&["fate", "-M", "0.2", "--csv", "--skip-invalid"], input);
+    assert_eq!((found.code, found.output.lines().count()), (0, 3));
+    assert!(found.messages.starts_with("2 lines were passed over; the first is line 2, 'seven'"));
+    let quiet = call(&["fate", "-M", "0.2", "--csv", "--skip-invalid", "--quiet"], input);
+    assert_eq!((quiet.output, quiet.messages.as_str()), (found.output, ""));
+}
+
+#[test]
+fn undecided_fates_are_an_error_if_that_is_asked_for() {
+    let undecided = ["fate", "-M", "1e-12", "--csv"];
+    for (strict, code) in [(&[][..], 0), (&["--strict"], 1)] {
+        let given = call(&[&undecided[..], &["1e12"], strict].concat(), b"");
+        let read = call(&[&undecided[..], strict].concat(), b"1e12\n");
+        assert_eq!((given.code, read.code), (code, code), "{}", given.messages);
+        assert!(given.output == read.output && given.output.contains("1024 bits do not decide"));
+        assert_eq!(given.messages.contains("1 of the fates are undecided"), code == 1);
+    }
+    assert_eq!(call(&["fate", "7", "-M", "0.2", "--strict"], b"").code, 0);
+}
+
+#[test]
+fn the_number_of_threads_does_not_change_a_row() {
+    let rows = |threads: &str| {
+        let mut done = program();
+        done.args(["fate", "4.55", "7", "-M", "0.2", "--csv", "--threads", threads]);
+        done.output().unwrap().stdout
+    };
+    assert!(!rows("1").is_empty() && rows("1") == rows("3"));
+    assert_eq!(call(&["fate", "7", "-M", "0.2", "--threads", "0"], b"").code, 2);
+}

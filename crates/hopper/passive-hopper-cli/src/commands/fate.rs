@@ -5,10 +5,12 @@ use crate::error::Error;
 use crate::options::form::OutputOptions;
 use crate::options::{lines, values};
 use crate::output::{Cell, Column, Form, Rows, Table, TableKind};
+use crate::refusal::one_line;
 use crate::streams::Streams;
 use basin_of_attraction::UndecidedReason;
 use hopper_basin::{Fates, HOP_BUDGET, HopperFate};
 use passive_hopper::MassRatio;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
@@ -20,6 +22,12 @@ pub(crate) struct Options {
     /// The mass ratio M = m₂/m₁, lower mass over upper mass
     #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_hyphen_values = true)]
     mass_ratio: MassRatio,
+    /// Pass over lines of the input that are no speed; a note says how many, and the first one
+    #[arg(long)]
+    skip_invalid: bool,
+    /// Exit with status 1 if a fate is undecided
+    #[arg(long)]
+    strict: bool,
     #[command(flatten)]
     pub(crate) output: OutputOptions,
 }
@@ -33,7 +41,8 @@ pub(crate) const PAGE: Page = Page {
              hundreds of landings.\n\
              Of the input, empty lines, lines that begin with # and a byte order mark are passed over. A line with \
              anything but one speed ends\n\
-             the call with status 2 and the number of the line; the fates of the lines before it have been written.",
+             the call with status 2 and the number of the line; the fates of the lines before it have been written. With \
+             --skip-invalid it is passed over.",
     tables: &[&FATES],
     examples: &[
         Example { about: "Two fates.", line: "hopper fate 7.0 4.55 -M 0.2" },
@@ -78,30 +87,66 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     let form = options.output.form(PAGE.tables)?;
     let fates = Fates::new(options.mass_ratio)?;
     if values::from_input("SPEED", &options.speeds)? {
-        return filter(&fates, form, &mut streams);
+        return filter(&fates, options, form, &mut streams);
     }
     let speeds: Vec<f64> = values::speeds(&options.speeds).collect();
     let mut table = Table::new(&FATES);
     for (&speed, found) in speeds.iter().zip(fates.fates_within(&speeds, HOP_BUDGET)?) {
         table.push(row(&fates, speed, found)?);
     }
-    form.print(&[table], streams.output)
+    let undecided = table.rows.iter().filter(|row| row[1] == UNDECIDED.into()).count();
+    form.print(&[table], streams.output)?;
+    options.judged(undecided as u64)
+}
+
+const UNDECIDED: &str = "undecided";
+
+impl Options {
+    /// An error if fates are undecided, and that is one.
+    fn judged(&self, undecided: u64) -> Result<(), Error> {
+        match self.strict && undecided > 0 {
+            true => Err(Error::Undecided { count: undecided }),
+            false => Ok(()),
+        }
+    }
 }
 
 /// The fates of the speeds on standard input.
-fn filter(fates: &Fates, form: Form, streams: &mut Streams<'_>) -> Result<(), Error> {
+fn filter(
+    fates: &Fates,
+    options: &Options,
+    form: Form,
+    streams: &mut Streams<'_>,
+) -> Result<(), Error> {
     let (rows, start) = form.rows(&FATES, &WIDTHS);
     streams.output.write_all(start.as_bytes()).map_err(Error::output)?;
-    let part = |values: &[f64], first: bool| part(fates, rows.continued(!first), values);
-    lines::filter(streams, values::speed, part)?;
-    streams.output.write_all(rows.end().as_bytes()).map_err(Error::output)
+    let undecided = AtomicU64::new(0);
+    let part =
+        |values: &[f64], first: bool| part(fates, rows.continued(!first), values, &undecided);
+    let skipped = lines::filter(streams, options.skip_invalid, values::speed, part)?;
+    streams.output.write_all(rows.end().as_bytes()).map_err(Error::output)?;
+    if let Some((line, text, reason)) = skipped.first {
+        let count = skipped.count;
+        let note =
+            format!("{count} lines were passed over; the first is line {line}, '{text}': {reason}");
+        options.output.note(streams, one_line(&note));
+    }
+    options.judged(undecided.into_inner())
 }
 
 /// The rows of some speeds, as text.
-fn part(fates: &Fates, mut rows: Rows, speeds: &[f64]) -> Result<String, Error> {
+fn part(
+    fates: &Fates,
+    mut rows: Rows,
+    speeds: &[f64],
+    undecided: &AtomicU64,
+) -> Result<String, Error> {
     // A row of CSV has about 64 bytes.
     let mut text = String::with_capacity(64 * speeds.len());
     for (&speed, found) in speeds.iter().zip(fates.fates_within(speeds, HOP_BUDGET)?) {
+        if matches!(found.0, HopperFate::Undecided(_)) {
+            undecided.fetch_add(1, Ordering::Relaxed);
+        }
         rows.append(&row(fates, speed, found)?, &mut text);
     }
     Ok(text)
@@ -117,7 +162,7 @@ pub(crate) fn row(
         HopperFate::Incessant { n } => ("incessant", Some(n), None),
         HopperFate::Decaying => ("decaying", Some(0), None),
         HopperFate::Grounded => ("grounded", None, None),
-        HopperFate::Undecided(reason) => ("undecided", None, Some(why(reason))),
+        HopperFate::Undecided(reason) => (UNDECIDED, None, Some(why(reason))),
     };
     let trap = n.map(|n| fates.trap(n)).transpose()?;
     Ok([

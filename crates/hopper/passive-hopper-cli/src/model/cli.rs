@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::model::{basin, branch, prove, run, section};
+use crate::options::form::OutputOptions;
 use crate::program::Call;
 use crate::streams::Streams;
 use clap::{Parser, Subcommand};
@@ -80,14 +81,14 @@ pub(crate) fn command_line() -> clap::Command {
 }
 
 impl Call for Command {
-    fn is_verbose(&self) -> bool {
+    fn output(&self) -> Option<&OutputOptions> {
         match self {
-            Command::Run(options) => options.output.is_verbose(),
-            Command::Section(options) => options.output.is_verbose(),
-            Command::Branch(options) => options.output.is_verbose(),
-            Command::Basin(options) => options.output.is_verbose(),
-            Command::Prove(options) => options.output.is_verbose(),
-            Command::Completions(_) | Command::Manual(_) => false,
+            Command::Run(options) => Some(&options.output),
+            Command::Section(options) => Some(&options.output),
+            Command::Branch(options) => Some(&options.output),
+            Command::Basin(options) => Some(&options.output),
+            Command::Prove(options) => Some(&options.output),
+            Command::Completions(_) | Command::Manual(_) => None,
         }
     }
 

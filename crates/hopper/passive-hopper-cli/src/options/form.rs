@@ -12,12 +12,18 @@ pub(crate) struct OutputOptions {
     /// Print JSON: an object with every table as an array of rows
     #[arg(long, conflicts_with = "csv")]
     json: bool,
+    /// Print JSON, an object on a line of its own for each row: the first table, or that of --table
+    #[arg(long, conflicts_with_all = ["csv", "json"])]
+    ndjson: bool,
     /// Print CSV with one line of names: the first table, or that of --table
     #[arg(long)]
     csv: bool,
     /// Print this table only
     #[arg(long, value_name = "NAME")]
     table: Option<String>,
+    /// Use so many threads [default: one for each processor]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
     /// Print no notes on standard error
     #[arg(short, long, conflicts_with = "verbose")]
     quiet: bool,
@@ -32,9 +38,10 @@ impl OutputOptions {
     /// # Errors
     /// [`Error::Misuse`] for a table that is none of them.
     pub(crate) fn form(&self, tables: &[&'static TableKind]) -> Result<Form, Error> {
-        let form = match (self.json, self.csv) {
-            (true, _) => Form::json(),
-            (_, true) => Form::csv(),
+        let form = match (self.json, self.csv, self.ndjson) {
+            (true, ..) => Form::json(),
+            (_, true, _) => Form::csv(),
+            (.., true) => Form::ndjson(),
             _ => Form::plain(),
         };
         let Some(name) = &self.table else { return Ok(form) };
@@ -46,6 +53,11 @@ impl OutputOptions {
                 Err(Error::misuse("--table", shortened(name), &reason))
             }
         }
+    }
+
+    /// The number of threads, if one is given.
+    pub(crate) fn threads(&self) -> Option<u16> {
+        self.threads
     }
 
     /// Whether notes are not wanted.

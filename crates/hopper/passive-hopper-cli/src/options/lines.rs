@@ -22,17 +22,28 @@ const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 /// kernel less; with a larger one the threads wait for the last of them.
 const PART: usize = 1 << 15;
 
+/// Lines that were passed over.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(crate) struct Skipped {
+    /// How many.
+    pub(crate) count: u64,
+    /// The number of the first one, its text, and what is wrong.
+    pub(crate) first: Option<(u64, String, String)>,
+}
+
 /// Reads numbers with `value` from all lines, and writes the texts that `write` makes of them, in their order.
-/// `write` is told whether its numbers are the first.
+/// `write` is told whether its numbers are the first. Lines that are no number are passed over if `skips`.
 ///
 /// # Errors
 /// [`Error::Misuse`] if a person would have to type the lines; [`Error::Input`] for a line that is no number, after
 /// the texts of the lines before it; the errors of `write` and of the streams.
 pub(crate) fn filter(
     streams: &mut Streams<'_>,
+    skips: bool,
     value: impl Fn(&str) -> Result<f64, String> + Sync,
     write: impl Fn(&[f64], bool) -> Result<String, Error> + Sync,
-) -> Result<(), Error> {
+) -> Result<Skipped, Error> {
+    let mut skipped = Skipped::default();
     if streams.input_is_terminal {
         return Err(Error::Misuse(
             "SPEED: no speed is given, and standard input is a terminal; give speeds, or a file: hopper fate -M 0.2 < \
@@ -69,7 +80,7 @@ pub(crate) fn filter(
         }
         let lines = &block[std::mem::take(&mut start)..end];
         let parts: Vec<ReadLines> =
-            parts(lines).map(|bytes| ReadLines::read(bytes, &value)).collect();
+            parts(lines).map(|bytes| ReadLines::read(bytes, skips, &value)).collect();
         let first = parts.iter().position(|part| !part.values.is_empty());
         let texts: Vec<_> = parts
             .par_iter()
@@ -78,7 +89,10 @@ pub(crate) fn filter(
             .collect();
         for (part, text) in parts.into_iter().zip(texts) {
             streams.output.write_all(text?.as_bytes()).map_err(Error::output)?;
-            if let Some((at, text, reason)) = part.wrong {
+            skipped.count += part.skipped;
+            if let (true, Some((at, text, reason))) = (skips, &part.wrong) {
+                skipped.first.get_or_insert((line + at, text.clone(), reason.clone()));
+            } else if let Some((at, text, reason)) = part.wrong {
                 streams.output.flush().map_err(Error::output)?;
                 return Err(Error::Input { line: line + at, text, reason });
             }
@@ -87,7 +101,7 @@ pub(crate) fn filter(
         begun |= first.is_some();
         streams.output.flush().map_err(Error::output)?;
         if read == 0 {
-            return Ok(());
+            return Ok(skipped);
         }
         block.copy_within(end..filled, 0);
         kept = filled - end;
@@ -106,18 +120,23 @@ fn parts(mut bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     })
 }
 
-/// The numbers of some lines, up to the first wrong one.
+/// The numbers of some lines, up to the first wrong one, unless wrong ones are passed over.
 struct ReadLines {
     values: Vec<f64>,
     lines: u64,
-    /// The number of the wrong line in this part, its text, and what is wrong.
+    skipped: u64,
+    /// The number of the first wrong line in this part, its text, and what is wrong.
     wrong: Option<(u64, String, String)>,
 }
 
 impl ReadLines {
-    fn read(bytes: &[u8], value: &impl Fn(&str) -> Result<f64, String>) -> Self {
-        let mut part =
-            ReadLines { values: Vec::with_capacity(bytes.len() / 8), lines: 0, wrong: None };
+    fn read(bytes: &[u8], skips: bool, value: &impl Fn(&str) -> Result<f64, String>) -> Self {
+        let mut part = ReadLines {
+            values: Vec::with_capacity(bytes.len() / 8),
+            lines: 0,
+            skipped: 0,
+            wrong: None,
+        };
         let whole = bytes.strip_suffix(b"\n").unwrap_or(bytes);
         for line in whole.split(|&byte| byte == b'\n') {
             part.lines += 1;
@@ -133,8 +152,11 @@ impl ReadLines {
                 Ok(value) => part.values.push(value),
                 Err(reason) => {
                     let text = shortened(&String::from_utf8_lossy(line));
-                    part.wrong = Some((part.lines, text, reason));
-                    break;
+                    part.wrong.get_or_insert((part.lines, text, reason));
+                    if !skips {
+                        break;
+                    }
+                    part.skipped += 1;
                 }
             }
         }
@@ -174,7 +196,7 @@ mod tests {
                 .collect())
         };
         let value = |text: &str| text.parse().map_err(|_| "it is no number".to_owned());
-        let result = filter(&mut streams, value, write);
+        let result = filter(&mut streams, false, value, write).map(drop);
         (String::from_utf8(output).unwrap(), result)
     }
 

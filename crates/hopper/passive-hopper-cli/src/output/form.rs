@@ -5,7 +5,7 @@ use crate::output::table::{Cell, Table, TableKind};
 use crate::output::{csv, json, plain};
 use std::io::Write;
 
-/// Plain text, CSV or JSON, and which tables.
+/// Plain text, CSV, JSON or lines of JSON, and which tables.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Form {
     style: Style,
@@ -17,6 +17,7 @@ enum Style {
     Plain,
     Csv,
     Json,
+    Ndjson,
 }
 
 impl Form {
@@ -35,6 +36,11 @@ impl Form {
         Form { style: Style::Json, only: None }
     }
 
+    /// An object on a line of its own for each row of the first table.
+    pub(crate) const fn ndjson() -> Self {
+        Form { style: Style::Ndjson, only: None }
+    }
+
     /// The same form, with this table alone.
     pub(crate) fn only(self, table: &'static TableKind) -> Self {
         Form { only: Some(table), ..self }
@@ -45,7 +51,9 @@ impl Form {
         match (self.only, self.style) {
             (Some(only), _) => only == table,
             (None, Style::Plain) => !table.long,
-            (None, Style::Csv) => tables.first().is_some_and(|first| *first == table),
+            (None, Style::Csv | Style::Ndjson) => {
+                tables.first().is_some_and(|first| *first == table)
+            }
             (None, Style::Json) => true,
         }
     }
@@ -67,6 +75,10 @@ impl Form {
                 Style::Csv => {
                     csv::append_names(table.kind, &mut text);
                     table.rows.iter().for_each(|row| csv::append_row(table.kind, row, &mut text));
+                }
+                Style::Ndjson => {
+                    let mut rows = Rows::new(*self, table.kind, &[]);
+                    table.rows.iter().for_each(|row| rows.append(row, &mut text));
                 }
                 Style::Json => {
                     text += if at == 0 { "{" } else { "" };
@@ -94,6 +106,7 @@ impl Form {
                 text.push('{');
                 rows.append_start(&mut text);
             }
+            Style::Ndjson => {}
         }
         (rows, text)
     }
@@ -132,6 +145,10 @@ impl Rows {
             Style::Json => {
                 *text += if self.begun { ",\n    " } else { "\n    " };
                 json::append_row(self.kind, row, text);
+            }
+            Style::Ndjson => {
+                json::append_row(self.kind, row, text);
+                text.push('\n');
             }
         }
         self.begun = true;
