@@ -7,7 +7,7 @@ use crate::{
     check_builds, check_certificates, check_dependencies, check_explorer, check_formal,
     check_python,
 };
-use crate::{explore, python_release, regenerate, tidy};
+use crate::{explore, python_release, regenerate, site, tidy};
 use std::ffi::{OsStr, OsString};
 use std::process::{Command, ExitCode};
 
@@ -40,7 +40,7 @@ const fn task(name: &'static str, run: Run, about: &'static str) -> Task {
 }
 
 /// The commands of this program, in the order of the help.
-const TASKS: [Task; 11] = [
+const TASKS: [Task; 12] = [
     task(
         "basin-raster",
         OfProgram("basins"),
@@ -50,6 +50,11 @@ const TASKS: [Task; 11] = [
         "explore",
         WithArguments(explore::run),
         "Build the browser explorer of the basins, and serve it on the loopback address",
+    ),
+    task(
+        "site",
+        WithArguments(site::run),
+        "Build the site: a front page, the book, the explorer, and the documentation of all crates: needs mdBook",
     ),
     task(
         "regenerate",

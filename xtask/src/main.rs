@@ -19,6 +19,7 @@ mod python_environment;
 mod python_release;
 mod regenerate;
 mod repository;
+mod site;
 mod static_server;
 mod tidy;
 

@@ -57,7 +57,7 @@ fn defect(
 }
 
 /// The path from the root of a path from a page's folder; the page itself for an empty path.
-fn resolve(page: &str, path: &str) -> Option<String> {
+pub(crate) fn resolve(page: &str, path: &str) -> Option<String> {
     if path.is_empty() {
         return Some(page.to_owned());
     }
@@ -76,7 +76,7 @@ fn resolve(page: &str, path: &str) -> Option<String> {
 }
 
 /// The lines of a page outside code, each with its number from one. Code inside a line becomes spaces.
-fn prose(text: &str) -> impl Iterator<Item = (usize, String)> {
+pub(crate) fn prose(text: &str) -> impl Iterator<Item = (usize, String)> {
     let mut fenced = false;
     (1..).zip(text.lines()).filter_map(move |(at, line)| {
         if line.trim_start().starts_with("```") {
@@ -99,7 +99,7 @@ fn without_code(line: &str) -> String {
 }
 
 /// The targets of the links and definitions in a line.
-fn targets(line: &str) -> Vec<&str> {
+pub(crate) fn targets(line: &str) -> Vec<&str> {
     let mut found = Vec::new();
     for (at, mark) in line.match_indices("](") {
         let target = line[at + mark.len()..].split(')').next().unwrap_or_default();

@@ -16,7 +16,7 @@ mod bibliography;
 mod breach;
 mod crate_classes;
 mod line_rules;
-mod links;
+pub(crate) mod links;
 mod listed_tests;
 mod names_in_pages;
 mod one_line;
