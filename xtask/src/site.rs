@@ -31,6 +31,9 @@ Options:
 It needs mdBook: `cargo install mdbook --root target/tools`, or one that is installed.
 ";
 
+/// The list of all pages.
+const SUMMARY: &str = "docs/book/SUMMARY.md";
+
 /// The page that is shown first.
 const FRONT: &str = "docs/book/front.md";
 
@@ -117,13 +120,16 @@ fn written(work: &Path) -> Result<usize, Error> {
     for name in ["book.toml", "site.css"] {
         write(&work.join(name), read(&root.join("docs/book").join(name))?.as_bytes())?;
     }
-    let summary = read(&root.join("docs/book/SUMMARY.md"))?;
+    let mut summary = read(&root.join(SUMMARY))?;
+    let links: Vec<String> = summary.lines().flat_map(targets).map(str::to_owned).collect();
+    let mut pages = BTreeSet::new();
+    for link in links {
+        let Some(page) = resolve(SUMMARY, &link) else { continue };
+        let place = if page == FRONT { "front.md" } else { &page };
+        summary = summary.replace(&format!("]({link})"), &format!("]({place})"));
+        pages.insert(page);
+    }
     write(&source.join("SUMMARY.md"), summary.as_bytes())?;
-    let pages: BTreeSet<String> = summary
-        .lines()
-        .flat_map(targets)
-        .map(|page| if page == "front.md" { FRONT.to_owned() } else { page.to_owned() })
-        .collect();
     for page in &pages {
         let text = read(&root.join(page))?;
         let (text, copies) = linked(page, &text, &pages)?;
@@ -155,9 +161,8 @@ fn linked(
             let is_page = pages.contains(&file);
             if !is_page {
                 if file.ends_with(".md") {
-                    let text = format!(
-                        "{page}, line {number}: {file} is no page of docs/book/SUMMARY.md; add it"
-                    );
+                    let text =
+                        format!("{page}, line {number}: {file} is no page of {SUMMARY}; add it");
                     return Err(Error::new(text));
                 }
                 copies.push(file.clone());
