@@ -7,7 +7,7 @@ use crate::{
     check_builds, check_certificates, check_dependencies, check_explorer, check_formal,
     check_python,
 };
-use crate::{explore, python_release, regenerate, site, tidy};
+use crate::{explore, python_release, regenerate, release, site, tidy};
 use std::ffi::{OsStr, OsString};
 use std::process::{Command, ExitCode};
 
@@ -40,7 +40,7 @@ const fn task(name: &'static str, run: Run, about: &'static str) -> Task {
 }
 
 /// The commands of this program, in the order of the help.
-const TASKS: [Task; 12] = [
+const TASKS: [Task; 13] = [
     task(
         "basin-raster",
         OfProgram("basins"),
@@ -80,6 +80,11 @@ const TASKS: [Task; 12] = [
         "python-release",
         WithArguments(python_release::run),
         "Build the wheels and the source archive of the Python package, and look at them; with --check, test each installed: needs package indices",
+    ),
+    task(
+        "release",
+        WithArguments(release::run),
+        "Say whether a release can be made, and what must be done by hand; with --check",
     ),
     task(
         "check-certificates",

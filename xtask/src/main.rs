@@ -18,6 +18,7 @@ mod process;
 mod python_environment;
 mod python_release;
 mod regenerate;
+mod release;
 mod repository;
 mod site;
 mod static_server;

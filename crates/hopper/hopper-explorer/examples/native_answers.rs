@@ -23,7 +23,7 @@ const POINTS: [(f64, f64); 10] = [
 type Scene = (u32, bool, [f64; 2], [f64; 2], usize);
 
 /// Windows of each layer.
-const WINDOWS: [Scene; 7] = [
+const WINDOWS: [Scene; 12] = [
     (0, false, [0.0, 1.0], [4.0, 20.0], 256),
     (0, false, [0.17, 0.18], [17.0, 17.8], 256),
     (0, true, [-4.0, 4.0], [4.0, 12.0], 128),
@@ -31,6 +31,11 @@ const WINDOWS: [Scene; 7] = [
     (2, false, [0.1, 0.3], [8.0, 10.0], 32),
     (3, false, [0.1, 0.3], [8.0, 10.0], 32),
     (3, true, [-6.0, 0.0], [100.0, 120.0], 32),
+    (4, false, [0.02, 0.3], [4.4, 10.0], 32),
+    (5, false, [0.02, 1.0], [4.4, 10.0], 32),
+    (6, false, [0.02, 1.0], [4.4, 10.0], 32),
+    (7, true, [-4.0, 0.0], [4.4, 10.0], 32),
+    (8, false, [0.02, 1.0], [4.4, 10.0], 32),
 ];
 
 /// FNV-1a, which the browser's tests compute alike.
