@@ -38,6 +38,8 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
     let folder = target_folder().join("explorer");
     if !measure {
         step(&mut cargo_command(&["test"]), "the tests of its core")?;
+        let mut systems = cargo_command(&["test"]);
+        step(systems.args(["--features", "systems", "--test", "systems"]), "the other systems")?;
     }
     if !target_is_here() {
         return skip(PAGE, &format!("the target wasm32-unknown-unknown is not there: `{INSTALL}`"));

@@ -25,7 +25,11 @@ const FLAGS: (&str, &str) = (
 );
 
 /// The modules of the page: what it needs for its first picture, and what is loaded when it is asked for.
-const CORES: [(&str, &[&str]); 2] = [("core.wasm", &["--no-default-features"]), ("deep.wasm", &[])];
+const CORES: [(&str, &[&str]); 3] = [
+    ("core.wasm", &["--no-default-features"]),
+    ("deep.wasm", &[]),
+    ("systems.wasm", &["--no-default-features", "--features", "systems"]),
+];
 
 /// The profile in the manifest.
 const PROFILE: &str = "page";

@@ -37,7 +37,7 @@ pub(crate) fn one_file(folder: &Path) -> Result<String, Error> {
     let mut add = |name: &str, text: &str| {
         let _ = writeln!(parts, "<script type=\"text/plain\" data-name=\"{name}\">{text}</script>");
     };
-    // It has all that the smaller core has.
+    // It has all that the smaller core has. The module of other systems is left out: it would be a third of the file.
     let core = folder.join("deep.wasm");
     add("deep.wasm", &base_64(&std::fs::read(&core).map_err(Error::at(&core))?));
     let mut names: Vec<String> = std::fs::read_dir(folder)

@@ -72,6 +72,14 @@ export class Core {
     this.openDepth(m, alpha);
     return this.#json(this.exports.depth_label(depth, x, y));
   }
+  systems() {
+    return this.#json(this.exports.systems()).systems;
+  }
+  /** Columns of a picture of another system. */
+  systemStrip(number, [left, right, bottom, top], columns, rows, from, to) {
+    const status = this.exports.system_strip(number, left, right, bottom, top, columns, rows, from, to);
+    return new Uint8ClampedArray(this.#answer(status).buffer);
+  }
   /** The frame about the opened boundary point, or about the one at (m, alpha): a worker that replaces a dead one opens it again. */
   depthFrame(depth, columns, rows, m, alpha) {
     if (m !== undefined) this.openDepth(m, alpha);

@@ -38,6 +38,8 @@ const files = () => import("./save.js");
 const same = () => import("./same.js");
 const circles = () => import("./circle_panel.js");
 const comparing = () => import("./compare.js");
+let systems = null; // the module of other systems
+const others = async () => (await import("./others.js")).others((systems ??= compiled("systems.wasm")));
 
 // A host that does not know the type of the file is no reason to stop.
 const compiled = (name) => WebAssembly.compileStreaming(fetch(name)).catch(async () => WebAssembly.compile(await (await fetch(name)).arrayBuffer()));
@@ -323,6 +325,7 @@ byId("home").onclick = goHome;
 byId("deep").onclick = deepHere;
 byId("tour").onclick = () => goTo(({ runs }) => (runs ? -1 : 0));
 byId("places").onclick = places;
+byId("others").onclick = others;
 byId("back-view").onclick = () => history.back();
 byId("forth-view").onclick = () => history.forward();
 byId("share").onclick = share;

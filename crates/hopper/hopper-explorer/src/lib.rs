@@ -18,6 +18,7 @@
 //! | [`circle`], [`intervals`] | the circle of fates of α*_n; the basins at one M as intervals |
 //! | [`Depth`] | windows of any size about a boundary point |
 //! | [`legend`] | colours and names, and the windows of the paper |
+//! | `systems`, `OpenSystem` (feature `systems`) | other systems: their attractors and basins, by the crates for any system |
 //!
 //! # Not here
 //! What the page looks like (`page/`), and any number that no library computes.
@@ -25,6 +26,7 @@
 mod answer;
 mod circle;
 mod depth;
+#[cfg(not(feature = "systems"))]
 mod exports;
 mod json;
 mod labels;
@@ -33,6 +35,10 @@ mod map;
 mod motion;
 mod point;
 mod refusal;
+#[cfg(feature = "systems")]
+mod system_exports;
+#[cfg(feature = "systems")]
+mod systems;
 mod tile;
 
 pub use circle::{circle, intervals};
@@ -42,4 +48,6 @@ pub use map::map;
 pub use motion::{motion, units};
 pub use point::{point, proof};
 pub use refusal::Refusal;
+#[cfg(feature = "systems")]
+pub use systems::{OpenSystem, SYSTEMS, System, systems};
 pub use tile::{Tile, TileStrip, numbered, places, strip};

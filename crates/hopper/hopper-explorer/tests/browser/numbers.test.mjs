@@ -100,3 +100,30 @@ onPage("a large picture has the pixels that it says", "#layer=fate&lin=0.1,0.5,4
   assert.equal(bytes.readUInt32BE(16), 4000);
   await settled(page);
 });
+
+const shown = (page, words) => page.waitForFunction((words) => document.getElementById("other-say").textContent.includes(words), words, READY);
+
+onPage("other systems are computed in the page when they are asked for", "", async (page) => {
+  const asked = [];
+  page.on("request", (request) => asked.push(request.url().split("/").at(-1)));
+  await page.click("#others");
+  await page.waitForSelector("#other-canvas");
+  assert.ok(asked.includes("systems.wasm") && asked.includes("others.js"), asked.join());
+  const complete = () => page.waitForFunction(() => / to .*, .* to /.test(document.getElementById("other-say").textContent), null, READY);
+  await complete();
+  const colours = () =>
+    page.evaluate(() => {
+      const canvas = document.getElementById("other-canvas");
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      const found = new Set();
+      for (let k = 0; k < data.length; k += 4) found.add(data[k + 3] === 255 ? (data[k] > data[k + 2] ? "warm" : "cold") : "empty");
+      return [...found].sort();
+    });
+  assert.deepEqual(await colours(), ["cold", "warm"]);
+  await page.focus("#other-canvas");
+  await page.keyboard.press("+");
+  await shown(page, "−2.51327 to 2.51327, −8 to 8");
+  await page.selectOption("#other", "1");
+  await shown(page, " parts");
+  assert.match(await page.textContent("#other-legend"), /magnet on the right.*upper.*lower/);
+});
