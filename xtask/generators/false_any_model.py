@@ -294,6 +294,12 @@ def of_sets(lines):
     yield "the other set", put(lines, first, ["fate"], "escapes" if lines[first]["fate"] == "stays" else "stays"), None
     yield "a set that is none", put(lines, first, ["fate"], "wall"), None
     yield "a cell of a set without a run", put(lines, first, ["run"], None), None
+    yield "a name that breaks the line", put(lines, wild, [*escapes, 0], "x^2 -\n2.25"), None
+    yield "a set that is a text", put(lines, wild, escapes, "x"), None
+    yield "no cells", put(put(lines[: first], basins, ["cells"], 0), 0, ["lines"], first - 1), None
+    yield "a box without a point of the set", put(
+        put(lines, keeps, ["box"], [[-1.4, -1.39], [0.5, 0.6]]), keeps, ["parts"], [{"box": [[-1.4, -1.39], [0.5, 0.6]], "run": None}]
+    ), None  # fmt: skip
     yield "a cell of a set without steps", put(lines, first, ["run", "steps"], []), None
     yield "more cells of sets", put(lines, basins, ["cells"], lambda n: n + 1), None
 

@@ -298,8 +298,14 @@ class Keeps:
     def join(self):
         if not covers(self.boxes, self.box):
             raise Refuted("the parts leave a gap in the box")
-        if not any(all(value > 0 for value in self._conditions(box)) for box in self.boxes):
-            raise Refuted("a set that has no whole part of the box")
+        if not any(self._has_its_middle(box) for box in self.boxes):
+            raise Refuted("a set that has the middle of no part of the box")
+
+    def _has_its_middle(self, box):
+        """True if the middle of a part is in the whole box and in the set."""
+        middle = [((low + high) / 2,) * 2 for low, high in box]
+        inside = all(low <= x <= high for (x, _), (low, high) in zip(middle, self.box))
+        return inside and all(value > 0 for value in self._conditions(middle))
 
     def _conditions(self, box):
         return self.map.conditions_at(self.line["set"], ball_box(box))
@@ -323,5 +329,5 @@ class Keeps:
             "map": self.number,
             "box": self.box,
             "set": self.line["set"],
-            "text": f"all points of the set {self.line['set']} with {shown} are led into it and this box again by map {self.number}, {self.map.text()}",
+            "text": f"all points of the set \"{self.line['set']}\" with {shown} (points of it outside of this box are not looked at) are led into it and the box again by map {self.number}, {self.map.text()}",
         }

@@ -13,7 +13,7 @@ from flint import acb, arb
 from certificate_file import Refuted, Unconfirmed
 
 TOKEN = re.compile(
-    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|(?P<name>[^\W\d]\w*)|(?P<sign>\*\*|[-+*/^(),]))"
+    r" *(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|(?P<name>[^\W\d]\w*)|(?P<sign>\*\*|[-+*/^(),]))"
 )
 FUNCTIONS = (
     "sqrt exp ln sin cos tan asin acos atan sinh cosh tanh sech asinh acosh atanh abs sign atan2 min max f64".split()

@@ -172,10 +172,13 @@ class FormulaMap:
             raise Refuted("parameters that do not stay what they are")
         self.field = Field(self.variables, {name: constant(tree) for name, tree in trees.items()}, self.formulas)
         self.sets = {}
-        for name, conditions in line.get("sets", []):
+        for own in line.get("sets", []):
+            if not isinstance(own, list) or len(own) != 2 or not isinstance(own[1], list):
+                raise Refuted(f"{own!r} is no set: a name, and a list of formulas")
+            name, conditions = own
             check_label(name)
-            if name in self.sets or not conditions:
-                raise Refuted(f"the set {name} stands twice, or has no conditions")
+            if name in self.sets or not conditions or not all(isinstance(text, str) for text in conditions):
+                raise Refuted(f"the set {name} stands twice, or has no conditions that are texts")
             self.sets[name] = [read(text) for text in conditions]
 
     def conditions_at(self, name, hull):
@@ -197,6 +200,6 @@ class FormulaMap:
     def text(self):
         formulas = ", ".join(self.line["formulas"])
         sets = "".join(
-            f", {name}: where " + " and ".join(f"{text} > 0" for text in conditions) for name, conditions in self.line.get("sets", [])
+            f', "{name}": where ' + " and ".join(f"{text} > 0" for text in conditions) for name, conditions in self.line.get("sets", [])
         )
         return f"({', '.join(self.variables)}) -> ({formulas}), {self.times} times{with_parameters(self.line['parameters'])}{sets}"

@@ -62,7 +62,7 @@ impl FormulaMap {
         Ok(FormulaMap { slopes, formulas, times, count, sets: Vec::new(), is_recorded: false })
     }
 
-    /// The same map with a set: the points at which all `conditions` are positive. Images that lie in it as a whole are
+    /// The same map with a set: the points at which all `conditions` are positive. Images, after all applications, that lie in it as a whole are
     /// [`Reason::Stopped`] at its name, and cells of basins whose points come to it have this fate.
     ///
     /// An orbit may come to a set and leave it again. It stays in one that [`keeps`](Self::keeps) its points.
@@ -103,11 +103,11 @@ impl FormulaMap {
         Ok(self)
     }
 
-    /// Boxes that cover the part of a set in `domain`, whose images are in the set and in `domain`: the map leads this part into itself. Each halving
-    /// takes the widest side.
+    /// Boxes that cover the part of a set in `domain`, whose images are in the set and in `domain`: the map leads this part into itself. Points of the
+    /// set outside of `domain` are not looked at.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a set that the map has not; [`Reason::NotInside`] if a box is open within the budget; as [`carry`](EnclosedMap::carry).
+    /// [`Error::Argument`] for a set that the map has not, or that has no point there; [`Reason::NotInside`] if a box is open within the budget; as [`carry`](EnclosedMap::carry).
     pub fn keeps(
         &self,
         set: &str,
@@ -128,18 +128,19 @@ impl FormulaMap {
             let is_beyond = |value: &Enclosure| value.high() <= 0.0;
             let values = conditions.enclosures(Enclosure::ZERO, part);
             if values.is_ok_and(|values| values.iter().any(is_beyond)) {
-                return Ok(Some(()));
+                return Ok(Some(false));
             }
             let image = self.follow(StartSet::of_box(part).without_derivatives())?.set;
             let stays = image.hull().iter().zip(domain).all(|(own, whole)| own.is_inside(whole));
-            Ok((stays && holds(conditions, &image)).then_some(()))
+            Ok((stays && holds(conditions, &image)).then_some(true))
         })?;
-        match found.open.first() {
-            None => Ok(found.decided.into_iter().map(|(part, ())| part).collect()),
-            Some((part, _)) => {
-                Err(Error::of_variables(Reason::NotInside { tries: budget.boxes }, part))
-            }
+        if let Some((part, _)) = found.open.first() {
+            return Err(Error::of_variables(Reason::NotInside { tries: budget.boxes }, part));
         }
+        if !found.decided.iter().any(|(_, may_be_in)| *may_be_in) {
+            return Error::argument(set, "no point of the domain is in it");
+        }
+        Ok(found.decided.into_iter().map(|(part, _)| part).collect())
     }
 
     /// The same map, whose statements can be written into a [`Certificate`](crate::Certificate).
@@ -191,7 +192,7 @@ impl EnclosedMap for FormulaMap {
     }
 }
 
-/// How far a set is followed: to the last image, or to the first one in a set of the map.
+/// The images of a set, and the first set of the map in which they lie.
 struct Followed {
     set: AffineSet,
     chain: Option<Chain>,
@@ -217,12 +218,10 @@ impl FormulaMap {
             if let Some(record) = &mut record {
                 set = record.applied(&set);
             }
-            let set_of = self.sets.iter().find(|(_, conditions)| holds(conditions, &set));
-            if let Some((label, _)) = set_of {
-                return Ok(Followed { set, chain, record, set_of: Some(*label) });
-            }
         }
-        Ok(Followed { set, chain, record, set_of: None })
+        let set_of = self.sets.iter().find(|(_, conditions)| holds(conditions, &set));
+        let set_of = set_of.map(|(label, _)| *label);
+        Ok(Followed { set, chain, record, set_of })
     }
 
     fn not_proved(&self, reason: Reason, set: &AffineSet) -> Error {
