@@ -80,8 +80,7 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
     if measure {
         node.arg(tests.join("measure.mjs"));
     } else {
-        // Two at once: each waits for its page most of the time.
-        node.args(["--test", "--test-concurrency=2"]);
+        node.args(["--test", "--test-concurrency=1"]);
         node.args(
             ["page.test.mjs", "welcome.test.mjs", "numbers.test.mjs"].map(|name| tests.join(name)),
         );

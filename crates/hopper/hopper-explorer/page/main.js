@@ -243,7 +243,7 @@ const goTo = (next) => {
 
 async function saveDialog() {
   const [{ save }, { offers }] = await Promise.all([dialogs(), files()]);
-  save(offers({ plane, deep, pool, desk, shown: () => shown }));
+  save(offers({ plane, deep, pool, desk, home, shown: () => shown }));
 }
 const share = async () => (await dialogs()).share();
 const help = async () => (await dialogs()).help();

@@ -129,7 +129,7 @@ function panel(id, deep) {
 }
 
 /** The files that are offered: pairs of a name and a function that saves. */
-export const offers = ({ plane, deep, pool, desk, shown }) => [
+export const offers = ({ plane, deep, pool, desk, shown, home }) => [
   ["PNG", async (wait) => download(await png(plane, deep, wait), "hopper.png")],
   [
     "a large PNG",
@@ -140,6 +140,14 @@ export const offers = ({ plane, deep, pool, desk, shown }) => [
       const canvas = await large(plane, pool, wait);
       const blob = await new Promise((done) => canvas.toBlob(done, "image/png"));
       download(await withTexts(blob, words), "hopper-large.png");
+    },
+  ],
+  [
+    "a zoom as video",
+    async (wait) => {
+      const { film } = await import("./film.js");
+      const video = await film(plane, home, wait);
+      download(video, video.type.includes("mp4") ? "hopper-zoom.mp4" : "hopper-zoom.webm");
     },
   ],
   ["SVG", async (wait) => download(await svg(plane, deep, wait), "hopper.svg")],

@@ -21,6 +21,7 @@ const FILES = [
   "axes.js",
   "numbers.js",
   "others.js",
+  "film.js",
   "gestures.js",
   "glide.js",
   "history.js",

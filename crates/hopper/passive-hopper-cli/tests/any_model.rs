@@ -159,10 +159,10 @@ fn what_is_wrong_is_said_in_one_line_with_its_place() {
         (vec!["run", &ball, "--set", "q=1"], 2, "there are: g, restitution"),
         (vec!["run", &ball, "--mode", "rest"], 2, "there are: flight"),
         (vec!["section", &ball, "--surface", "roof"], 2, "there are: floor"),
-        (vec!["section", &ball, "--surface", "floor", "--skip", "5000"], 1, "no return to floor"),
+        (vec!["section", &ball, "--surface", "floor", "--skip", "5000"], 1, "only 125 returns to floor"),
         (vec!["basin", &ball, "--window", "h=0:1", "--step", "1"], 2, "give one for each state"),
         (vec!["prove", &ball, "--surface", "floor", "--near", "v=1"], 1, "floor"),
-        (vec!["run", "/nowhere.toml"], 1, "/nowhere.toml"),
+        (vec!["run", "/nowhere.toml"], 2, "/nowhere.toml"),
         (vec![], 2, "`nonsmooth --help`"),
     ];
     for (arguments, status, words) in refused {
@@ -184,4 +184,86 @@ fn its_help_its_completions_and_its_manual_are_its_own() {
         assert_eq!(code, 0, "{messages}");
         assert!(output.contains(words), "{arguments:?}: {output}");
     }
+}
+
+/// Each of these calls once gave a number that is no orbit, no attractor, or not what the file says.
+#[test]
+fn what_would_be_wrong_in_silence_is_refused() {
+    let [oscillator, rossler, duffing, ball] =
+        ["oscillator.toml", "rossler.toml", "duffing.toml", "ball.toml"].map(model);
+    let forced = File::new(
+        "forced.toml",
+        "states = ['x', 'v']\n[[mode]]\nname = 'f'\nrates = { x = 'v', v = 'cos(t) - 0.2*v - 4*x' }\n\
+         [[mode.surface]]\nname = 'p'\nguard = 't - 2*pi'\ndirection = 'rising'\n",
+    );
+    let digits = File::new(
+        "digits.toml",
+        "states = ['x']\nparameters = { a = 1.00000000000000000001 }\n[[mode]]\nname = 'f'\nrates = { x = 'a' }\n",
+    );
+    let branch = ["branch", &oscillator, "--parameter", "force", "--from", "0.1", "--to", "0.2"];
+    let prove = ["prove", &rossler, "--surface", "section", "--near", "y=-8.4"];
+    let own = ["prove", forced.path(), "--surface", "p", "--near", "x=0.33"];
+    for (arguments, words) in [
+        // A return of a forced system from another time than 0.
+        (
+            [&branch[..], &["--surface", "stop", "--near", "x=0.5", "v=-0.9"]].concat(),
+            "begins at t = 0",
+        ),
+        // States that do not come back.
+        (
+            [&branch[..], &["--surface", "period", "--near", "x=-0.14"]].concat(),
+            "name it in --near",
+        ),
+        (prove.to_vec(), "name z in --near"),
+        (own.to_vec(), "name v in --near"),
+        // Times that are no period of the force.
+        ([&own[..], &["v=0.02", "--on", "t=1"]].concat(), "no period"),
+        (vec!["basin", &duffing, "--window", "x=-2:2", "v=-2:2", "--step", "1"], "no period"),
+        (vec!["basin", &duffing, "--window", "x=-2:2", "v=-2:2", "--step=-1"], "positive time"),
+        // Names without a meaning.
+        ([&prove[..], &["z=0.03", "--on", "foo=1"]].concat(), "--on foo"),
+        ([&prove[..], &["z=0.03", "--on", "y=1"]].concat(), "--on y"),
+        (
+            [&branch[..], &["--surface", "roof", "--near", "x=1"]].concat(),
+            "there are: period, stop",
+        ),
+        (
+            [&branch[..], &["--surface", "period", "--near", "x=1", "v=0", "v=1"]].concat(),
+            "stands twice",
+        ),
+        // Digits that a double does not keep.
+        (vec!["run", digits.path(), "--time", "1"], "line 2: 1.00000000000000000001"),
+        (vec!["section", &ball, "--surface", "floor", "--returns", "0"], "--returns"),
+    ] {
+        let (code, output, messages) = call(&arguments);
+        assert_eq!((code, output.as_str()), (2, ""), "{arguments:?}: {messages}");
+        assert!(messages.contains(words) && messages.lines().count() == 1, "{words}: {messages}");
+    }
+    // The whole state and a period: 3/9.04 and 0.2/9.04.
+    let (code, csv, messages) = call(&[&own[..], &["v=0.02", "--csv"]].concat());
+    assert_eq!(code, 0, "{messages}");
+    for (line, exact) in csv.lines().skip(1).zip([3.0 / 9.04, 0.2 / 9.04]) {
+        let ends: Vec<f64> = line.split(',').skip(1).map(|x| x.parse().unwrap()).collect();
+        assert!(ends[0] <= exact && exact <= ends[1] && ends[1] - ends[0] < 1e-10, "{line}");
+    }
+}
+
+#[test]
+fn no_event_and_names_of_columns_leave_a_table_whole() {
+    let ball = model("ball.toml");
+    let (code, csv, _) = call(&["run", &ball, "--start", "h=20", "--time", "1", "--csv"]);
+    assert_eq!((code, csv.as_str()), (0, "time,error,surface,mode,h,v,certainty\n"));
+    let names = File::new(
+        "names.toml",
+        "states = ['time', 'mode']\n[[mode]]\nname = 'a'\nrates = { time = 1, mode = 2 }\n\
+         [[mode.surface]]\nname = 's'\nguard = 'time - 1/4'\n",
+    );
+    let (code, csv, messages) = call(&["run", names.path(), "--time", "1", "--csv"]);
+    assert_eq!(code, 0, "{messages}");
+    assert!(csv.starts_with("time,error,surface,mode,state_time,state_mode,certainty\n"), "{csv}");
+    // Samples are at equal times, and nowhere else.
+    let (_, csv, _) = call(&["run", &ball, "--samples", "4", "--csv", "--table", "samples"]);
+    let times: Vec<&str> =
+        csv.lines().skip(1).map(|line| line.split(',').next().unwrap()).collect();
+    assert_eq!(times, ["0", "0.5", "1", "1.5", "2"]);
 }

@@ -127,3 +127,19 @@ onPage("other systems are computed in the page when they are asked for", "", asy
   await shown(page, " parts");
   assert.match(await page.textContent("#other-legend"), /magnet on the right.*upper.*lower/);
 });
+
+onPage("a zoom is saved as a video, with its progress, and the view comes back", "#layer=fate&lin=0.1,0.11,7,7.2", async (page) => {
+  const before = await page.evaluate(() => JSON.stringify(explorer.state.view));
+  const [download] = await Promise.all([
+    page.waitForEvent("download", { timeout: 120_000 }),
+    page
+      .click("#save")
+      .then(() => page.click('[data-file]:text-is("a zoom as video")'))
+      .then(() => page.waitForFunction(() => /Frame \d+ of/.test(document.getElementById("saved").textContent), null, READY)),
+  ]);
+  const bytes = await readFile(await download.path());
+  // The head of a Matroska file.
+  assert.equal(bytes.subarray(0, 4).toString("hex"), "1a45dfa3");
+  assert.ok(bytes.length > 50_000, String(bytes.length));
+  assert.equal(await page.evaluate(() => JSON.stringify(explorer.state.view)), before);
+});

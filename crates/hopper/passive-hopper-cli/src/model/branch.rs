@@ -3,12 +3,17 @@
 use crate::commands::search;
 use crate::error::Error;
 use crate::model::columns::table;
-use crate::model::question::{ModelOptions, failed, mode_of, named, point};
+use crate::model::file::Model;
+use crate::model::question::{
+    ModelOptions, check_period, check_surface, failed, mode_of, named, point,
+};
 use crate::options::form::OutputOptions;
 use crate::options::output_file::{Format, OutputFile, check, figure};
 use crate::output::{Cell, Column, Table, TableKind};
 use crate::streams::Streams;
+use hybrid_system::EquationsModel;
 use journal_figures::{Frame, LabelledBranch, Svg, render, ticks};
+use nalgebra::DVector;
 use return_map::{Branch, BranchEnd, BranchSteps, EquationReturns, follow_branch};
 use std::ops::ControlFlow;
 
@@ -39,8 +44,8 @@ pub(crate) struct Options {
     #[arg(long, value_parser = crate::options::values::finite, allow_negative_numbers = true)]
     at: Option<f64>,
     /// Returns until the orbit closes
-    #[arg(long, default_value_t = 1)]
-    period: usize,
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    period: u16,
     /// A figure of the first coordinate over the parameter: .svg or .png
     #[arg(long, value_parser = figure)]
     figure: Option<OutputFile>,
@@ -62,6 +67,7 @@ static BIFURCATIONS: TableKind = TableKind {
 pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Error> {
     let model = options.model.model()?;
     let mode = mode_of(options.mode.as_deref(), &model)?;
+    check_surface(&model, &options.surface)?;
     let names: Vec<String> = options.near.iter().map(|(name, _)| name.clone()).collect();
     let start = point(&model, &names, &options.near, "--near")?;
     let before = [Column::new("parameter", "", "the parameter")];
@@ -79,7 +85,15 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     let map = EquationReturns::new(&model.equations, parameter, (&mode, surface), &coordinates);
     let map = map.map_err(|error| Error::Misuse(error.to_string()))?;
     let window = (options.from.min(options.to), options.from.max(options.to));
-    let (at, period) = (options.at.unwrap_or(options.from), options.period);
+    let (at, period) = (options.at.unwrap_or(options.from), usize::from(options.period));
+    if !(window.0 < window.1) || !(window.0..=window.1).contains(&at) {
+        let (from, to) = window;
+        let text = format!(
+            "--from {from} --to {to} --at {at}: the window must have a length, and hold the value of --at"
+        );
+        return Err(Error::Misuse(text));
+    }
+    closes(&model, &mode, options, (&names, &start))?;
     let branch = search::run(&options.output, &mut streams, move || {
         let go_on = |_: &_| ControlFlow::Continue(());
         follow_branch(&map, period, (&start, at), window, BranchSteps::default(), go_on)
@@ -96,6 +110,53 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     }
     form.print(&[rows(points, &branch), bifurcations(&branch)], streams.output)
 }
+
+/// Refuses a return that does not come back to all states of its start: the orbit is periodic in the named coordinates alone then.
+fn closes(
+    model: &Model,
+    mode: &str,
+    options: &Options,
+    (names, start): (&[String], &[f64]),
+) -> Result<(), Error> {
+    let is_guard = !model.clocks.contains(&options.surface);
+    if is_guard && !model.equations.is_autonomous() {
+        let text = "--surface: the equations use the time, and each return begins at t = 0; give a surface with a period, or make the phase a state";
+        return Err(Error::Misuse(text.to_owned()));
+    }
+    let states = &model.equations.names().states;
+    let whole: Vec<f64> = states
+        .iter()
+        .map(|state| names.iter().position(|name| name == state).map_or(0.0, |at| start[at]))
+        .collect();
+    let own: EquationsModel<DVector<f64>> = model.equations.model().map_err(failed)?;
+    let run = own.start_at(mode, whole.clone(), (0.0, LONGEST)).map_err(failed)?;
+    for arc in run {
+        let arc = arc.map_err(failed)?;
+        let Some(event) = arc.event().filter(|event| event.surface == *options.surface.as_str())
+        else {
+            continue;
+        };
+        let Some((_, after)) = &event.after else { return Ok(()) };
+        for (state, (from, to)) in states.iter().zip(whole.iter().zip(after.iter())) {
+            let apart = (from - to).abs() > NAMED * (1.0 + from.abs());
+            if !names.contains(state) && apart {
+                let text = format!(
+                    "--near: {state} is {from} at the start and {to} behind {}; name it in --near",
+                    options.surface
+                );
+                return Err(Error::Misuse(text));
+            }
+        }
+        return check_period(model, mode, (0.0, event.time), &whole, "--surface");
+    }
+    Ok(())
+}
+
+/// The longest return that is tried, as in the library.
+const LONGEST: f64 = 1e3;
+
+/// How far a state that is not named may be from its start behind the surface: a section has it to rounding.
+const NAMED: f64 = 1e-6;
 
 fn rows(kind: &'static TableKind, branch: &Branch) -> Table {
     let mut found = Table::new(kind);

@@ -47,7 +47,7 @@ A ball, in a file ball.toml:
 
 A surface has a guard, a formula of the states and of the time t, and a direction: rising, falling or either; or first and \
 period, for events at given times. Then it may have `resets`, `to` (the mode behind it), `only_where` (a formula that is \
-positive there) and `stops = true`.
+positive there), `stops = true`, and `beyond` (\"contact\" or \"crossing\": what lies on the other side).
 
 Exit status:
   0    done

@@ -14,7 +14,11 @@ pub(crate) fn table(
     names: impl Iterator<Item = (String, &'static str)>,
     after: &[Column],
 ) -> &'static TableKind {
-    let own = names.map(|(name, meaning)| Column::new(kept(name), "", meaning));
+    let fixed: Vec<&str> = before.iter().chain(after).map(|column| column.name).collect();
+    // A state may have the name of another column.
+    let column =
+        |name: String| if fixed.contains(&name.as_str()) { format!("state_{name}") } else { name };
+    let own = names.map(|(name, meaning)| Column::new(kept(column(name)), "", meaning));
     let columns: Vec<Column> =
         before.iter().copied().chain(own).chain(after.iter().copied()).collect();
     Box::leak(Box::new(TableKind {

@@ -5,6 +5,7 @@ use equations::{Formulas, Names};
 use hybrid_system::Equations;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::io::Read;
 use std::path::Path;
 
 /// The largest file that is read: a model is some lines.
@@ -69,6 +70,16 @@ struct Surface {
     to: Option<String>,
     #[serde(default)]
     stops: bool,
+    /// What lies beyond: nothing (`contact`), or the states on the other side (`crossing`).
+    beyond: Option<Beyond>,
+}
+
+/// What is beyond a surface, where a jump or a start leads there.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Beyond {
+    Contact,
+    Crossing,
 }
 
 #[derive(Debug, Clone, Copy, Default, Deserialize)]
@@ -90,7 +101,7 @@ pub(crate) struct Start {
     #[serde(default)]
     pub(crate) state: BTreeMap<String, Number>,
     /// The time at which the run ends.
-    pub(crate) time: Option<f64>,
+    pub(crate) time: Option<Number>,
 }
 
 /// A model that was read.
@@ -100,6 +111,8 @@ pub(crate) struct Model {
     pub(crate) start: Start,
     /// The modes, in their order.
     pub(crate) modes: Vec<String>,
+    /// The surfaces that are times.
+    pub(crate) clocks: Vec<String>,
 }
 
 /// Reads a file. The ending .json says JSON; others are TOML.
@@ -107,19 +120,27 @@ pub(crate) struct Model {
 /// # Errors
 /// [`Error::File`] for a file that cannot be read; [`Error::Misuse`] for one that is no model, with the place.
 pub(crate) fn read(path: &Path) -> Result<Model, Error> {
-    let failed = |source| Error::File { path: path.to_owned(), source };
-    let length = std::fs::metadata(path).map_err(failed)?.len();
     let refused = |reason: String| Error::Misuse(format!("{}: {reason}", path.display()));
-    if length > LARGEST {
-        return Err(refused(format!("{length} bytes are no model; give a file below 16 MB")));
+    let unread = |error: std::io::Error| refused(error.to_string());
+    let mut text = String::new();
+    let file = std::fs::File::open(path).map_err(unread)?;
+    file.take(LARGEST + 1).read_to_string(&mut text).map_err(unread)?;
+    if text.len() as u64 > LARGEST {
+        return Err(refused("it has more than 16 MB; a model has some lines".to_owned()));
     }
-    let text = std::fs::read_to_string(path).map_err(failed)?;
+    if let Some((line, number)) = longer_than_a_double(&text) {
+        let reason = format!(
+            "line {line}: {number} has more digits than a number of 64 bits; give it as a text, in quotes"
+        );
+        return Err(refused(reason));
+    }
     let is_json = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
     if is_json && text.contains("\"hybrid equations\"") {
         let equations = Equations::from_json(&text).map_err(|error| refused(error.to_string()))?;
         let parts = equations.mode_parts(&[]).map_err(|error| refused(error.to_string()))?;
         let modes = parts.iter().map(|mode| mode.name.to_string()).collect();
-        return Ok(Model { equations, start: Start::default(), modes });
+        let clocks = clocks_of(&text);
+        return Ok(Model { equations, start: Start::default(), modes, clocks });
     }
     let file: ModelFile = match is_json {
         true => serde_json::from_str(&text).map_err(|error| refused(error.to_string()))?,
@@ -128,7 +149,49 @@ pub(crate) fn read(path: &Path) -> Result<Model, Error> {
     let equations = equations_of(&file).map_err(&refused)?;
     equations.check().map_err(|error| refused(error.to_string()))?;
     let modes = file.mode.iter().map(|mode| mode.name.clone()).collect();
-    Ok(Model { equations, start: file.start, modes })
+    let surfaces = file.mode.iter().flat_map(|mode| &mode.surface);
+    let clocks = surfaces.filter(|own| own.guard.is_none()).map(|own| own.name.clone()).collect();
+    Ok(Model { equations, start: file.start, modes, clocks })
+}
+
+/// The surfaces of equations as JSON that are times.
+fn clocks_of(text: &str) -> Vec<String> {
+    let value: serde_json::Value = serde_json::from_str(text).unwrap_or_default();
+    let lists = |value: &serde_json::Value| value.as_array().cloned().unwrap_or_default();
+    let guards = lists(&value["modes"]).into_iter().flat_map(|mode| lists(&mode["guards"]));
+    guards
+        .chain(lists(&value["everywhere"]))
+        .filter(|guard| guard["role"] == "clock")
+        .filter_map(|guard| guard["surface"].as_str().map(str::to_owned))
+        .collect()
+}
+
+/// The significant digits of a number that a double keeps at least.
+const DIGITS: usize = 15;
+
+/// The first number outside of texts and comments that a double does not keep, with its line.
+fn longer_than_a_double(text: &str) -> Option<(usize, &str)> {
+    text.lines().zip(1..).find_map(|(line, number)| {
+        let parts = line
+            .split(['"', '\''])
+            .step_by(2)
+            .map(|part| part.split('#').next().unwrap_or_default());
+        let words = parts.flat_map(|part| {
+            part.split(|c: char| !(c.is_ascii_alphanumeric() || "._+-".contains(c)))
+        });
+        let is_number = |word: &&str| {
+            word.trim_start_matches(['+', '-'])
+                .starts_with(|c: char| c.is_ascii_digit() || c == '.')
+        };
+        words.filter(is_number).find(|word| digits_of(word) > DIGITS).map(|word| (number, word))
+    })
+}
+
+/// The significant digits of a decimal.
+fn digits_of(word: &str) -> usize {
+    let mantissa = word.split(['e', 'E']).next().unwrap_or_default();
+    let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
+    digits.trim_start_matches('0').trim_end_matches('0').len()
 }
 
 /// What is wrong with a text, and in which line.
@@ -163,8 +226,9 @@ fn equations_of(file: &ModelFile) -> Result<Equations, String> {
 
 /// A parameter as a decimal. One that is a decimal already stays exact; a formula of numbers, such as "68*pi/180", is rounded to the nearest double.
 pub(super) fn decimal(text: &str, name: &str) -> Result<String, String> {
-    if text.trim().parse::<f64>().is_ok_and(f64::is_finite) {
-        return Ok(text.trim().to_owned());
+    let plain = text.trim().strip_prefix('+').unwrap_or(text.trim());
+    if plain.parse::<f64>().is_ok_and(f64::is_finite) {
+        return Ok(plain.to_owned());
     }
     let refused = |error: equations::Error| format!("the parameter {name}: {error}");
     let formula = Names::new(&[], &[]).and_then(|names| Formulas::from_text(names, &[text]));
@@ -223,5 +287,10 @@ fn with_surface(
     if let Some(mode) = &surface.to {
         equations = equations.to(mode);
     }
+    equations = match surface.beyond {
+        Some(Beyond::Contact) => equations.contact(),
+        Some(Beyond::Crossing) => equations.crossing(),
+        None => equations,
+    };
     Ok(if surface.stops { equations.stops() } else { equations })
 }

@@ -2,14 +2,19 @@
 
 use crate::commands::search;
 use crate::error::Error;
-use crate::model::question::{ModelOptions, failed, mode_of, named, point};
+use crate::model::file::Model;
+use crate::model::question::{
+    ModelOptions, check_period, check_surface, failed, mode_of, named, point,
+};
 use crate::options::form::OutputOptions;
 use crate::output::{Column, Table, TableKind};
 use crate::streams::Streams;
+use equations::{Formulas, Names};
 use resumable_job::write_atomically;
 use std::path::PathBuf;
 use validated_dynamics::{
-    Certificate, Enclosure, ProvedFixedPoint, SectionMap, Trap, ValidatedSystem, fixed_point,
+    Certificate, EnclosedMap, Enclosure, ProvedFixedPoint, SectionMap, StartSet, Trap,
+    ValidatedSystem, fixed_point,
 };
 
 /// Prove that a return map has a periodic orbit near a point, with its multipliers and a part of its basin
@@ -21,8 +26,8 @@ pub(crate) struct Options {
     #[arg(long)]
     surface: String,
     /// Events there until it ends
-    #[arg(long, default_value_t = 1)]
-    count: usize,
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..))]
+    count: u16,
     /// The mode in which it begins [default: that of the file, or the first one]
     #[arg(long)]
     mode: Option<String>,
@@ -75,6 +80,16 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     let mode = mode_of(options.mode.as_deref(), &model)?;
     let names: Vec<String> = options.near.iter().map(|(name, _)| name.clone()).collect();
     let guess = point(&model, &names, &options.near, "--near")?;
+    check_surface(&model, &options.surface)?;
+    let uses_time = !model.equations.is_autonomous();
+    let own_states = model.equations.names().states.clone();
+    for (name, _) in &options.on {
+        let known = own_states.contains(name) || (uses_time && name == "t");
+        if !known || names.contains(name) {
+            let reason = "it is no other state at the start: a state that is not in --near, or the time t of a model that uses it";
+            return Err(Error::misuse("--on", name, reason));
+        }
+    }
     let form = options.output.form(&[&PROVED, &ORBIT])?;
     let state = |name: &String| {
         let own = options.on.iter().find(|(known, _)| known == name);
@@ -82,7 +97,7 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         own.map_or(default, |(_, formula)| formula.clone())
     };
     let mut states: Vec<String> = model.equations.names().states.iter().map(state).collect();
-    if !model.equations.is_autonomous() {
+    if uses_time {
         // The time is a component, too.
         states.push(state(&"t".to_owned()));
     }
@@ -98,12 +113,15 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         }
         let system = ValidatedSystem::new(&model.equations).map_err(failed)?;
         let chart = system.chart(&mode, &plain(&variables), &plain(&states)).map_err(failed)?;
-        let map = SectionMap::new(&system, chart, &own.surface, own.count, &plain(&read));
+        let map =
+            SectionMap::new(&system, chart, &own.surface, usize::from(own.count), &plain(&read));
         let mut map = map.map_err(failed)?;
         if own.certificate.is_some() {
             map = map.recorded();
         }
         let orbit = fixed_point(&map, &guess, &[]).map_err(failed)?;
+        let question = Closing { model: &model, system: &system, mode: &mode, options: &own };
+        question.check(&variables, &states, &orbit)?;
         let trap = orbit.is_attracting().then(|| Trap::new(&map, &orbit, own.boxes).ok()).flatten();
         let mut text = None;
         if own.certificate.is_some() {
@@ -122,6 +140,65 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         options.output.note(&mut streams, format_args!("wrote {}", file.display()));
     }
     form.print(&[proved(&names, &orbit), kind(&orbit, trap.as_ref())], streams.output)
+}
+
+/// What must be asked of a fixed point: whether the states that are no coordinates come back, too.
+struct Closing<'a> {
+    model: &'a Model,
+    system: &'a ValidatedSystem,
+    mode: &'a str,
+    options: &'a Options,
+}
+
+impl Closing<'_> {
+    /// Refuses a point from which a state does not come back, and a time that is no period.
+    fn check(
+        &self,
+        coordinates: &[String],
+        states: &[String],
+        orbit: &ProvedFixedPoint,
+    ) -> Result<(), Error> {
+        fn plain(all: &[String]) -> Vec<&str> {
+            all.iter().map(String::as_str).collect()
+        }
+        let own = self.model.equations.names();
+        let names = Names { states: coordinates.to_vec(), ..own.clone() };
+        let start = Formulas::from_text(names, &plain(states)).map_err(failed)?;
+        let start = start.enclosures(Enclosure::ZERO, &orbit.point).map_err(failed)?;
+        let all = own.states.iter().map(String::as_str).chain(["t"]).take(states.len());
+        let (mut middle, mut times) = (Vec::new(), None);
+        for (state, from) in all.zip(&start) {
+            let chart = self
+                .system
+                .chart(self.mode, &plain(coordinates), &plain(states))
+                .map_err(failed)?;
+            let (surface, count) = (&self.options.surface, usize::from(self.options.count));
+            let map =
+                SectionMap::new(self.system, chart, surface, count, &[state]).map_err(failed)?;
+            let image =
+                map.carry(StartSet::of_box(&orbit.point).without_derivatives()).map_err(failed)?;
+            let to = image.set.hull()[0];
+            if state == "t" && own.states.len() < states.len() && middle.len() == own.states.len() {
+                times = Some((middle_of(from), middle_of(&to)));
+                continue;
+            }
+            middle.push(middle_of(&to));
+            let apart = to.high() < from.low() || from.high() < to.low();
+            if apart && !coordinates.iter().any(|name| name == state) {
+                let text = format!(
+                    "--on: {state} is in {from} at the start, and in {to} at the end: the orbit is not periodic; name {state} in --near"
+                );
+                return Err(Error::Misuse(text));
+            }
+        }
+        times.map_or(Ok(()), |times| {
+            check_period(self.model, self.mode, times, &middle, "--surface")
+        })
+    }
+}
+
+fn middle_of(x: &Enclosure) -> f64 {
+    x.low().midpoint(x.high())
 }
 
 fn proved(names: &[String], orbit: &ProvedFixedPoint) -> Table {

@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::model::file::{self, Model};
 use crate::refusal::shortened;
 use equations::{Formulas, Names};
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 /// The model, and its parameters.
@@ -72,10 +73,11 @@ impl StartOptions {
     pub(crate) fn start_in(&self, model: &Model) -> Result<(String, Vec<f64>), Error> {
         let states = &model.equations.names().states;
         let mut texts = vec!["0".to_owned(); states.len()];
-        let own = model.start.state.iter().map(|(name, value)| (name, value.text()));
-        let given = self.start.iter().map(|(name, value)| (name, value.clone()));
-        for (name, value) in own.chain(given) {
-            texts[place_of(states, name, "--start")?] = value;
+        for (name, value) in &model.start.state {
+            texts[place_of(states, name, "[start] of the file:")?] = value.text();
+        }
+        for (name, value) in &self.start {
+            texts[place_of(states, name, "--start")?].clone_from(value);
         }
         Ok((mode_of(self.mode.as_deref(), model)?, numbers(model, &texts, "--start")?))
     }
@@ -93,6 +95,49 @@ pub(crate) fn mode_of(given: Option<&str>, model: &Model) -> Result<String, Erro
             let reason = format!("there is no such mode; there are: {}", model.modes.join(", "));
             Err(Error::misuse("--mode", shortened(mode), &reason))
         }
+    }
+}
+
+/// Refuses a surface that the model has not.
+pub(crate) fn check_surface(model: &Model, surface: &str) -> Result<(), Error> {
+    let all = model.equations.surfaces().map(|(_, surface)| surface.to_string());
+    let known: BTreeSet<String> = all.collect();
+    if known.contains(surface) {
+        return Ok(());
+    }
+    let names = known.into_iter().collect::<Vec<_>>().join(", ");
+    let reason = match names.is_empty() {
+        true => "the model has no surface".to_owned(),
+        false => format!("there is no such surface; there are: {names}"),
+    };
+    Err(Error::misuse("--surface", shortened(surface), &reason))
+}
+
+/// How far rates may differ at two times that are a period apart, as a part of their size: rounding of the times.
+const SAME_RATES: f64 = 1e-9;
+
+/// Refuses times that are no period of the model's time: the rates at a state differ then. Nothing is refused of a model without the time.
+pub(crate) fn check_period(
+    model: &Model,
+    mode: &str,
+    (from, to): (f64, f64),
+    state: &[f64],
+    option: &str,
+) -> Result<(), Error> {
+    if model.equations.is_autonomous() {
+        return Ok(());
+    }
+    let mode = hybrid_system::Label::new(mode).map_err(failed)?;
+    let field = model.equations.field(mode).map_err(failed)?;
+    let rates = |time: f64| field.values(time, state).map_err(failed);
+    let (one, other) = (rates(from)?, rates(to)?);
+    let same = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME_RATES * (1.0 + a.abs() + b.abs());
+    match one.iter().zip(&other).all(same) {
+        true => Ok(()),
+        false => Err(Error::Misuse(format!(
+            "{option}: the equations use the time, and their rates at t = {from} and at t = {to} differ, so that this is no period of them; \
+             give a period, or make the phase a state"
+        ))),
     }
 }
 
@@ -129,6 +174,9 @@ pub(crate) fn point(
             .ok_or_else(|| Error::Misuse(format!("{option}: {}", reason())))
     };
     let texts = names.iter().map(value).collect::<Result<Vec<String>, Error>>()?;
+    if let Some(name) = names.iter().enumerate().find(|(at, name)| names[..*at].contains(name)) {
+        return Err(Error::misuse(option, shortened(name.1), "it stands twice"));
+    }
     if let Some((unknown, _)) = given.iter().find(|(own, _)| !names.contains(own)) {
         let reason = format!("this is none of {}", names.join(", "));
         return Err(Error::misuse(option, shortened(unknown), &reason));

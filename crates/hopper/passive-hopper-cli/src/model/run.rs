@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::model::columns::table;
-use crate::model::question::{ModelOptions, StartOptions, failed};
+use crate::model::question::{ModelOptions, StartOptions, failed, numbers};
 use crate::options::form::OutputOptions;
 use crate::output::{Cell, Column, Table};
 use crate::streams::Streams;
@@ -23,7 +23,7 @@ pub(crate) struct Options {
     #[arg(long, default_value_t = 10_000)]
     events: usize,
     /// States at so many equal steps of the time: the table `samples`
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     samples: Option<u32>,
     #[command(flatten)]
     pub(crate) output: OutputOptions,
@@ -54,7 +54,7 @@ pub(crate) fn certainty(of: Certainty) -> &'static str {
 }
 
 /// Why a run ended, in words.
-fn reason(stop: Option<Stop>) -> &'static str {
+pub(crate) fn reason(stop: Option<Stop>) -> &'static str {
     match stop {
         None => "goes on",
         Some(Stop::TimeLimit) => "the end of the time",
@@ -72,7 +72,13 @@ fn reason(stop: Option<Stop>) -> &'static str {
 pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> {
     let model = options.model.model()?;
     let (mode, start) = options.start.start_in(&model)?;
-    let Some(time) = options.time.or(model.start.time) else {
+    let of_file = model
+        .start
+        .time
+        .as_ref()
+        .map(|time| numbers(&model, &[time.text()], "[start] of the file: time"));
+    let of_file = of_file.transpose()?.and_then(|values| values.first().copied());
+    let Some(time) = options.time.or(of_file) else {
         return Err(Error::Misuse(
             "--time is missing, and the file has none; give when the run ends".into(),
         ));
@@ -105,8 +111,8 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
         let arc = arc.map_err(failed)?;
         if let Some(event) = arc.event() {
             let (mode, state) = match &event.after {
-                Some((mode, state)) => (mode.to_string(), state),
-                None => ("–".to_owned(), &event.before),
+                Some((mode, state)) => (Some(mode.to_string()), state),
+                None => (None, &event.before),
             };
             let mut row: Vec<Cell> =
                 vec![Cell::measured(event.time, event.time_error), Cell::Error(event.time_error)];
@@ -128,7 +134,7 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
         let grid: Vec<f64> =
             (0..=steps).map(|k| time * f64::from(k) / f64::from(steps.max(1))).collect();
         let trajectory = begun()?.trajectory(&grid).map_err(failed)?;
-        for row in 0..trajectory.times.len() {
+        for row in (0..trajectory.times.len()).filter(|row| trajectory.on_grid[*row]) {
             let mut cells: Vec<Cell> =
                 vec![trajectory.times[row].into(), trajectory.modes[row].to_string().into()];
             cells.extend(
@@ -137,6 +143,8 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
             found[1].rows.push(cells);
         }
     }
-    let shown: Vec<Table> = found.into_iter().filter(|table| !table.rows.is_empty()).collect();
+    let [events, samples, end] = found;
+    let samples = (!samples.rows.is_empty()).then_some(samples);
+    let shown: Vec<Table> = [Some(events), samples, Some(end)].into_iter().flatten().collect();
     form.print(&shown, streams.output)
 }

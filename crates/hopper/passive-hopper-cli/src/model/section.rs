@@ -2,11 +2,10 @@
 
 use crate::error::Error;
 use crate::model::columns::table;
-use crate::model::question::{ModelOptions, StartOptions, failed};
-use crate::model::run::certainty;
+use crate::model::question::{ModelOptions, StartOptions, check_surface, failed};
+use crate::model::run::{certainty, reason};
 use crate::options::form::OutputOptions;
 use crate::output::{Cell, Column, Table};
-use crate::refusal::shortened;
 use crate::streams::Streams;
 use hybrid_system::{EquationsModel, Execution, Limits};
 use nalgebra::DVector;
@@ -22,11 +21,11 @@ pub(crate) struct Options {
     #[command(flatten)]
     start: StartOptions,
     /// Returns that are shown
-    #[arg(long, default_value_t = 20)]
-    returns: usize,
+    #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
+    returns: u32,
     /// Returns that are passed over before
     #[arg(long, default_value_t = 0)]
-    skip: usize,
+    skip: u32,
     /// The time at which the run ends, if there are fewer returns
     #[arg(long, default_value_t = 1e4, value_parser = crate::options::values::finite)]
     time: f64,
@@ -37,17 +36,12 @@ pub(crate) struct Options {
 /// Events between two returns, at most: a run with more is taken for one that does not return.
 const BETWEEN: usize = 100_000;
 
-pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> {
+pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Error> {
     let model = options.model.model()?;
     let (mode, start) = options.start.start_in(&model)?;
-    let mut surfaces: Vec<String> =
-        model.equations.surfaces().map(|(_, surface)| surface.to_string()).collect();
-    surfaces.sort();
-    surfaces.dedup();
-    if !surfaces.contains(&options.surface) {
-        let reason = format!("there is no such surface; there are: {}", surfaces.join(", "));
-        return Err(Error::misuse("--surface", shortened(&options.surface), &reason));
-    }
+    check_surface(&model, &options.surface)?;
+    let (skip, wanted) =
+        (u64::from(options.skip), u64::from(options.skip) + u64::from(options.returns));
     let before = [
         Column::new("return", "", "number of the return, from 1"),
         Column::new("time", "", "when it happens").with_error("error"),
@@ -61,16 +55,20 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
     let form = options.output.form(&[returns])?;
     let own: EquationsModel<DVector<f64>> = model.equations.model().map_err(failed)?;
     let run = own.start_at(&mode, start, (0.0, options.time)).map_err(failed)?;
-    let limits = Limits::new(options.time, BETWEEN.saturating_mul(options.skip + options.returns));
-    let (mut found, mut number) = (Table::new(returns), 0);
-    for arc in Execution::restore(&own, run.checkpoint(), limits) {
+    let limits = Limits::new(
+        options.time,
+        BETWEEN.saturating_mul(usize::try_from(wanted).unwrap_or(usize::MAX)),
+    );
+    let (mut found, mut number) = (Table::new(returns), 0_u64);
+    let mut execution = Execution::restore(&own, run.checkpoint(), limits);
+    for arc in execution.by_ref() {
         let arc = arc.map_err(failed)?;
         let Some(event) = arc.event().filter(|event| event.surface == *options.surface.as_str())
         else {
             continue;
         };
         number += 1;
-        if number <= options.skip {
+        if number <= skip {
             continue;
         }
         let state = event.after.as_ref().map_or(&event.before, |(_, state)| state);
@@ -83,13 +81,19 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
         row.extend(state.iter().take(count).map(|x| Cell::from(*x)));
         row.push(certainty(event.certainty).into());
         found.rows.push(row);
-        if number == options.skip + options.returns {
+        if number == wanted {
             break;
         }
     }
+    let why = reason(execution.stop());
     if found.rows.is_empty() {
-        let text = format!("no return to {} until the time {}", options.surface, options.time);
+        let text = format!("only {number} returns to {}: the run ended by {why}", options.surface);
         return Err(Error::Model(text));
+    }
+    if number < wanted {
+        options
+            .output
+            .note(&mut streams, format_args!("{number} returns in all: the run ended by {why}"));
     }
     form.print(&[found], streams.output)
 }
