@@ -159,7 +159,11 @@ fn what_is_wrong_is_said_in_one_line_with_its_place() {
         (vec!["run", &ball, "--set", "q=1"], 2, "there are: g, restitution"),
         (vec!["run", &ball, "--mode", "rest"], 2, "there are: flight"),
         (vec!["section", &ball, "--surface", "roof"], 2, "there are: floor"),
-        (vec!["section", &ball, "--surface", "floor", "--skip", "5000"], 1, "only 125 returns to floor"),
+        (
+            vec!["section", &ball, "--surface", "floor", "--skip", "5000"],
+            1,
+            "only 125 returns to floor",
+        ),
         (vec!["basin", &ball, "--window", "h=0:1", "--step", "1"], 2, "give one for each state"),
         (vec!["prove", &ball, "--surface", "floor", "--near", "v=1"], 1, "floor"),
         (vec!["run", "/nowhere.toml"], 2, "/nowhere.toml"),
