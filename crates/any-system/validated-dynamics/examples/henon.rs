@@ -1,7 +1,8 @@
 //! The Hénon map (x, y) → (1 − a x² + y, b x), b = 0.3. At a = 0.2: the basin of its fixed point in [−4, 4]², cell by cell. At a = 1.4: the share of [−2, 2]²
 //! from which orbits never escape, from both sides.
 //!
-//! `cargo run --release --example henon -- henon.jsonl` writes a certificate of both statements, too.
+//! `cargo run --release --example henon -- henon.jsonl` writes a certificate of both statements, too. Behind the file may stand how often sides
+//! are halved, and the most images: `henon.jsonl 10 20000`.
 
 #![allow(clippy::print_stdout)] // a program
 
@@ -56,7 +57,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let kept = wild.keeps(STAYS.0, &around, Budget { boxes: 100_000, divisions: 16 })?;
     println!("the quadrilateral is led into itself: {} parts, {:?}", kept.len(), begin.elapsed());
     let window = [Enclosure::new(-2.0, 2.0), Enclosure::new(-2.0, 2.0)];
-    let division = Division { first: 6, last: 12, images: 150_000 };
+    let number = |place: usize, default: u32| {
+        std::env::args().nth(place).and_then(|word| word.parse().ok()).unwrap_or(default)
+    };
+    let division = Division { first: 6, last: number(2, 12), images: number(3, 150_000) as usize };
     let fates = ProvedBasins::new(&[&wild], Vec::new(), &[&window], division)?;
     let share = |name| Label::new(name).map(|set| fates.share(ProvedFate::Stopped(set)));
     let (stays, escapes) = (share(STAYS.0)?, 1.0 - share(ESCAPES.0)?);
