@@ -230,19 +230,17 @@ fn unpublished(root: &Path) -> Result<Vec<String>, Error> {
 /// The crates as they would be published, without building them again.
 fn packages(root: &Path, folder: &Path) -> Result<Found, Error> {
     let mut package = Command::new(cargo());
-    package.args([
-        "package",
-        "--workspace",
-        "--no-verify",
-        "--allow-dirty",
-        "--quiet",
-        "--target-dir",
-    ]);
+    package.args(["package", "--workspace", "--no-verify", "--allow-dirty", "--quiet"]);
     for name in unpublished(root)? {
         package.args(["--exclude", &name]);
     }
     let work = folder.join("work");
-    let output = package.arg(&work).current_dir(root).output().map_err(Error::starting(cargo()))?;
+    let output = package
+        .arg("--target-dir")
+        .arg(&work)
+        .current_dir(root)
+        .output()
+        .map_err(Error::starting(cargo()))?;
     let crates = std::fs::read_dir(work.join("package")).into_iter().flatten().flatten();
     let files: Vec<PathBuf> = crates
         .map(|entry| entry.path())
