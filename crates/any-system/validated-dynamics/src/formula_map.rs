@@ -9,7 +9,7 @@ use crate::set::{AffineSet, Chain};
 use crate::start::check_box;
 use crate::system::{parameters_as_json, without_time};
 use crate::undecided::{Error, Reason};
-use equations::{Formulas, Names};
+use equations::Formulas;
 use hybrid_system::Label;
 use interval_arithmetic::Enclosure;
 use serde_json::{Value, json};
@@ -89,16 +89,7 @@ impl FormulaMap {
         if conditions.is_empty() || self.sets.iter().any(|(known, _)| *known == label) {
             return Error::argument(name, "a set has conditions, and a name of its own");
         }
-        let names = self.formulas.names();
-        let values: Vec<String> = names.values.iter().map(ToString::to_string).collect();
-        let parameters: Vec<(&str, &str)> = names
-            .parameters
-            .iter()
-            .map(String::as_str)
-            .zip(values.iter().map(String::as_str))
-            .collect();
-        let states: Vec<&str> = names.states.iter().map(String::as_str).collect();
-        let formulas = Formulas::from_text(Names::new(&states, &parameters)?, conditions)?;
+        let formulas = Formulas::from_text(self.formulas.names().clone(), conditions)?;
         self.sets.push((label, without_time(formulas, "a map has no time: give it a variable")?));
         Ok(self)
     }

@@ -26,12 +26,14 @@ pub(crate) fn keep(answer: Result<Vec<u8>, Refusal>) -> u32 {
     status
 }
 
-/// Where the last answer is.
-pub(crate) fn place() -> *const u8 {
+/// The address of the last answer, in every module of the page.
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn answer_place() -> *const u8 {
     ANSWER.with_borrow(|kept| kept.as_ptr())
 }
 
 /// Its number of bytes.
-pub(crate) fn length() -> usize {
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn answer_length() -> usize {
     ANSWER.with_borrow(Vec::len)
 }

@@ -10,18 +10,6 @@ use crate::tile::{Tile, numbered, strip};
 #[cfg(feature = "deep")]
 use std::cell::RefCell;
 
-/// The address of the last answer.
-#[unsafe(no_mangle)]
-pub(crate) extern "C" fn answer_place() -> *const u8 {
-    answer::place()
-}
-
-/// The number of bytes of the last answer.
-#[unsafe(no_mangle)]
-pub(crate) extern "C" fn answer_length() -> usize {
-    answer::length()
-}
-
 fn json(answer: Result<Json, Refusal>) -> u32 {
     answer::keep(answer.map(|json| json.finish().into_bytes()))
 }

@@ -4,18 +4,6 @@ use crate::answer;
 use crate::systems::{OpenSystem, systems_json};
 use std::cell::RefCell;
 
-/// The address of the last answer.
-#[unsafe(no_mangle)]
-pub(crate) extern "C" fn answer_place() -> *const u8 {
-    answer::place()
-}
-
-/// The number of bytes of the last answer.
-#[unsafe(no_mangle)]
-pub(crate) extern "C" fn answer_length() -> usize {
-    answer::length()
-}
-
 /// All systems, as JSON.
 #[unsafe(no_mangle)]
 pub(crate) extern "C" fn systems() -> u32 {

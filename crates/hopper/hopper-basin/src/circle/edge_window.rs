@@ -92,7 +92,12 @@ pub fn edge_label(
 /// Both sides are the same part of their middle, M/p, unless the edge would then cross more than a half of the half
 /// height: in a narrower frame it crosses a half of it.
 pub fn frame_slant(edge: &FollowedEdge) -> f64 {
-    (edge.mass_ratio / edge.point).min(0.5 / edge.by_mass_ratio.abs())
+    slant(edge.mass_ratio, edge.point, edge.by_mass_ratio)
+}
+
+/// The same of any boundary point, from its mass ratio, its speed and its slope over the mass ratio.
+pub(crate) fn slant(mass_ratio: f64, point: f64, by_mass_ratio: f64) -> f64 {
+    (mass_ratio / point).min(0.5 / by_mass_ratio.abs())
 }
 
 /// The shares of the fates in a window of the (M, α) plane about a boundary point: M to the right, h =

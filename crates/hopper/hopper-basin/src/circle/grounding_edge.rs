@@ -1,5 +1,6 @@
 //! Edges of grounding: speeds from which a hop just uses up the energy.
 
+use crate::circle::edge_window::slant;
 use crate::circle::nearest_edge::{changes, narrowed};
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
@@ -118,7 +119,7 @@ impl GroundingEdge {
 
     /// The half width of a window in mass ratio, divided by its half height in speed: as [`frame_slant`](crate::frame_slant).
     pub fn slant(&self) -> f64 {
-        (self.mass_ratio.value() / self.point).min(0.5 / self.by_mass_ratio.abs())
+        slant(self.mass_ratio.value(), self.point, self.by_mass_ratio)
     }
 
     /// log₁₀ of the speed after the last hop at the distance 10^{−`depth`} from p, on the side that hops.

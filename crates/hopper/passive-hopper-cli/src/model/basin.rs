@@ -1,12 +1,13 @@
 //! `nonsmooth basin`: attractors, and the basins of a window.
 
+use crate::commands::orbit::drawing;
 use crate::commands::search;
 use crate::error::Error;
 use crate::model::columns::table;
 use crate::model::file::Model;
 use crate::model::question::{ModelOptions, StartOptions, check_period, failed, numbers, place_of};
 use crate::options::form::OutputOptions;
-use crate::options::output_file::{Format, OutputFile, check, figure};
+use crate::options::output_file::{OutputFile, check, figure};
 use crate::output::{Cell, Column, Table, TableKind};
 use crate::streams::Streams;
 use basin_of_attraction::{
@@ -14,7 +15,6 @@ use basin_of_attraction::{
     StateGrid, StateMap,
 };
 use hybrid_system::{EquationsModel, Label as Name};
-use journal_figures::render;
 use nalgebra::DVector;
 use return_map::{ExecutionSteps, FlowSteps};
 use std::collections::BTreeMap;
@@ -112,9 +112,7 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     if let Some(file) = &options.figure {
         let names = AxisNames { x: axes[0], y: axes[1] };
         let svg = found.image.picture(&found.attractors.positions(), plane, names)?;
-        let drawn = render("basins", &svg, 2.0)?;
-        let bytes = if file.format == Format::Svg { drawn.svg.into_bytes() } else { drawn.png };
-        file.write(&bytes, &options.output, &mut streams)?;
+        file.write(&drawing("basins", file.format, &svg)?, &options.output, &mut streams)?;
     }
     if let Some(remedy) = found.attractors.remedy() {
         options.output.note(&mut streams, format_args!("no attractor was found: {remedy}"));

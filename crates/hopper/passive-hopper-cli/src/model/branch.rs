@@ -1,18 +1,19 @@
 //! `nonsmooth branch`: periodic orbits along a parameter, with their bifurcations.
 
+use crate::commands::orbit::drawing;
 use crate::commands::search;
 use crate::error::Error;
 use crate::model::columns::table;
-use crate::model::file::Model;
+use crate::model::file::{Model, texts};
 use crate::model::question::{
     ModelOptions, check_period, check_surface, failed, mode_of, named, point,
 };
 use crate::options::form::OutputOptions;
-use crate::options::output_file::{Format, OutputFile, check, figure};
+use crate::options::output_file::{OutputFile, check, figure};
 use crate::output::{Cell, Column, Table, TableKind};
 use crate::streams::Streams;
 use hybrid_system::EquationsModel;
-use journal_figures::{Frame, LabelledBranch, Svg, render, ticks};
+use journal_figures::{Frame, LabelledBranch, Svg, ticks};
 use nalgebra::DVector;
 use return_map::{Branch, BranchEnd, BranchSteps, EquationReturns, follow_branch};
 use std::ops::ControlFlow;
@@ -80,7 +81,7 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     let points = table(("points", "one row for each point of the branch"), &before, own, &after);
     let form = options.output.form(&[points, &BIFURCATIONS])?;
     let taken = check(&[("--figure", options.figure.as_ref())])?;
-    let coordinates: Vec<&str> = names.iter().map(String::as_str).collect();
+    let coordinates = texts(&names);
     let (parameter, surface) = (&options.parameter, &options.surface);
     let map = EquationReturns::new(&model.equations, parameter, (&mode, surface), &coordinates);
     let map = map.map_err(|error| Error::Misuse(error.to_string()))?;
@@ -100,10 +101,8 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
             .map_err(failed)
     })?;
     if let Some(file) = &options.figure {
-        let svg = drawing(&branch, window, (parameter, &names[0]));
-        let drawn = render("branch", &svg, 2.0)?;
-        let bytes = if file.format == Format::Svg { drawn.svg.into_bytes() } else { drawn.png };
-        file.write(&bytes, &options.output, &mut streams)?;
+        let svg = diagram(&branch, window, (parameter, &names[0]));
+        file.write(&drawing("branch", file.format, &svg)?, &options.output, &mut streams)?;
     }
     if taken {
         return Ok(());
@@ -197,7 +196,7 @@ fn bifurcations(branch: &Branch) -> Table {
     found
 }
 
-fn drawing(branch: &Branch, window: (f64, f64), (parameter, coordinate): (&str, &str)) -> Svg {
+fn diagram(branch: &Branch, window: (f64, f64), (parameter, coordinate): (&str, &str)) -> Svg {
     let line = branch.line(0);
     let heights = || line.iter().map(|(_, x, _)| *x).filter(|x| x.is_finite());
     let (low, high) =

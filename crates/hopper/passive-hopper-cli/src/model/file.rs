@@ -203,7 +203,7 @@ fn in_line(text: &str, error: &toml::de::Error) -> String {
 
 /// The equations of a file.
 fn equations_of(file: &ModelFile) -> Result<Equations, String> {
-    let states: Vec<&str> = file.states.iter().map(String::as_str).collect();
+    let states = texts(&file.states);
     let mut values = Vec::new();
     for (name, value) in &file.parameters {
         values.push((name, decimal(&value.text(), name)?));
@@ -236,7 +236,7 @@ pub(super) fn decimal(text: &str, name: &str) -> Result<String, String> {
     Ok(value.first().copied().unwrap_or_default().to_string())
 }
 
-fn texts(all: &[String]) -> Vec<&str> {
+pub(super) fn texts(all: &[String]) -> Vec<&str> {
     all.iter().map(String::as_str).collect()
 }
 

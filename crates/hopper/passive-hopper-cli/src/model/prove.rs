@@ -2,7 +2,7 @@
 
 use crate::commands::search;
 use crate::error::Error;
-use crate::model::file::Model;
+use crate::model::file::{Model, texts};
 use crate::model::question::{
     ModelOptions, check_period, check_surface, failed, mode_of, named, point,
 };
@@ -102,19 +102,12 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         states.push(state(&"t".to_owned()));
     }
     let read = if options.read.is_empty() { names.clone() } else { options.read.clone() };
-    let own = options.clone();
-    let (texts, coordinates) = (read, names.clone());
+    let (own, variables) = (options.clone(), names.clone());
     let found = search::run(&options.output, &mut streams, move || {
-        let as_texts = |all: &[String]| -> Vec<String> { all.to_vec() };
-        let (variables, states, read) =
-            (as_texts(&coordinates), as_texts(&states), as_texts(&texts));
-        fn plain(all: &[String]) -> Vec<&str> {
-            all.iter().map(String::as_str).collect()
-        }
         let system = ValidatedSystem::new(&model.equations).map_err(failed)?;
-        let chart = system.chart(&mode, &plain(&variables), &plain(&states)).map_err(failed)?;
+        let chart = system.chart(&mode, &texts(&variables), &texts(&states)).map_err(failed)?;
         let map =
-            SectionMap::new(&system, chart, &own.surface, usize::from(own.count), &plain(&read));
+            SectionMap::new(&system, chart, &own.surface, usize::from(own.count), &texts(&read));
         let mut map = map.map_err(failed)?;
         if own.certificate.is_some() {
             map = map.recorded();
@@ -158,19 +151,16 @@ impl Closing<'_> {
         states: &[String],
         orbit: &ProvedFixedPoint,
     ) -> Result<(), Error> {
-        fn plain(all: &[String]) -> Vec<&str> {
-            all.iter().map(String::as_str).collect()
-        }
         let own = self.model.equations.names();
         let names = Names { states: coordinates.to_vec(), ..own.clone() };
-        let start = Formulas::from_text(names, &plain(states)).map_err(failed)?;
+        let start = Formulas::from_text(names, &texts(states)).map_err(failed)?;
         let start = start.enclosures(Enclosure::ZERO, &orbit.point).map_err(failed)?;
         let all = own.states.iter().map(String::as_str).chain(["t"]).take(states.len());
         let (mut middle, mut times) = (Vec::new(), None);
         for (state, from) in all.zip(&start) {
             let chart = self
                 .system
-                .chart(self.mode, &plain(coordinates), &plain(states))
+                .chart(self.mode, &texts(coordinates), &texts(states))
                 .map_err(failed)?;
             let (surface, count) = (&self.options.surface, usize::from(self.options.count));
             let map =

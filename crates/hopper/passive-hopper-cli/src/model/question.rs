@@ -153,9 +153,8 @@ pub(crate) fn place_of(states: &[String], name: &str, option: &str) -> Result<us
 pub(crate) fn numbers(model: &Model, texts: &[String], option: &str) -> Result<Vec<f64>, Error> {
     let own = model.equations.names();
     let names = Names { states: Vec::new(), ..own.clone() };
-    let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
     let refused = |error: equations::Error| Error::Misuse(format!("{option}: {error}"));
-    let formulas = Formulas::from_text(names, &texts).map_err(refused)?;
+    let formulas = Formulas::from_text(names, &file::texts(texts)).map_err(refused)?;
     formulas.values(0.0, &[]).map_err(refused)
 }
 
