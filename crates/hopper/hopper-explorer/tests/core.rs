@@ -145,6 +145,7 @@ fn wrong_questions_are_refused_with_words() {
 }
 
 /// The fraction of Ψ with which the windows end.
+#[expect(clippy::unwrap_used, reason = "a test calls it")]
 fn fraction(depth: &Depth, at: f64) -> f64 {
     let text = depth.phase(at).unwrap();
     let digits = text.split_once(r#""fraction":"#).unwrap().1;
