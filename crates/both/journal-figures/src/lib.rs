@@ -16,7 +16,7 @@
 //! | [`html`] | the markup of labels as HTML |
 //! | [`Path`], [`Segment`] | outlines of straight lines and cubic Bézier pieces |
 //! | [`render`], [`indexed_png`], [`rgb_png`] | a drawing as SVG with outlined labels and as PNG; a PNG with a palette, or with three bytes a pixel |
-//! | [`animated_png`], [`animated_gif`] | frames one after another |
+//! | [`animated_png`], [`animated_gif`], [`AnimationForm`] | frames one after another |
 //! | [`csv_file`], [`csv_text`], [`npy_header`] | the data beside a drawing: tables, and arrays for NumPy |
 //!
 //! ```
@@ -62,7 +62,7 @@ mod raster;
 mod render;
 mod svg;
 
-pub use animation::{animated_gif, animated_png};
+pub use animation::{AnimationForm, AnimationFrame, animated_gif, animated_png};
 pub use axes::{Frame, Scale, decades, ticks};
 pub use cobweb::cobweb;
 pub use curve::{graph_pieces, graph_pieces_to, smooth};

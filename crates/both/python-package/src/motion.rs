@@ -5,7 +5,7 @@ use crate::errors::{InputError, value_error};
 use crate::interruptible::{Watch, in_background, progress_function};
 use crate::whole::whole;
 use hopper_figures::{
-    AnimationForm, Motion, MotionEvent, Sample, animation, frame_png, frame_times,
+    AnimationForm, Motion, MotionEvent, Sample, animation, animation_frame, frame_times,
 };
 use passive_hopper::{HopperState, MassRatio, Phase};
 use pyo3::prelude::*;
@@ -112,7 +112,7 @@ pub(crate) fn animation_bytes<'py>(
     let times = frame_times(&motion).map_err(value_error)?;
     let all = times.len();
     let work = move |watch: &Watch| {
-        let frame = |k: usize| frame_png(&motion, times[k]).map_err(Failure::Figure);
+        let frame = |k: usize| animation_frame(&motion, times[k], form).map_err(Failure::Figure);
         let count = |_: usize| {
             watch.finished(1);
             if watch.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

@@ -104,6 +104,12 @@ impl Pieces {
         self.folder.join(format!("piece_{piece:06}.bin"))
     }
 
+    /// Whether a piece has a file. It may be damaged: [`find`](Self::find) reads it.
+    #[must_use]
+    pub fn has_file(&self, piece: usize) -> bool {
+        self.path(piece).is_file()
+    }
+
     /// The payload of a piece, if it is finished and whole.
     ///
     /// # Errors

@@ -13,7 +13,7 @@
 //! | [`Graph`], [`graph_pieces`], [`cuts`], [`cuts_between`] | the graph of the map, in pieces that are smooth |
 //! | [`MapPlot`] | the map with its fixed points and traps, and the cobweb of an orbit |
 //! | [`Motion`], [`MotionEvent`], [`draw_motion`] | the motion of both masses, sampled, with its events, and against time |
-//! | [`frame_times`], [`draw_frame`], [`frame_png`], [`animation`] | the frames of its animation, and the file |
+//! | [`frame_times`], [`draw_frame`], [`animation_frame`], [`animation`] | the frames of its animation, and the file |
 //! | [`draw_ground`], [`draw_block`], [`draw_spring`] | the parts of a drawn hopper |
 //!
 //! ```
@@ -47,7 +47,7 @@ mod scales;
 mod shares;
 mod zoom;
 
-pub use animation::{AnimationForm, animation, frame_png};
+pub use animation::{AnimationForm, AnimationFrame, animation, animation_frame};
 pub use basins::{BasinWindow, Inset, PIXELS, draw_basins, draw_pixels, label_png, legend};
 pub use coverage::{coverage_png, draw_coverage};
 pub use error::Error;

@@ -1,6 +1,7 @@
 //! The command line: its commands, their help, and their start.
 
-use crate::commands::{self, Page};
+use crate::basins::{self, Action, CoverageOptions, JobOptions, ScalesOptions, ZoomOptions};
+use crate::commands::{self, Page, page};
 use crate::error::Error;
 use crate::options::form::OutputOptions;
 use crate::program::Call;
@@ -10,7 +11,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 /// The passive hopper: hops, orbits, fates, the map, its basins, and units.
 #[derive(Debug, Parser)]
 #[command(name = "hopper", version, about, long_about = ABOUT, after_long_help = EXIT_STATUS)]
-#[command(infer_long_args = false, max_term_width = 100, disable_help_subcommand = false)]
+#[command(infer_long_args = false, max_term_width = page::WIDEST, disable_help_subcommand = false)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -52,7 +53,13 @@ pub(crate) enum Command {
     /// Find the fates of lift-off speeds, with the trap and the number of hops; a filter
     Fate(commands::fate::Options),
     /// Compute the basins over mass ratio and speed as rasters, in pieces; a call that was killed can be continued
-    Basins(crate::basins::Options),
+    Basins(basins::Options),
+    /// Compute the share of every basin in each pixel, so that no needle is missed
+    Coverage(JobOptions<CoverageOptions>),
+    /// Show the speeds below a fixed point, or beside a preimage of it, at all scales
+    Scales(JobOptions<ScalesOptions>),
+    /// Make a sequence of frames into the edge of a basin
+    Zoom(JobOptions<ZoomOptions>),
     /// Show the map at one mass ratio: fixed points, traps, crises, the curve as data or as a figure
     Map(commands::map::Options),
     /// Compute the basins at one mass ratio as intervals, and their fractions with bounds
@@ -71,7 +78,13 @@ impl Call for Command {
             Command::Hop(options) => Some(&options.output),
             Command::Orbit(options) => Some(&options.output),
             Command::Fate(options) => Some(&options.output),
-            Command::Basins(options) => Some(&options.output),
+            Command::Basins(options) => Some(match &options.action {
+                Some(Action::Status(folder) | Action::Verify(folder)) => &folder.output,
+                None => &options.output,
+            }),
+            Command::Coverage(options) => Some(&options.output),
+            Command::Scales(options) => Some(&options.output),
+            Command::Zoom(options) => Some(&options.output),
             Command::Map(options) => Some(&options.output),
             Command::Intervals(options) => Some(&options.output),
             Command::Units(options) => Some(&options.output),
@@ -84,7 +97,10 @@ impl Call for Command {
             Command::Hop(options) => commands::hop::run(&options, streams),
             Command::Orbit(options) => commands::orbit::run(&options, streams),
             Command::Fate(options) => commands::fate::run(&options, streams),
-            Command::Basins(options) => crate::basins::run(&options, streams),
+            Command::Basins(options) => basins::run(&options, streams),
+            Command::Coverage(options) => basins::run_other(&options, streams),
+            Command::Scales(options) => basins::run_other(&options, streams),
+            Command::Zoom(options) => basins::run_other(&options, streams),
             Command::Map(options) => commands::map::run(&options, streams),
             Command::Intervals(options) => commands::intervals::run(&options, streams),
             Command::Units(options) => commands::units::run(&options, streams),
@@ -101,7 +117,7 @@ pub(crate) const PAGES: [(&str, &Page); 7] = [
     ("hop", &commands::hop::PAGE),
     ("orbit", &commands::orbit::PAGE),
     ("fate", &commands::fate::PAGE),
-    ("basins", &crate::basins::PAGE),
+    ("basins", &basins::PAGE),
     ("map", &commands::map::PAGE),
     ("intervals", &commands::intervals::PAGE),
     ("units", &commands::units::PAGE),
@@ -109,7 +125,8 @@ pub(crate) const PAGES: [(&str, &Page); 7] = [
 
 /// The whole command line, with the help of every command.
 pub(crate) fn command_line() -> clap::Command {
-    PAGES.iter().fold(Cli::command(), |command, (name, page)| {
+    let program = commands::texts::with_names(Cli::command());
+    PAGES.iter().chain(&basins::PAGES).fold(program, |command, (name, page)| {
         command.mut_subcommand(name, |command| command.after_long_help(page.text()))
     })
 }

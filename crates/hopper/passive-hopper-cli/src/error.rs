@@ -58,6 +58,18 @@ pub(crate) enum Error {
     /// A finished piece is whole, and yet not what it should be.
     #[error("{0}; remove its folder, or add --force, and run again")]
     Unreadable(String),
+    /// Files of a job are not as they were written.
+    #[error(
+        "{count} of the files are damaged; the first: {first}; `hopper basins --out {folder}` computes them again"
+    )]
+    Damaged {
+        /// How many.
+        count: usize,
+        /// The first one, and what is wrong.
+        first: String,
+        /// The folder.
+        folder: String,
+    },
     /// A signal has asked the program to stop.
     #[error("interrupted: {done}; the same call, given again, goes on")]
     Interrupted {
@@ -75,8 +87,8 @@ pub(crate) enum Error {
     /// A model of a file could not be followed, or a statement about it is not proved: in the words of the library.
     #[error("{0}")]
     Model(String),
-    /// Fates are undecided, and --strict was given.
-    #[error("{count} of the fates are undecided (--strict); their reasons are in the output")]
+    /// Results are undecided, and --strict was given.
+    #[error("{count} of the results are undecided (--strict); the output says which")]
     Undecided {
         /// How many.
         count: u64,
@@ -87,6 +99,14 @@ pub(crate) enum Error {
 }
 
 impl Error {
+    /// The same for a call that keeps no pieces.
+    pub(crate) fn without_pieces(self) -> Self {
+        match self {
+            Error::Interrupted { status, .. } => Error::Ended { status },
+            other => other,
+        }
+    }
+
     /// The exit status: 1 for a failure, 2 for a wrong call, 0 if the reader of the output has gone, 130 or 143
     /// after a signal.
     pub(crate) fn exit_status(&self) -> u8 {

@@ -78,8 +78,11 @@ pub fn nonsmooth_main() -> ExitCode {
 
 fn with_own_streams(program: &Program) -> ExitCode {
     let input = std::io::stdin();
+    // https://no-color.org: any text in NO_COLOR means none.
+    let no_color = std::env::var_os("NO_COLOR").is_some_and(|text| !text.is_empty());
     let streams = Streams {
         input_is_terminal: input.is_terminal(),
+        output_has_colors: std::io::stdout().is_terminal() && !no_color,
         input: &mut input.lock(),
         output: &mut std::io::stdout().lock(),
         messages: &mut std::io::stderr(),
@@ -114,7 +117,7 @@ fn answer(
     arguments: impl IntoIterator<Item = OsString>,
     streams: Streams<'_>,
 ) -> u8 {
-    let Streams { input, input_is_terminal, output, messages } = streams;
+    let Streams { input, input_is_terminal, output_has_colors, output, messages } = streams;
     let mut output = BufWriter::new(output);
     let begin = Instant::now();
     let mut verbose = false;
@@ -125,7 +128,13 @@ fn answer(
             let threads = options.and_then(OutputOptions::threads);
             let (output, messages) = (&mut output, &mut *messages);
             with_threads(threads).and_then(|()| {
-                command.start(Streams { input, input_is_terminal, output, messages })
+                command.start(Streams {
+                    input,
+                    input_is_terminal,
+                    output_has_colors,
+                    output,
+                    messages,
+                })
             })
         }
         Ok(Parsed::Text(text)) => output.write_all(text.as_bytes()).map_err(Error::output),

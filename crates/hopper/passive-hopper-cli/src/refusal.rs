@@ -14,10 +14,10 @@ pub(crate) fn line(error: &clap::Error, arguments: &[OsString]) -> String {
         return text;
     }
     let mut text = error.to_string();
-    // A line break in an argument is no end of the message.
+    // A line break in an argument is no end of the message, and a long one hides what is wrong with it.
     for argument in arguments.iter().filter_map(|argument| argument.to_str()) {
-        if argument.contains(['\n', '\r']) {
-            text = text.replace(argument, &one_line(argument));
+        if argument.contains(['\n', '\r']) || argument.chars().count() > LONGEST_VALUE {
+            text = text.replace(argument, &one_line(&shortened(argument)));
         }
     }
     let mut parts: Vec<String> = Vec::new();

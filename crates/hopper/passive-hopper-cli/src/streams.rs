@@ -9,6 +9,8 @@ pub struct Streams<'a> {
     pub input: &'a mut dyn Read,
     /// Whether a person types the input. The program then does not wait for it.
     pub input_is_terminal: bool,
+    /// Whether the output is a terminal that shows colours.
+    pub output_has_colors: bool,
     /// Standard output: results.
     pub output: &'a mut dyn Write,
     /// Standard error: refusals and notes.

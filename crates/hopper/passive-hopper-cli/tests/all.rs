@@ -10,6 +10,7 @@ mod common;
 mod damaged_files;
 mod errors_of_numbers;
 mod help_examples;
+mod job_folders;
 mod kills;
 mod long_jobs;
 mod long_jobs_page;

@@ -10,6 +10,7 @@ fn call(arguments: &[&str]) -> (u8, String, String) {
     let streams = Streams {
         input: &mut std::io::empty(),
         input_is_terminal: false,
+        output_has_colors: false,
         output: &mut output,
         messages: &mut messages,
     };

@@ -3,13 +3,23 @@
 use super::common::call;
 use std::process::Command;
 
-const COMMANDS: [&str; 7] = ["hop", "orbit", "fate", "basins", "map", "intervals", "units"];
+const COMMANDS: [&str; 10] =
+    ["hop", "orbit", "fate", "basins", "coverage", "scales", "zoom", "map", "intervals", "units"];
 
 /// The calls in the examples of a help text.
 fn examples(help: &str) -> Vec<String> {
     let after = help.split_once("\nExamples:\n").expect("the help has examples").1;
-    let calls = after.lines().filter_map(|line| line.strip_prefix("    "));
-    calls.map(str::to_owned).collect()
+    let mut calls: Vec<String> = Vec::new();
+    for line in after.lines() {
+        match line.strip_prefix("    ") {
+            // A call may have several lines.
+            Some(line) => {
+                *calls.last_mut().expect("a text is before a call") += &format!("{line}\n")
+            }
+            None => calls.push(String::new()),
+        }
+    }
+    calls
 }
 
 #[test]
@@ -82,6 +92,8 @@ fn the_columns_of_the_output_are_those_of_the_help() {
         for &table in tables {
             let (_, columns) = help.split_once(&format!("\nTable `{table}`: ")).unwrap();
             let columns = columns.lines().skip(1).take_while(|line| line.starts_with("  "));
+            // The rest of a long meaning is indented.
+            let columns = columns.filter(|line| !line.starts_with("   "));
             let columns: Vec<&str> =
                 columns.filter_map(|line| line.split_whitespace().next()).collect();
             let csv = call(&[arguments, &["--csv", "--table", table]].concat(), b"4.5\n8\n").output;
@@ -110,6 +122,15 @@ fn completions_and_manual_pages_name_every_command() {
     }
     let page = call(&["manual"], b"").output;
     assert!(page.starts_with(".ie") && page.contains(".TH hopper"), "{page}");
+    let folder = std::env::temp_dir().join(format!("hopper_manual_{}", std::process::id()));
+    let all = call(&["manual", "--all", &folder.display().to_string()], b"");
+    assert_eq!((all.code, all.output.as_str()), (0, ""), "{}", all.messages);
+    for command in COMMANDS {
+        let page = std::fs::read_to_string(folder.join(format!("hopper-{command}.1"))).unwrap();
+        assert!(page.contains(".TH hopper") && page.contains("Limits"), "{command}");
+    }
+    assert!(folder.join("hopper.1").is_file() && folder.join("hopper-basins-status.1").is_file());
+    std::fs::remove_dir_all(&folder).unwrap();
     let page = call(&["manual", "fate"], b"").output;
     assert!(
         page.contains(".TH hopper") && page.contains("mass\\-ratio") && page.contains("Limits")

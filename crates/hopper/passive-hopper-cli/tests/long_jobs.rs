@@ -33,7 +33,7 @@ fn a_signal_ends_a_call_with_its_status_and_the_same_call_goes_on() {
             "{text}"
         );
         // No lock and no half-written file is left, and no result is there.
-        assert_eq!(folder.names(""), ["job.txt", "tiles"]);
+        assert_eq!(folder.names(""), ["call.txt", "job.txt", "tiles"]);
         assert!(folder.names("tiles").iter().all(|name| name.ends_with(".bin")));
         let tiles = folder.tiles();
         assert!(text.contains(&format!(" {tiles} of 50 tiles are finished")), "{tiles}: {text}");

@@ -117,6 +117,63 @@ fn figures_and_motions_go_to_standard_output() {
     assert!((position - 1.0).abs() < 1e-12 && (velocity - 5.4319312674983316).abs() < 1e-12);
 }
 
+/// A hop, an orbit and a fate of a line are those of a call of its own, whatever the form of the line.
+#[test]
+fn commands_are_filters_of_speeds_pairs_and_columns() {
+    for command in ["hop", "orbit", "fate"] {
+        let alone = |mass_ratio: &str, speed: &str| {
+            let rows = call(&[command, speed, "-M", mass_ratio, "--csv"], b"").output;
+            let (_, rows) = rows.split_once('\n').unwrap();
+            rows.to_owned()
+        };
+        // An orbit of the input begins its rows with its start.
+        let with_start = |mass_ratio: &str, speed: &str, start: &str| {
+            let rows = alone(mass_ratio, speed);
+            let start = start.to_owned() + if command == "orbit" { speed } else { "" };
+            let start = start.trim_end_matches(',').to_owned();
+            let comma = if start.is_empty() { "" } else { "," };
+            rows.lines().map(|row| format!("{start}{comma}{row}\n")).collect::<String>()
+        };
+        let rows = |arguments: &[&str], input: &[u8]| {
+            let called = call(&[&[command, "--csv"], arguments].concat(), input);
+            assert_eq!(called.code, 0, "{}", called.messages);
+            called.output.split_once('\n').unwrap().1.to_owned()
+        };
+        let speeds = rows(&["-M", "0.2"], b"7\n4.55\n");
+        assert_eq!(speeds, with_start("0.2", "7", "") + &with_start("0.2", "4.55", ""));
+        let pairs = with_start("0.2", "7", "0.2,") + &with_start("0.9", "4.55", "0.9,");
+        assert_eq!(rows(&["--pairs"], b"0.2 7\n0.9,4.55\n"), pairs);
+        let table = b"\xef\xbb\xbf# a\nrun,alpha,M\na,7,0.2\nb,4.55,0.9\n";
+        assert_eq!(rows(&["--columns", "M,alpha"], table), pairs);
+        assert_eq!(rows(&["--columns", "alpha", "-M", "0.2"], table), speeds);
+        for (arguments, input, why) in [
+            (&["--pairs"][..], "7\n", "line 1, '7': it has 1 numbers; give two"),
+            (&["--pairs", "-M", "0.2"], "", "cannot be used with"),
+            (&["--columns", "M,v"], "M,alpha\n", "there is no column 'v'; give one of: M, alpha"),
+            (&["--columns", "v"], "", "give two names"),
+            (&["--columns", "M,v", "-M", "1"], "", "one column"),
+            (&["7", "--pairs"], "", "leave one out"),
+            (&[], "", "--mass-ratio"),
+        ] {
+            let called = call(&[&[command], arguments].concat(), input.as_bytes());
+            assert_eq!(called.code, 2, "{command} {arguments:?}: {}", called.output);
+            assert!(called.messages.contains(why), "{command} {arguments:?}: {}", called.messages);
+        }
+    }
+    let picture = call(&["orbit", "-M", "0.2", "--cobweb", "-"], b"7\n");
+    assert!(picture.code == 2 && picture.messages.contains("a picture shows one orbit"));
+    let fates = call(&["orbit", "--pairs", "--table", "fates", "--csv"], b"0.2 7\n");
+    assert!(
+        fates.output.starts_with("mass_ratio,speed,fate")
+            && fates.output.contains("0.2,7,decaying")
+    );
+    let landings = call(&["hop", "--pairs", "--table", "landings", "--csv"], b"0.2 7\n");
+    assert!(
+        landings.output.starts_with("mass_ratio,speed,landing")
+            && landings.output.lines().count() == 3
+    );
+}
+
 #[test]
 fn lines_of_json_are_the_rows() {
     let lines = call(&["fate", "-M", "0.2", "--ndjson"], b"4.55\n7\n").output;
@@ -149,7 +206,7 @@ fn undecided_fates_are_an_error_if_that_is_asked_for() {
         let read = call(&[&undecided[..], strict].concat(), b"1e12\n");
         assert_eq!((given.code, read.code), (code, code), "{}", given.messages);
         assert!(given.output == read.output && given.output.contains("1024 bits do not decide"));
-        assert_eq!(given.messages.contains("1 of the fates are undecided"), code == 1);
+        assert_eq!(given.messages.contains("1 of the results are undecided"), code == 1);
     }
     assert_eq!(call(&["fate", "7", "-M", "0.2", "--strict"], b"").code, 0);
 }

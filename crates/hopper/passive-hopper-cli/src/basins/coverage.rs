@@ -1,15 +1,21 @@
-//! `hopper basins --coverage`: the share of every basin in each pixel of a window of (M, α).
+//! `hopper coverage`: the share of every basin in each pixel of a window of (M, α).
 //!
 //! A call that is killed leaves its finished columns, and the next call computes the others.
 
 use crate::basins::call::{Call, Payload, Work};
 use crate::basins::column_bytes;
-use crate::basins::job_folder::{JobFolder, Share};
+use crate::basins::job::{Job, Visit, Words};
+use crate::basins::job_folder::{JobFolder, Place, Share};
 use crate::basins::layer::window;
+use crate::basins::options::mass_ratio;
 use crate::basins::pieces::compute;
+use crate::basins::rasters::{MASS_RATIOS, PIXELS};
 use crate::basins::shares::{COLUMNS, LEGEND, MOST_PIXELS, PICTURE_FILE, RESULTS, finish};
 use crate::basins::tables::{self, Tables};
+use crate::basins::window::grid;
+use crate::commands::page::{Example, Page};
 use crate::error::Error;
+use crate::options::values;
 use crate::output::number;
 use basin_of_attraction::{Grid, PixelShares};
 use hopper_basin::{
@@ -18,7 +24,6 @@ use hopper_basin::{
 };
 use hopper_figures::draw_coverage;
 use serde_json::{Value, json};
-use std::path::Path;
 
 /// The tolerances that are accepted. Below, a pixel beside a fixed point has more basins than can be found; above,
 /// a picture means nothing.
@@ -27,6 +32,74 @@ const LARGEST: f64 = 0.5;
 
 /// The least number of `f64` in the undecided part of a pixel: images of gaps are known to some ten ulps.
 const FEWEST_NUMBERS: f64 = 1e3;
+
+/// What a job of `hopper coverage` is.
+#[derive(Debug, Clone, PartialEq, clap::Args)]
+pub(crate) struct CoverageOptions {
+    /// The part of a pixel that may stay undecided [default: 0.05]
+    #[arg(value_parser = values::finite, allow_negative_numbers = true)]
+    pub(crate) tolerance: Option<f64>,
+    /// Mass ratios from and to [default: 0.1 1]
+    #[arg(short = 'M', long, num_args = 2, value_names = ["FROM", "TO"], value_parser = mass_ratio, allow_negative_numbers = true)]
+    pub(crate) mass_ratio: Option<Vec<f64>>,
+    /// Lift-off speeds from and to, in m₂gω/k [default: the first and the sixth fixed point]
+    #[arg(long, num_args = 2, value_names = ["FROM", "TO"], value_parser = values::finite, allow_negative_numbers = true)]
+    pub(crate) speed: Option<Vec<f64>>,
+    /// Pixels across and up [default: 1024 1024]
+    #[arg(long, num_args = 2, value_names = ["COLUMNS", "ROWS"], value_parser = values::count, allow_negative_numbers = true)]
+    pub(crate) pixels: Option<Vec<usize>>,
+}
+
+/// The help beside the options.
+pub(crate) const PAGE: Page = Page {
+    units: "Speeds in m₂gω/k.",
+    limits: "At most 2²⁴ pixels. Each pixel has the shares of the basins in it at the mass ratio of its column: a \
+             needle thinner than a pixel is a faint line. At most the given part of a pixel stays undecided, unless \
+             too many basins meet there.\n\
+             Pieces, parts and going on as in `hopper basins --help`.",
+    is_filter: false,
+    tables: &[&tables::SHARES, &tables::PARTS, &tables::FILES],
+    examples: &[
+        Example {
+            about: "The share of every basin in each pixel.",
+            line: "hopper coverage --mass-ratio 0.17 0.18 --speed 17 17.8 --pixels 8 32 --out coverage",
+        },
+        Example {
+            about: "The same, more exactly, and its mean shares for a program.",
+            line: "hopper coverage 0.01 --mass-ratio 0.17 0.18 --speed 17 17.8 --pixels 8 32 --out finer --json",
+        },
+    ],
+};
+
+/// The part of a pixel that may stay undecided unless another is given.
+const TOLERANCE: f64 = 0.05;
+
+impl Job for CoverageOptions {
+    fn words(&self) -> Words {
+        let mut words = Words::of("coverage");
+        words.argument(self.tolerance);
+        words.window(self.mass_ratio.as_deref(), self.speed.as_deref(), self.pixels.as_deref());
+        words
+    }
+
+    fn visit(&self, visit: &mut Visit<'_>) -> Result<(), Error> {
+        let coverage = self.coverage()?;
+        visit(&coverage.description(), &coverage.work(), &RESULTS)
+    }
+
+    fn run(&self, place: &Place<'_>, call: &mut Call<'_>) -> Result<Tables, Error> {
+        run(place, &self.coverage()?, call)
+    }
+}
+
+impl CoverageOptions {
+    fn coverage(&self) -> Result<Coverage, Error> {
+        let mass_ratio = self.mass_ratio.as_deref().unwrap_or(&MASS_RATIOS);
+        let pixels = self.pixels.as_deref().unwrap_or(&PIXELS);
+        let grid = grid(mass_ratio, self.speed.as_deref(), pixels)?;
+        Coverage::new(grid, self.tolerance.unwrap_or(TOLERANCE))
+    }
+}
 
 /// A raster of shares over (M, α).
 #[derive(Debug, Clone, Copy)]
@@ -45,7 +118,7 @@ impl Coverage {
             let reason = format!(
                 "the undecided part of a pixel must be from {SMALLEST} to {LARGEST}; give 0.05, which is a good value"
             );
-            return Err(Error::misuse("--coverage", number(tolerance), &reason));
+            return Err(Error::misuse("TOLERANCE", number(tolerance), &reason));
         }
         let Grid { columns, rows, y, .. } = grid;
         if columns.saturating_mul(rows) > MOST_PIXELS {
@@ -59,7 +132,7 @@ impl Coverage {
         if PixelShares::edges(y, rows).is_err() || open < least {
             let reason = format!(
                 "with {rows} rows, {} of a pixel is {}, and must be at least {}, where f64 has a thousand numbers; \
-                 give fewer rows, a higher window, or a larger number in --coverage",
+                 give fewer rows, a higher window, or a larger tolerance",
                 number(tolerance),
                 number(open),
                 number(least)
@@ -71,27 +144,35 @@ impl Coverage {
     }
 }
 
+impl Coverage {
+    fn description(&self) -> String {
+        let Coverage { grid, limits } = self;
+        format!(
+            "coverage to {:?}, M {:?} to {:?}, α {:?} to {:?}, {} × {} pixels; computation {SHARE_VERSION}",
+            limits.tolerance,
+            grid.x.left,
+            grid.x.right,
+            grid.y.left,
+            grid.y.right,
+            grid.columns,
+            grid.rows
+        )
+    }
+
+    fn work(&self) -> Work<'static> {
+        let Grid { columns, rows, .. } = self.grid;
+        let payload = Payload::Column { rows, may_be_blank: false };
+        Work { folder: COLUMNS, unit: COLUMNS, count: columns, pixels: rows, payload }
+    }
+}
+
 /// Computes a raster of shares over (M, α).
-pub(crate) fn run(
-    place: (&Path, Share, bool),
-    &Coverage { grid, limits }: &Coverage,
-    call: &mut Call<'_>,
-) -> Result<Tables, Error> {
-    let description = format!(
-        "coverage to {:?}, M {:?} to {:?}, α {:?} to {:?}, {} × {} pixels; computation {SHARE_VERSION}",
-        limits.tolerance,
-        grid.x.left,
-        grid.x.right,
-        grid.y.left,
-        grid.y.right,
-        grid.columns,
-        grid.rows
-    );
-    let job = JobFolder::open(place, description, &[PICTURE_FILE, LEGEND, RESULTS.digests])?;
+fn run(place: &Place<'_>, coverage: &Coverage, call: &mut Call<'_>) -> Result<Tables, Error> {
+    let &Coverage { grid, limits } = coverage;
+    let results = [PICTURE_FILE, LEGEND, RESULTS.digests];
+    let job = JobFolder::open(place, coverage.description(), &results)?;
     let mut tables = Tables::default();
-    let count = grid.columns;
-    let payload = Payload::Column { rows: grid.rows, may_be_blank: false };
-    let work = Work { folder: COLUMNS, unit: COLUMNS, count, pixels: grid.rows, payload };
+    let (work, count) = (coverage.work(), grid.columns);
     let legend = match job.complete(&RESULTS, &work, call)? {
         Some(legend) => legend,
         None => {
@@ -165,9 +246,9 @@ mod tests {
         };
         assert!(Coverage::new(grid((4.5, 20.0), 10, 10), 0.05).is_ok());
         for (grid, tolerance, option) in [
-            (grid((4.5, 20.0), 10, 10), 0.0, "--coverage 0: "),
-            (grid((4.5, 20.0), 10, 10), 0.6, "--coverage 0.6: "),
-            (grid((4.5, 20.0), 10, 10), f64::NAN, "--coverage "),
+            (grid((4.5, 20.0), 10, 10), 0.0, "TOLERANCE 0: "),
+            (grid((4.5, 20.0), 10, 10), 0.6, "TOLERANCE 0.6: "),
+            (grid((4.5, 20.0), 10, 10), f64::NAN, "TOLERANCE "),
             (grid((4.5, 20.0), 1 << 13, 1 << 13), 0.05, "--pixels 8192 8192: "),
             (grid((4.5, 4.5 + 1e-12), 10, 10), 0.05, "--speed 4.5 "),
         ] {

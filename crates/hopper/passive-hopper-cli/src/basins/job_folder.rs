@@ -41,6 +41,17 @@ pub(crate) enum Share {
     Join,
 }
 
+/// The folder of a call, what it does there, and the call itself.
+#[derive(Debug)]
+pub(crate) struct Place<'a> {
+    pub(crate) out: &'a Path,
+    pub(crate) share: Share,
+    /// Whether results that are there are removed.
+    pub(crate) force: bool,
+    /// The call without its place, such as `hopper basins --pixels 64 64`.
+    pub(crate) call: String,
+}
+
 /// The results of a job, or of a layer of it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Results<'a> {
@@ -70,10 +81,11 @@ impl JobFolder {
     /// # Errors
     /// [`Error::Job`]; [`Error::Misuse`] for a folder with another job.
     pub(crate) fn open(
-        (out, share, force): (&Path, Share, bool),
+        place: &Place<'_>,
         description: String,
         results: &[&str],
     ) -> Result<Self, Error> {
+        let &Place { out, share, force, .. } = place;
         if share == Share::Join && !is_claimed(out) {
             return Err(Error::misuse(
                 "--join --out",
@@ -116,19 +128,16 @@ impl JobFolder {
             ),
             other => other.into(),
         })?;
+        write_call(out, &place.call)?;
         Ok(JobFolder { path: out.to_path_buf(), description, share, lock })
     }
 
-    /// The pieces of one layer of this job. The layer belongs to the identity of a piece: one of another layer is
-    /// of another job.
+    /// The pieces of one layer of this job.
     ///
     /// # Errors
-    /// [`Error::Job`] if their folder cannot be made.
+    /// As [`pieces`].
     pub(crate) fn pieces(&self, work: &Work<'_>) -> Result<Pieces, Error> {
-        let description = format!("{}; {}", self.description, work.folder);
-        let payload = work.payload;
-        let kept = Pieces::open(&self.path.join(work.folder), &description)?;
-        Ok(kept.holding(move |at, bytes| payload.holds(at, bytes)))
+        pieces(&self.path, &self.description, work)
     }
 
     /// Makes sure that no other process works on the same part.
@@ -159,47 +168,23 @@ impl JobFolder {
         work: &Work<'_>,
         call: &mut Call<'_>,
     ) -> Result<Option<Value>, Error> {
-        // Without the digests, which are written last, the call was killed before its end.
-        let digests = match read_regular(&self.path.join(results.digests))? {
-            Contents::Bytes(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
-            Contents::Missing | Contents::NoFile => return Ok(None),
-        };
-        // The last line has the digest of the job and of the lines before: a list of another job, or one that was
-        // cut, is none of this one.
-        let own = digests
-            .trim_end()
-            .rsplit_once('\n')
-            .is_some_and(|(lines, last)| last == self.seal(&format!("{lines}\n")));
-        if !own {
-            call.note(&format!(
-                "{}: it is damaged, or of another version; the results are computed again",
-                self.place_of(results.digests)
-            ));
-            return Ok(None);
-        }
-        let mut has_summary = false;
-        for line in digests.lines().filter(|line| !line.starts_with(SEAL)) {
-            let (digest, name) = line.split_once("  ").unwrap_or_default();
-            let path = self.path.join(name);
-            has_summary |= name == results.summary;
-            if name.contains('/') || !path.is_file() || file_digest(&path)? != digest {
+        let summary = match stored_results(&self.path, &self.description, results)? {
+            StoredResults::None => return Ok(None),
+            StoredResults::OfAnother => {
+                call.note(&format!(
+                    "{}: it is damaged, or of another version; the results are computed again",
+                    self.place_of(results.digests)
+                ));
+                return Ok(None);
+            }
+            StoredResults::Damaged(path) => {
                 call.note(&format!(
                     "{}: it is damaged or missing; it is computed again",
                     path.display()
                 ));
                 return Ok(None);
             }
-        }
-        let summary = match read_regular(&self.path.join(results.summary))? {
-            Contents::Bytes(text) => serde_json::from_slice(&text).ok(),
-            Contents::Missing | Contents::NoFile => None,
-        };
-        let Some(summary) = summary.filter(|_| has_summary) else {
-            call.note(&format!(
-                "{}: it is damaged; the results are computed again",
-                self.place_of(results.digests)
-            ));
-            return Ok(None);
+            StoredResults::Whole(summary) => summary,
         };
         call.note(&format!(
             "{} is complete already; --force computes it again",
@@ -233,7 +218,7 @@ impl JobFolder {
         for name in others.iter().chain(&[results.summary]) {
             digests += &format!("{}  {name}\n", file_digest(&self.path.join(name))?);
         }
-        digests += &format!("{}\n", self.seal(&digests));
+        digests += &format!("{}\n", seal(&self.description, &digests));
         self.write(results.digests, digests.as_bytes())?;
         kept.remove(count)?;
         // Another call that was refused, and killed before, leaves its trial file.
@@ -241,14 +226,109 @@ impl JobFolder {
         Ok(())
     }
 
-    /// The last line of a list of digests.
-    fn seal(&self, lines: &str) -> String {
-        format!("{SEAL}{}", digest(format!("{}\n{lines}", self.description).as_bytes()))
-    }
-
     /// Rows of the table of files.
     pub(crate) fn place_of(&self, name: &str) -> String {
         self.path.join(name).display().to_string()
+    }
+}
+
+/// The last line of a list of digests: that of the job and of the lines before. A list of another job, or one that was
+/// cut, is none of this one.
+fn seal(description: &str, lines: &str) -> String {
+    format!("{SEAL}{}", digest(format!("{description}\n{lines}").as_bytes()))
+}
+
+/// What a folder has of the results of a job, or of a layer of it.
+#[derive(Debug)]
+pub(crate) enum StoredResults {
+    /// The list of digests, which is written last, is not there.
+    None,
+    /// The list is damaged, or that of another version.
+    OfAnother,
+    /// A file is missing, or not as it was written.
+    Damaged(PathBuf),
+    /// All files are as they were written.
+    Whole(Value),
+}
+
+/// Compares the results of a job with their digests.
+///
+/// # Errors
+/// [`Error::Job`] if files cannot be read.
+pub(crate) fn stored_results(
+    folder: &Path,
+    description: &str,
+    results: &Results<'_>,
+) -> Result<StoredResults, Error> {
+    let list = folder.join(results.digests);
+    let digests = match read_regular(&list)? {
+        Contents::Bytes(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
+        Contents::Missing | Contents::NoFile => return Ok(StoredResults::None),
+    };
+    let Some((lines, _)) = digests
+        .trim_end()
+        .rsplit_once('\n')
+        .filter(|(lines, last)| *last == seal(description, &format!("{lines}\n")))
+    else {
+        return Ok(StoredResults::OfAnother);
+    };
+    let mut has_summary = false;
+    for line in lines.lines() {
+        let (digest, name) = line.split_once("  ").unwrap_or_default();
+        let path = folder.join(name);
+        has_summary |= name == results.summary;
+        if name.contains('/') || !path.is_file() || file_digest(&path)? != digest {
+            return Ok(StoredResults::Damaged(path));
+        }
+    }
+    let summary = match read_regular(&folder.join(results.summary))? {
+        Contents::Bytes(text) => serde_json::from_slice(&text).ok(),
+        Contents::Missing | Contents::NoFile => None,
+    };
+    Ok(match summary.filter(|_| has_summary) {
+        Some(summary) => StoredResults::Whole(summary),
+        None => StoredResults::Damaged(list),
+    })
+}
+
+/// The pieces of one layer of a job. The layer belongs to the identity of a piece: one of another layer is of another
+/// job. Their folder is made if it is missing.
+///
+/// # Errors
+/// [`Error::Job`] if it cannot be made.
+pub(crate) fn pieces(folder: &Path, description: &str, work: &Work<'_>) -> Result<Pieces, Error> {
+    let (description, payload) = (format!("{description}; {}", work.folder), work.payload);
+    let kept = Pieces::open(&folder.join(work.folder), &description)?;
+    Ok(kept.holding(move |at, bytes| payload.holds(at, bytes)))
+}
+
+/// The file with the call that made a folder.
+pub(crate) const CALL: &str = "call.txt";
+
+/// Keeps the call, so that it can go on without being given again.
+fn write_call(folder: &Path, call: &str) -> Result<(), Error> {
+    let path = folder.join(CALL);
+    let text = format!("{call}\n");
+    match read_regular(&path)? {
+        Contents::Bytes(own) if own == text.as_bytes() => Ok(()),
+        _ => Ok(write_atomically(&path, text.as_bytes())?),
+    }
+}
+
+/// The call that made a folder.
+///
+/// # Errors
+/// [`Error::Misuse`] if there is none; [`Error::Job`] if it cannot be read.
+pub(crate) fn read_call(folder: &Path) -> Result<String, Error> {
+    match read_regular(&folder.join(CALL))? {
+        Contents::Bytes(bytes) => Ok(String::from_utf8_lossy(&bytes).trim_end().to_owned()),
+        Contents::Missing | Contents::NoFile => {
+            let reason = format!(
+                "it has no {CALL}, and is no folder of a job, or one of an older version; give the whole call, with \
+                 its options"
+            );
+            Err(Error::misuse("folder", folder.display(), &reason))
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! A layer of a raster on disk: its tiles, its array, its picture and its summary.
 
+use crate::basins::call::{Payload, Work};
 use crate::basins::job_folder::{JobFolder, Results};
 use crate::basins::picture::Picture;
 use crate::basins::pieces::Finished;
@@ -20,7 +21,7 @@ use std::collections::BTreeMap;
 pub(crate) const TILE: usize = 16;
 
 /// Pixels of a picture for each point of its drawing.
-const SHARPNESS: f64 = 2.0;
+pub(crate) const SHARPNESS: f64 = 2.0;
 
 /// A layer of numbers, and the names of its files.
 #[derive(Debug, Clone)]
@@ -61,6 +62,18 @@ impl StoredLayer {
         Results { main: &self.array, summary: &self.summary, digests: &self.digests }
     }
 
+    /// Its tiles.
+    pub(crate) fn work(&self, grid: &Grid) -> Work<'_> {
+        let Grid { columns, rows, .. } = *grid;
+        Work {
+            folder: &self.tiles,
+            unit: self.layer.pieces,
+            count: columns.div_ceil(TILE),
+            pixels: TILE.min(columns) * rows,
+            payload: Payload::Tile { width: TILE, columns, rows, element: self.values.bytes },
+        }
+    }
+
     /// The names of all its files, and of the folder of its tiles.
     pub(crate) fn files(&self) -> [&str; 5] {
         [&self.array, &self.picture, &self.summary, &self.digests, &self.tiles]
@@ -87,6 +100,16 @@ impl StoredLayer {
             }
         }
         Ok(bytes)
+    }
+
+    /// The numbers of a tile.
+    pub(crate) fn numbers(&self, bytes: &[u8]) -> impl Iterator<Item = u64> {
+        let size = self.values.bytes;
+        bytes.chunks_exact(size).map(move |bytes| {
+            let mut word = [0; 8];
+            word[..size].copy_from_slice(bytes);
+            u64::from_le_bytes(word)
+        })
     }
 
     /// Joins the tiles to the array, and draws the picture. Returns the summary, which is not written yet.
@@ -124,11 +147,7 @@ impl StoredLayer {
             || interrupt.check(),
             |tile, bytes| {
                 values.clear();
-                values.extend(bytes.chunks_exact(size).map(|bytes| {
-                    let mut word = [0; 8];
-                    word[..size].copy_from_slice(bytes);
-                    u64::from_le_bytes(word)
-                }));
+                values.extend(self.numbers(bytes));
                 match is_real {
                     true => values.iter().for_each(|&value| reals.add(self.values.number(value))),
                     false => {

@@ -3,37 +3,103 @@
 //! A call that is killed leaves its finished tiles, and the next call computes the others. The array is written
 //! from the tiles and compared with them. The tiles are removed only after this comparison.
 
-use crate::basins::call::{Call, Payload, Work};
-use crate::basins::job_folder::{JobFolder, Share};
-use crate::basins::layer::{StoredLayer, TILE};
+use crate::basins::call::Call;
+use crate::basins::job::{Job, Visit, Words, raster_in};
+use crate::basins::job_folder::{JobFolder, Place, Share};
+use crate::basins::layer::StoredLayer;
+use crate::basins::options::RasterOptions;
 use crate::basins::pieces::compute;
 use crate::basins::tables::Tables;
+use crate::basins::window::grid;
 use crate::error::Error;
 use basin_of_attraction::Grid;
 use hopper_basin::RASTER_VERSION;
-use hopper_figures::{FLAG, Meaning};
+use hopper_figures::{FLAG, LAYERS, Meaning};
 use std::path::Path;
 
-/// Computes the layers of a raster.
-pub(crate) fn run(
-    place: (&Path, Share, bool),
-    grid: &Grid,
-    layers: &[StoredLayer],
-    call: &mut Call<'_>,
-) -> Result<Tables, Error> {
-    let description = format!(
+/// Pixels across and up unless others are given.
+pub(crate) const PIXELS: [usize; 2] = [1024, 1024];
+
+/// Mass ratios unless others are given.
+pub(crate) const MASS_RATIOS: [f64; 2] = [0.1, 1.0];
+
+impl RasterOptions {
+    /// The grid, with so many pixels unless others are given.
+    pub(crate) fn grid(&self, pixels: [usize; 2]) -> Result<Grid, Error> {
+        let mass_ratio = self.mass_ratio.as_deref().unwrap_or(&MASS_RATIOS);
+        grid(mass_ratio, self.speed.as_deref(), self.pixels.as_deref().unwrap_or(&pixels))
+    }
+
+    /// The layers, each once.
+    pub(crate) fn layers(&self) -> Vec<StoredLayer> {
+        let keys = match self.layer.is_empty() {
+            true => vec![LAYERS[0].key],
+            false => self.layer.iter().map(String::as_str).collect(),
+        };
+        let mut layers: Vec<StoredLayer> = Vec::new();
+        for layer in keys.into_iter().filter_map(StoredLayer::of) {
+            if layers.iter().all(|other| other.array != layer.array) {
+                layers.push(layer);
+            }
+        }
+        layers
+    }
+}
+
+fn description(grid: &Grid) -> String {
+    format!(
         "basins, M {:?} to {:?}, α {:?} to {:?}, {} × {} pixels; computation {RASTER_VERSION}",
         grid.x.left, grid.x.right, grid.y.left, grid.y.right, grid.columns, grid.rows
-    );
-    let results: Vec<&str> =
-        layers.iter().flat_map(|layer| layer.files().into_iter().take(4)).collect();
-    let job = JobFolder::open(place, description, &results)?;
-    let mut tables = Tables::default();
-    let is_new = |at: usize| layers[..at].iter().all(|other| other.array != layers[at].array);
-    for at in (0..layers.len()).filter(|&at| is_new(at)) {
-        one_layer(&job, grid, &layers[at], call, &mut tables)?;
+    )
+}
+
+impl Job for RasterOptions {
+    fn words(&self) -> Words {
+        let mut words = Words::of("basins");
+        words.window(self.mass_ratio.as_deref(), self.speed.as_deref(), self.pixels.as_deref());
+        let keys: Vec<&str> = self.layers().iter().map(|layer| layer.layer.key).collect();
+        words.option("--layer", Some(&keys));
+        words
     }
-    Ok(tables)
+
+    /// With the layers that are in the folder already, in the order of the table.
+    fn words_in(&self, folder: &Path) -> Words {
+        let mut own = self.clone();
+        let without_layers = |job: &Self| Self { layer: Vec::new(), ..job.clone() };
+        if let Some(kept) = raster_in(folder)
+            && without_layers(&kept) == without_layers(self)
+        {
+            let layers: Vec<&str> = [self, &kept]
+                .iter()
+                .flat_map(|job| job.layers())
+                .map(|own| own.layer.key)
+                .collect();
+            let known = LAYERS.iter().map(|layer| layer.key).filter(|key| layers.contains(key));
+            own.layer = known.map(str::to_owned).collect();
+        }
+        own.words()
+    }
+
+    fn visit(&self, visit: &mut Visit<'_>) -> Result<(), Error> {
+        let grid = self.grid(PIXELS)?;
+        let description = description(&grid);
+        for layer in self.layers() {
+            visit(&description, &layer.work(&grid), &layer.results())?;
+        }
+        Ok(())
+    }
+
+    fn run(&self, place: &Place<'_>, call: &mut Call<'_>) -> Result<Tables, Error> {
+        let (grid, layers) = (self.grid(PIXELS)?, self.layers());
+        let results: Vec<&str> =
+            layers.iter().flat_map(|layer| layer.files().into_iter().take(4)).collect();
+        let job = JobFolder::open(place, description(&grid), &results)?;
+        let mut tables = Tables::default();
+        for layer in &layers {
+            one_layer(&job, &grid, layer, call, &mut tables)?;
+        }
+        Ok(tables)
+    }
 }
 
 fn one_layer(
@@ -43,13 +109,8 @@ fn one_layer(
     call: &mut Call<'_>,
     tables: &mut Tables,
 ) -> Result<(), Error> {
-    let results = layer.results();
-    let tiles = grid.columns.div_ceil(TILE);
-    let pixels = TILE.min(grid.columns) * grid.rows;
-    let (columns, rows) = (grid.columns, grid.rows);
-    let payload = Payload::Tile { width: TILE, columns, rows, element: layer.values.bytes };
-    let (folder, unit) = (layer.tiles.as_str(), layer.layer.pieces);
-    let work = Work { folder, unit, count: tiles, pixels, payload };
+    let (results, work) = (layer.results(), layer.work(grid));
+    let (tiles, folder) = (work.count, work.folder);
     let summary = match job.complete(&results, &work, call)? {
         Some(summary) => summary,
         None => {

@@ -1,17 +1,21 @@
-//! `hopper basins --about N`: the shares of the basins left of α*_N, over mass ratio and distance, or over mass
+//! `hopper scales N`: the shares of the basins left of α*_N, over mass ratio and distance, or over mass
 //! ratio and phase; with `--preimage`, on both sides of a preimage of α*_N that is followed over the mass ratio.
 //!
 //! A run that is killed leaves its finished columns, and the next run computes the others.
 
 use crate::basins::call::{Call, Payload, Work};
 use crate::basins::column_bytes;
-use crate::basins::job_folder::{JobFolder, Results, Share};
-use crate::basins::options::Options;
+use crate::basins::job::{Job, Visit, Words};
+use crate::basins::job_folder::{JobFolder, Place, Results, Share};
+use crate::basins::options::{mass_ratio, offset, scale};
 use crate::basins::pieces::compute;
+use crate::basins::rasters::{MASS_RATIOS, PIXELS};
 use crate::basins::tables::{self, Tables};
 use crate::basins::window::{chart, pair_of_pixels, place, range};
+use crate::commands::page::{Example, Page};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
+use crate::options::values;
 use crate::output::number;
 use basin_of_attraction::{Grid, Interval};
 use hopper_asymptotics::Offset;
@@ -24,7 +28,6 @@ use journal_figures::{Element, Order, npy_header};
 use journal_figures::{Svg, render};
 use resumable_job::Pieces;
 use serde_json::{Value, json};
-use std::path::Path;
 
 /// The names of the results; every label has its own array.
 pub(crate) const PICTURE_FILE: &str = "shares.png";
@@ -45,9 +48,76 @@ const MOST_TURNS: f64 = 1e3;
 const FAR: f64 = 1e-2;
 const NEAR: (f64, i64) = (1.0, -300);
 
+/// What a job of `hopper scales` is.
+#[derive(Debug, Clone, PartialEq, clap::Args)]
+pub(crate) struct ScalesOptions {
+    /// The index n of the fixed point α*ₙ
+    #[arg(value_name = "N", value_parser = scale(), allow_negative_numbers = true)]
+    pub(crate) fixed_point: u64,
+    /// Mass ratios from and to [default: 0.1 1]
+    #[arg(short = 'M', long, num_args = 2, value_names = ["FROM", "TO"], value_parser = mass_ratio, allow_negative_numbers = true)]
+    pub(crate) mass_ratio: Option<Vec<f64>>,
+    /// Distances below the fixed point, on a logarithmic scale [default: 1e-2 1e-300]
+    #[arg(long, num_args = 2, value_names = ["FAR", "NEAR"], value_parser = offset, allow_negative_numbers = true)]
+    pub(crate) offset: Option<Vec<Offset>>,
+    /// Distances from a preimage of the fixed point instead, on both sides. It is the one next to this speed at this
+    /// mass ratio, followed over the mass ratios of the raster
+    #[arg(long, num_args = 2, value_names = ["M", "SPEED"], conflicts_with = "turns", value_parser = values::finite, allow_negative_numbers = true)]
+    pub(crate) preimage: Option<Vec<f64>>,
+    /// The phase instead of the distance, so many turns of the circle of fates
+    #[arg(long, value_name = "TURNS", conflicts_with = "offset", value_parser = values::finite, allow_negative_numbers = true)]
+    pub(crate) turns: Option<f64>,
+    /// Pixels across and up [default: 1024 1024]
+    #[arg(long, num_args = 2, value_names = ["COLUMNS", "ROWS"], value_parser = values::count, allow_negative_numbers = true)]
+    pub(crate) pixels: Option<Vec<usize>>,
+}
+
+/// The help beside the options.
+pub(crate) const PAGE: Page = Page {
+    units: "Speeds and distances in m₂gω/k.",
+    limits: "At most 2²⁴ pixels. A pixel has the shares of all basins that it covers, at any scale: distances down to \
+             10⁻¹⁰⁰⁰⁰.\n\
+             Pieces, parts and going on as in `hopper basins --help`.",
+    is_filter: false,
+    tables: &[&tables::SHARES, &tables::PARTS, &tables::FILES],
+    examples: &[
+        Example {
+            about: "All scales below the second fixed point at once: two turns of the circle of fates.",
+            line: "hopper scales 2 --turns 2 --mass-ratio 0.08 0.4 --pixels 8 40 --out scales",
+        },
+        Example {
+            about: "Both sides of a preimage of the first fixed point.",
+            line: "hopper scales 1 --preimage 0.12 11.92 --mass-ratio 0.115 0.125 --pixels 8 40 --out preimage",
+        },
+    ],
+};
+
+impl Job for ScalesOptions {
+    fn words(&self) -> Words {
+        let mut words = Words::of("scales");
+        words.argument(Some(self.fixed_point));
+        words.window(self.mass_ratio.as_deref(), None, self.pixels.as_deref());
+        let offset: Option<Vec<String>> =
+            self.offset.as_ref().map(|own| own.iter().map(offset_text).collect());
+        words.option("--offset", offset.as_deref());
+        words.option("--preimage", self.preimage.as_deref());
+        words.option("--turns", self.turns.as_ref().map(std::slice::from_ref));
+        words
+    }
+
+    fn visit(&self, visit: &mut Visit<'_>) -> Result<(), Error> {
+        let shares = Shares::new(self)?;
+        visit(&shares.description(), &shares.work(), &RESULTS)
+    }
+
+    fn run(&self, place: &Place<'_>, call: &mut Call<'_>) -> Result<Tables, Error> {
+        run(place, &Shares::new(self)?, call)
+    }
+}
+
 /// A raster of shares.
 #[derive(Debug, Clone)]
-pub(crate) struct Shares {
+struct Shares {
     n: u64,
     grid: Grid,
     upwards: Upwards,
@@ -60,32 +130,39 @@ impl Shares {
     ///
     /// # Errors
     /// [`Error::Misuse`] if there is none.
-    pub(crate) fn new(n: u64, options: &Options, pixels: &[usize]) -> Result<Self, Error> {
+    fn new(options: &ScalesOptions) -> Result<Self, Error> {
         let preimage = options.preimage.as_deref().and_then(|pair| pair.try_into().ok());
         let upwards = (options.turns, options.offset.as_deref());
-        let (grid, upwards) = grid(&options.mass_ratio, pixels, upwards, preimage.is_some())?;
-        Ok(Shares { n, grid, upwards, preimage })
+        let mass_ratio = options.mass_ratio.as_deref().unwrap_or(&MASS_RATIOS);
+        let pixels = options.pixels.as_deref().unwrap_or(&PIXELS);
+        let (grid, upwards) = grid(mass_ratio, pixels, upwards, preimage.is_some())?;
+        Ok(Shares { n: options.fixed_point, grid, upwards, preimage })
+    }
+
+    fn description(&self) -> String {
+        let Shares { n, grid, upwards, preimage } = self;
+        format!(
+            "shares about {n}, {upwards:?}, preimage {preimage:?}, M {:?} to {:?}, y {:?} to {:?}, {} × {} pixels; \
+             computation {SHARE_VERSION}",
+            grid.x.left, grid.x.right, grid.y.left, grid.y.right, grid.columns, grid.rows
+        )
+    }
+
+    fn work(&self) -> Work<'static> {
+        let Grid { columns, rows, .. } = self.grid;
+        let payload = Payload::Column { rows, may_be_blank: self.preimage.is_some() };
+        Work { folder: COLUMNS, unit: COLUMNS, count: columns, pixels: rows, payload }
     }
 }
 
 /// Computes a raster of shares.
-pub(crate) fn run(
-    place: (&Path, Share, bool),
-    shares: &Shares,
-    call: &mut Call<'_>,
-) -> Result<Tables, Error> {
+fn run(place: &Place<'_>, shares: &Shares, call: &mut Call<'_>) -> Result<Tables, Error> {
     let &Shares { n, grid, upwards, preimage } = shares;
     let edges = preimage.map(|near| followed(n, near, &grid)).transpose()?;
-    let description = format!(
-        "shares about {n}, {upwards:?}, preimage {preimage:?}, M {:?} to {:?}, y {:?} to {:?}, {} × {} pixels; \
-         computation {SHARE_VERSION}",
-        grid.x.left, grid.x.right, grid.y.left, grid.y.right, grid.columns, grid.rows
-    );
-    let job = JobFolder::open(place, description, &[PICTURE_FILE, LEGEND, RESULTS.digests])?;
+    let results = [PICTURE_FILE, LEGEND, RESULTS.digests];
+    let job = JobFolder::open(place, shares.description(), &results)?;
     let mut tables = Tables::default();
-    let count = grid.columns;
-    let payload = Payload::Column { rows: grid.rows, may_be_blank: edges.is_some() };
-    let work = Work { folder: COLUMNS, unit: COLUMNS, count, pixels: grid.rows, payload };
+    let (work, count) = (shares.work(), grid.columns);
     let legend = match job.complete(&RESULTS, &work, call)? {
         Some(legend) => legend,
         None => {
@@ -227,11 +304,14 @@ fn grid(
     Ok((grid, upwards))
 }
 
+fn offset_text(offset: &Offset) -> String {
+    format!("{}e{}", offset.mantissa(), offset.exponent())
+}
+
 /// −log₁₀ of two distances, the larger one first.
 fn depths(offsets: &[Offset]) -> Result<Interval, Error> {
-    let text = |offset: &Offset| format!("{}e{}", offset.mantissa(), offset.exponent());
     let refused = |reason: &str| {
-        let given: Vec<String> = offsets.iter().map(text).collect();
+        let given: Vec<String> = offsets.iter().map(offset_text).collect();
         Error::misuse("--offset", given.join(" "), reason)
     };
     match offsets {

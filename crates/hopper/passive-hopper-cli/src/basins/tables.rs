@@ -1,6 +1,7 @@
 //! The tables that `hopper basins` prints.
 
 use crate::basins::pieces::Finished;
+use crate::basins::status::STATUS;
 use crate::output::{Cell, Column, Table, TableKind};
 use hopper_figures::{Meaning, Values};
 use resumable_job::Part;
@@ -146,7 +147,7 @@ pub(crate) fn of_layer(key: &str) -> Option<&'static TableKind> {
 /// All tables, the main one first.
 pub(crate) const ALL: &[&TableKind] = &[
     &LABELS, &HOPS, &PROOFS, &PHASE, &LOSS, &SUDDEN, &FLIGHT, &SLOPE, &SHARES, &EDGE, &PARTS,
-    &FILES,
+    &FILES, &STATUS,
 ];
 
 /// The tables of a call: those that have no meaning for it are absent.

@@ -1,13 +1,16 @@
-//! `hopper basins --zoom M SPEED`: frames into an edge of a basin, from a half height of 1 down to any depth.
+//! `hopper zoom M SPEED`: frames into an edge of a basin, from a half height of 1 down to any depth.
 //!
 //! A run that is killed leaves its finished frames, and the next run computes the others.
 
 use crate::basins::call::{Call, Payload, Work};
-use crate::basins::job_folder::{JobFolder, Results, Share};
+use crate::basins::job::{Job, Visit, Words};
+use crate::basins::job_folder::{JobFolder, Place, Results, Share};
 use crate::basins::pieces::compute;
 use crate::basins::tables::{self, Tables};
-use crate::basins::window::{chart, place as place_of_edge};
+use crate::basins::window::{chart, pair_of_pixels, place as place_of_edge};
+use crate::commands::page::{Example, Page};
 use crate::error::Error;
+use crate::options::values;
 use crate::output::number;
 use basin_of_attraction::Label;
 use hopper_basin::{
@@ -17,24 +20,97 @@ use hopper_basin::{
 use hopper_figures::{ZoomPixels, draw_zoom, draw_zoom_frame};
 use journal_figures::{animated_png, render};
 use serde_json::json;
-use std::path::Path;
 
 /// The version of the colours in finished frames. It is raised when the same shares get other bytes; a test
 /// compares a digest.
 const FRAME_VERSION: u32 = 1;
 
+/// What a job of `hopper zoom` is.
+#[derive(Debug, Clone, PartialEq, clap::Args)]
+pub(crate) struct ZoomOptions {
+    /// The mass ratio M = m₂/m₁ of the edge
+    #[arg(value_name = "M", value_parser = values::finite, allow_negative_numbers = true)]
+    pub(crate) mass_ratio: f64,
+    /// A lift-off speed next to the edge, in m₂gω/k
+    #[arg(value_name = "SPEED", value_parser = values::finite, allow_negative_numbers = true)]
+    pub(crate) speed: f64,
+    /// The number of frames; the first has the half height 1 [default: 101]
+    #[arg(long, value_name = "COUNT", value_parser = values::count, allow_negative_numbers = true)]
+    pub(crate) frames: Option<usize>,
+    /// Decades from one frame to the next [default: 1]
+    #[arg(long, value_name = "DECADES", value_parser = values::finite, allow_negative_numbers = true)]
+    pub(crate) step: Option<f64>,
+    /// Pixels across and up [default: 320 320]
+    #[arg(long, num_args = 2, value_names = ["COLUMNS", "ROWS"], value_parser = values::count, allow_negative_numbers = true)]
+    pub(crate) pixels: Option<Vec<usize>>,
+}
+
+/// The help beside the options.
+pub(crate) const PAGE: Page = Page {
+    units: "Speeds in m₂gω/k.",
+    limits: "2 to 2048 pixels a side; 1 to 2000 frames, down to 10⁻¹⁰⁰⁰⁰.\n\
+             Pieces, parts and going on as in `hopper basins --help`.",
+    is_filter: false,
+    tables: &[&tables::EDGE, &tables::PARTS, &tables::FILES],
+    examples: &[
+        Example {
+            about: "Three frames into the edge next to a speed, to 10⁻¹⁰⁰.",
+            line: "hopper zoom 0.12 11.92 --frames 3 --step 50 --pixels 32 32 --out zoom",
+        },
+        Example {
+            about: "Where the edge is, for a program.",
+            line: "hopper zoom 0.12 11.92 --frames 1 --pixels 16 16 --out edge --csv",
+        },
+    ],
+};
+
+/// Frames, decades between two of them, and pixels unless others are given.
+const DEFAULT_FRAMES: usize = 101;
+const DEFAULT_STEP: f64 = 1.0;
+const DEFAULT_PIXELS: [usize; 2] = [320, 320];
+
+impl ZoomOptions {
+    fn zoom(&self) -> Result<Zoom, Error> {
+        let [columns, rows] = pair_of_pixels(self.pixels.as_deref().unwrap_or(&DEFAULT_PIXELS))?;
+        let &ZoomOptions { mass_ratio, speed, frames, step, .. } = self;
+        let (frames, step) = (frames.unwrap_or(DEFAULT_FRAMES), step.unwrap_or(DEFAULT_STEP));
+        checked(&Zoom { mass_ratio, speed, frames, step, columns, rows })
+    }
+}
+
+impl Job for ZoomOptions {
+    fn words(&self) -> Words {
+        let mut words = Words::of("zoom");
+        words.argument(Some(self.mass_ratio));
+        words.argument(Some(self.speed));
+        words.option("--frames", self.frames.as_ref().map(std::slice::from_ref));
+        words.option("--step", self.step.as_ref().map(std::slice::from_ref));
+        words.window(None, None, self.pixels.as_deref());
+        words
+    }
+
+    fn visit(&self, visit: &mut Visit<'_>) -> Result<(), Error> {
+        let zoom = self.zoom()?;
+        visit(&zoom.description(), &zoom.work(), &RESULTS)
+    }
+
+    fn run(&self, place: &Place<'_>, call: &mut Call<'_>) -> Result<Tables, Error> {
+        run(place, &self.zoom()?, call)
+    }
+}
+
 /// The frames.
 #[derive(Debug, Clone)]
-pub(crate) struct Zoom {
-    pub(crate) mass_ratio: f64,
+struct Zoom {
+    mass_ratio: f64,
     /// A speed next to the edge.
-    pub(crate) speed: f64,
+    speed: f64,
     /// The number of frames; the first one has the half height 1.
-    pub(crate) frames: usize,
+    frames: usize,
     /// Decades between two frames.
-    pub(crate) step: f64,
-    pub(crate) columns: usize,
-    pub(crate) rows: usize,
+    step: f64,
+    columns: usize,
+    rows: usize,
 }
 
 /// The largest number of frames: the animation keeps all of them in memory, some 50 kB each.
@@ -58,33 +134,38 @@ const SUMMARY: &str = "zoom.json";
 const RESULTS: Results<'static> =
     Results { main: ANIMATION, summary: SUMMARY, digests: "zoom.digests" };
 
-/// The option that begins a zoom.
-const OPTION: &str = "--zoom";
+/// The arguments that choose the edge.
+const OPTION: &str = "M SPEED";
 
 /// The folder of finished frames.
 const FRAMES: &str = "frames";
 
+impl Zoom {
+    fn description(&self) -> String {
+        let Zoom { mass_ratio, speed, frames, step, columns, rows } = self;
+        format!(
+            "zoom, M {mass_ratio:?}, speed {speed:?}, {frames} frames, {step:?} decades a frame, {columns} × {rows} \
+             pixels; computation {SHARE_VERSION}, colours {FRAME_VERSION}"
+        )
+    }
+
+    fn work(&self) -> Work<'static> {
+        let &Zoom { rows, columns, frames, .. } = self;
+        let payload = Payload::Frame { rows, columns };
+        Work { folder: FRAMES, unit: FRAMES, count: frames, pixels: columns * rows, payload }
+    }
+}
+
 /// Computes and draws the frames.
-pub(crate) fn run(
-    place: (&Path, Share, bool),
-    zoom: &Zoom,
-    call: &mut Call<'_>,
-) -> Result<Tables, Error> {
-    let zoom = &checked(zoom)?;
+fn run(place: &Place<'_>, zoom: &Zoom, call: &mut Call<'_>) -> Result<Tables, Error> {
     let &Zoom { mass_ratio, speed, frames, step, columns, rows } = zoom;
     let fates = Fates::new(place_of_edge(OPTION, [mass_ratio, speed])?.0)?;
     let chart = chart(OPTION, [mass_ratio, speed], EdgeChart::near(&fates, speed))?;
     let edge = FollowedEdge::new(&chart)?;
-    let description = format!(
-        "zoom, M {mass_ratio:?}, speed {speed:?}, {frames} frames, {step:?} decades a frame, {columns} × {rows} \
-         pixels; computation {SHARE_VERSION}, colours {FRAME_VERSION}"
-    );
-    let job =
-        JobFolder::open(place, description, &[OVERVIEW, ANIMATION, SUMMARY, RESULTS.digests])?;
+    let results = [OVERVIEW, ANIMATION, SUMMARY, RESULTS.digests];
+    let job = JobFolder::open(place, zoom.description(), &results)?;
     let mut tables = Tables::default();
-    let payload = Payload::Frame { rows, columns };
-    let work =
-        Work { folder: FRAMES, unit: FRAMES, count: frames, pixels: columns * rows, payload };
+    let work = zoom.work();
     let summary = match job.complete(&RESULTS, &work, call)? {
         Some(summary) => summary,
         None => {

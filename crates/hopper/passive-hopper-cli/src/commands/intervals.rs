@@ -50,12 +50,13 @@ pub(crate) const PAGE: Page = Page {
              For M up to 0.83 (of many humps) or 0.905 (of few) the branches of the map are followed, which are proved \
              to be all.\n\
              Above, images of intervals are enclosed with rounding outwards, and hops are not counted; --shortest and \
-             --samples have no\n\
+             --samples have no \
              effect. The larger M is, the more stays undecided; above 50 the sudden windows do. The table `search` \
              says which.\n\
              The time grows with --samples times --to: 64 windows of a million samples take minutes. How long it has \
-             searched is\n\
+             searched is \
              shown on a terminal, elsewhere every 30 s. Ctrl-C ends the call, and the same call begins anew.",
+    is_filter: false,
     tables: &[&FRACTIONS, &SEARCH, &INTERVALS],
     examples: &[
         Example { about: "Fractions of the first five humps.", line: "hopper intervals -M 0.2" },

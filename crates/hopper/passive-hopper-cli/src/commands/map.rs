@@ -39,10 +39,11 @@ pub(crate) const PAGE: Page = Page {
     units: "Speeds in m₂gω/k.",
     limits: "Windows of up to 200 humps; speeds up to 8796093022208 = 2⁴³; mass ratios from 2⁻¹⁰²² to 2¹⁰²².\n\
              The curve is cut at nπ and at the fixed points α*ₙ. Where the hopper is grounded there is no curve; a gap \
-             narrower\n\
+             narrower \
              than a 64th of a piece may be missed. A figure shows where a hop is not decided. It takes seconds from M \
-             = 10⁶ on, and up to a\n\
+             = 10⁶ on, and up to a \
              minute from 10⁷ on; the table `curve` has all digits, and takes minutes from 10⁵ on.",
+    is_filter: false,
     tables: &[&FIXED_POINTS, &CURVE],
     examples: &[
         Example { about: "Fixed points, traps and crises.", line: "hopper map -M 0.2" },

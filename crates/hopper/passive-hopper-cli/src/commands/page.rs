@@ -9,6 +9,8 @@ pub(crate) struct Page {
     pub(crate) units: &'static str,
     /// The limits of what it takes.
     pub(crate) limits: &'static str,
+    /// Whether it takes speeds from the input.
+    pub(crate) is_filter: bool,
     /// The tables that it prints.
     pub(crate) tables: &'static [&'static TableKind],
     /// Calls that run. A test runs them.
@@ -20,7 +22,7 @@ pub(crate) struct Page {
 pub(crate) struct Example {
     /// What it shows.
     pub(crate) about: &'static str,
-    /// The whole line, as a shell takes it.
+    /// The whole call, as a shell takes it. It has a line break where one fits.
     pub(crate) line: &'static str,
 }
 
@@ -29,6 +31,9 @@ impl Page {
     pub(crate) fn text(&self) -> String {
         let mut text =
             format!("Units:\n{}\nLimits:\n{}", indented(self.units), indented(self.limits));
+        if self.is_filter {
+            text += &indented(crate::options::input::LIMITS);
+        }
         for table in self.tables {
             text += &format!("\nTable `{}`: {}\n", table.name, table.about);
             let widest = table.columns.iter().map(|column| column.name.len()).max().unwrap_or(0);
@@ -38,17 +43,31 @@ impl Page {
                 } else {
                     format!(" [{}]", column.unit)
                 };
-                text += &format!("  {:widest$}  {}{unit}\n", column.name, column.meaning);
+                let line = format!("  {:widest$}  {}{unit}", column.name, column.meaning);
+                text += &format!("{}\n", hanging(&line, widest + 4));
             }
         }
         if !self.examples.is_empty() {
             text += "\nExamples:\n";
             for Example { about, line } in self.examples {
-                text += &format!("  {about}\n    {line}\n");
+                let lines: String = line.lines().map(|line| format!("    {line}\n")).collect();
+                text += &format!("  {about}\n{lines}");
             }
         }
         text
     }
+}
+
+/// The widest help: longer lines are hard to read.
+pub(crate) const WIDEST: usize = 100;
+
+/// A line as lines that fit the terminal, all but the first one indented.
+fn hanging(line: &str, indent: usize) -> String {
+    let terminal = terminal_size::terminal_size().map(|(width, _)| usize::from(width.0));
+    let given = || std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
+    let width = terminal.or_else(given).unwrap_or(WIDEST).min(WIDEST);
+    let indent = " ".repeat(indent);
+    textwrap::fill(line, textwrap::Options::new(width).subsequent_indent(&indent))
 }
 
 fn indented(text: &str) -> String {

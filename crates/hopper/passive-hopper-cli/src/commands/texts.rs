@@ -3,7 +3,10 @@
 use crate::error::Error;
 use crate::refusal::shortened;
 use crate::streams::Streams;
+use clap::builder::PossibleValuesParser;
 use clap_complete::Shell;
+use resumable_job::make_folder;
+use std::path::PathBuf;
 
 /// The shell.
 #[derive(Debug, Clone, clap::Args)]
@@ -18,6 +21,19 @@ pub(crate) struct Completions {
 pub(crate) struct Manual {
     /// The command whose page is printed [default: the page of the program]
     command: Option<String>,
+    /// Write the pages of the program and of all commands to this folder, such as ~/.local/share/man/man1
+    #[arg(long, value_name = "DIR", conflicts_with = "command", value_hint = clap::ValueHint::DirPath)]
+    all: Option<PathBuf>,
+}
+
+/// The program, whose `manual` knows the names of its commands, so that a shell completes them.
+pub(crate) fn with_names(program: clap::Command) -> clap::Command {
+    let names: Vec<String> =
+        program.get_subcommands().map(|own| own.get_name().to_owned()).collect();
+    let names = PossibleValuesParser::new(names.into_iter().filter(|name| name != "manual"));
+    program.mut_subcommand("manual", |manual| {
+        manual.mut_arg("command", |own| own.value_parser(names).hide_possible_values(true))
+    })
 }
 
 /// Prints what a shell needs to complete commands and options.
@@ -43,6 +59,11 @@ pub(crate) fn manual(
     program: clap::Command,
     streams: Streams<'_>,
 ) -> Result<(), Error> {
+    if let Some(folder) = &options.all {
+        make_folder(folder)?;
+        let written = clap_mangen::generate_to(program.disable_help_subcommand(true), folder);
+        return written.map_err(|source| Error::File { path: folder.clone(), source });
+    }
     let own_name = program.get_name().to_owned();
     let command = match &options.command {
         None => program,

@@ -42,8 +42,9 @@ pub(crate) const PAGE: Page = Page {
             mJ, µJ, kJ.\n\
             A unit follows its number, with or without a space: 80g, '80 g'. s2 and s^2 are the same as s², u as µ.",
     limits: "Masses, stiffness and gravity are positive. The mass ratio M = m₂/m₁ is from 2⁻¹⁰²² to 2¹⁰²², and the \
-             units that\n\
+             units that \
              result are ordinary numbers of f64.",
+    is_filter: false,
     tables: &[&UNITS, &VALUES],
     examples: &[
         Example {

@@ -10,7 +10,7 @@ use clap::{Parser, Subcommand};
 /// Any hybrid system, from a file with its equations: runs, returns, branches, basins, proofs.
 #[derive(Debug, Parser)]
 #[command(name = "nonsmooth", version, about, long_about = ABOUT, after_long_help = EXAMPLE)]
-#[command(infer_long_args = false, max_term_width = 100)]
+#[command(infer_long_args = false, max_term_width = crate::commands::page::WIDEST)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -77,7 +77,7 @@ pub(crate) enum Command {
 
 /// The whole command line.
 pub(crate) fn command_line() -> clap::Command {
-    <Cli as clap::CommandFactory>::command()
+    crate::commands::texts::with_names(<Cli as clap::CommandFactory>::command())
 }
 
 impl Call for Command {

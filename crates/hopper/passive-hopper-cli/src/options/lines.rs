@@ -1,4 +1,4 @@
-//! Numbers on standard input, one a line, in blocks whose parts are computed at once.
+//! Starts on standard input, one a line, in blocks whose parts are computed at once.
 //!
 //! ```text
 //!   input ──► block of whole lines ──► parts, one a task ──► texts in the order of the lines ──► output
@@ -7,6 +7,7 @@
 //! A block is what one read gives: a filter behind a slow program answers each line as it comes.
 
 use crate::error::Error;
+use crate::options::line_form::{LineForm, Start};
 use crate::refusal::shortened;
 use crate::streams::Streams;
 use rayon::prelude::*;
@@ -31,23 +32,22 @@ pub(crate) struct Skipped {
     pub(crate) first: Option<(u64, String, String)>,
 }
 
-/// Reads numbers with `value` from all lines, and writes the texts that `write` makes of them, in their order.
-/// `write` is told whether its numbers are the first. Lines that are no number are passed over if `skips`.
+/// Reads a start from each line, and writes the texts that `write` makes of them, in their order. `write` is told
+/// whether its starts are the first. Lines that are none are passed over if `skips`.
 ///
 /// # Errors
-/// [`Error::Misuse`] if a person would have to type the lines; [`Error::Input`] for a line that is no number, after
+/// [`Error::Misuse`] if a person would have to type the lines; [`Error::Input`] for a line that is no start, after
 /// the texts of the lines before it; the errors of `write` and of the streams.
 pub(crate) fn filter(
     streams: &mut Streams<'_>,
     skips: bool,
-    value: impl Fn(&str) -> Result<f64, String> + Sync,
-    write: impl Fn(&[f64], bool) -> Result<String, Error> + Sync,
+    form: &LineForm,
+    write: impl Fn(&[Start], bool) -> Result<String, Error> + Sync,
 ) -> Result<Skipped, Error> {
     let mut skipped = Skipped::default();
     if streams.input_is_terminal {
         return Err(Error::Misuse(
-            "SPEED: no speed is given, and standard input is a terminal; give speeds, or a file: hopper fate -M 0.2 < \
-             FILE"
+            "SPEED: no speed is given, and standard input is a terminal; give speeds, or the lines of a file: < FILE"
                 .into(),
         ));
     }
@@ -78,14 +78,28 @@ pub(crate) fn filter(
         if line == 0 && block[..end].starts_with(BYTE_ORDER_MARK) {
             start = BYTE_ORDER_MARK.len();
         }
-        let lines = &block[std::mem::take(&mut start)..end];
+        let mut lines = &block[std::mem::take(&mut start)..end];
+        while form.wants_names() && !lines.is_empty() {
+            let length =
+                lines.iter().position(|&byte| byte == b'\n').map_or(lines.len(), |at| at + 1);
+            let (names, others) = lines.split_at(length);
+            (lines, line) = (others, line + 1);
+            let text = String::from_utf8_lossy(names.trim_ascii());
+            if is_content(text.as_bytes()) {
+                form.read_names(&text).map_err(|reason| Error::Input {
+                    line,
+                    text: shortened(&text),
+                    reason,
+                })?;
+            }
+        }
         let parts: Vec<ReadLines> =
-            parts(lines).map(|bytes| ReadLines::read(bytes, skips, &value)).collect();
-        let first = parts.iter().position(|part| !part.values.is_empty());
+            parts(lines).map(|bytes| ReadLines::read(bytes, skips, form)).collect();
+        let first = parts.iter().position(|part| !part.starts.is_empty());
         let texts: Vec<_> = parts
             .par_iter()
             .enumerate()
-            .map(|(at, part)| write(&part.values, !begun && first == Some(at)))
+            .map(|(at, part)| write(&part.starts, !begun && first == Some(at)))
             .collect();
         for (part, text) in parts.into_iter().zip(texts) {
             streams.output.write_all(text?.as_bytes()).map_err(Error::output)?;
@@ -120,9 +134,14 @@ fn parts(mut bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     })
 }
 
-/// The numbers of some lines, up to the first wrong one, unless wrong ones are passed over.
+/// Whether a line is neither empty nor a comment.
+fn is_content(line: &[u8]) -> bool {
+    line.first().is_some_and(|&first| first != b'#')
+}
+
+/// The starts of some lines, up to the first wrong one, unless wrong ones are passed over.
 struct ReadLines {
-    values: Vec<f64>,
+    starts: Vec<Start>,
     lines: u64,
     skipped: u64,
     /// The number of the first wrong line in this part, its text, and what is wrong.
@@ -130,9 +149,9 @@ struct ReadLines {
 }
 
 impl ReadLines {
-    fn read(bytes: &[u8], skips: bool, value: &impl Fn(&str) -> Result<f64, String>) -> Self {
+    fn read(bytes: &[u8], skips: bool, form: &LineForm) -> Self {
         let mut part = ReadLines {
-            values: Vec::with_capacity(bytes.len() / 8),
+            starts: Vec::with_capacity(bytes.len() / 8),
             lines: 0,
             skipped: 0,
             wrong: None,
@@ -141,15 +160,15 @@ impl ReadLines {
         for line in whole.split(|&byte| byte == b'\n') {
             part.lines += 1;
             let line = line.trim_ascii();
-            if line.is_empty() || line[0] == b'#' {
+            if !is_content(line) {
                 continue;
             }
             let read = match std::str::from_utf8(line) {
-                Ok(text) => value(text),
+                Ok(text) => form.read(text),
                 Err(_) => Err("it is no text in UTF-8; give one number a line".into()),
             };
             match read {
-                Ok(value) => part.values.push(value),
+                Ok(start) => part.starts.push(start),
                 Err(reason) => {
                     let text = shortened(&String::from_utf8_lossy(line));
                     part.wrong.get_or_insert((part.lines, text, reason));
@@ -167,6 +186,8 @@ impl ReadLines {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::options::line_form::Columns;
+    use passive_hopper::MassRatio;
     use std::io::Read;
 
     /// A reader that gives at most so many bytes at a time.
@@ -182,21 +203,24 @@ mod tests {
     }
 
     fn filtered(text: &str, at_a_time: usize) -> (String, Result<(), Error>) {
+        filtered_as(&LineForm::Speed(MassRatio::ONE), text, at_a_time)
+    }
+
+    fn filtered_as(form: &LineForm, text: &str, at_a_time: usize) -> (String, Result<(), Error>) {
         let (mut output, mut messages) = (Vec::new(), Vec::new());
         let mut streams = Streams {
             input: &mut Slow(text.as_bytes(), at_a_time),
             input_is_terminal: false,
+            output_has_colors: false,
             output: &mut output,
             messages: &mut messages,
         };
-        let write = |values: &[f64], first: bool| {
-            let texts = values.iter().enumerate();
-            Ok(texts
-                .map(|(k, v)| format!("{v}{}", if first && k == 0 { "!" } else { "," }))
-                .collect())
+        let write = |starts: &[Start], first: bool| {
+            let end = |k: usize| if first && k == 0 { "!" } else { "," };
+            let texts = starts.iter().enumerate();
+            Ok(texts.map(|(k, start)| format!("{}{}", start.speed, end(k))).collect())
         };
-        let value = |text: &str| text.parse().map_err(|_| "it is no number".to_owned());
-        let result = filter(&mut streams, false, value, write).map(drop);
+        let result = filter(&mut streams, false, form, write).map(drop);
         (String::from_utf8(output).unwrap(), result)
     }
 
@@ -208,21 +232,33 @@ mod tests {
             let (output, result) = filtered(text, at_a_time);
             assert!(output == "1!2,3,4," && result.is_ok(), "{at_a_time}: {output}");
         }
-        let many: String = (0..100_000).map(|k| format!("{k}\n")).collect();
+        let many: String = (1..100_000).map(|k| format!("{k}\n")).collect();
         let (output, result) = filtered(&many, 1 << 20);
-        assert!(result.is_ok() && output.starts_with("0!1,2,") && output.ends_with("99998,99999,"));
-        assert_eq!(output.matches(',').count(), 99_999);
+        assert!(result.is_ok() && output.starts_with("1!2,3,") && output.ends_with("99998,99999,"));
+        assert_eq!(output.matches(',').count(), 99_998);
         assert_eq!(filtered("", 5).0, "");
     }
 
     #[test]
+    fn the_names_of_columns_may_come_in_pieces() {
+        for at_a_time in [1, 3, 100] {
+            let form = LineForm::Columns(Columns::new("v".into(), Ok(MassRatio::ONE)));
+            let (output, result) = filtered_as(&form, "# runs\n\nrun,v\na,1\n\nb,2", at_a_time);
+            assert!(output == "1!2," && result.is_ok(), "{at_a_time}: {output}");
+        }
+        let form = LineForm::Columns(Columns::new("w".into(), Ok(MassRatio::ONE)));
+        let message = filtered_as(&form, "\nrun,v\na,1\n", 100).1.unwrap_err().to_string();
+        assert!(message.starts_with("standard input, line 2, 'run,v': there is no column 'w'"));
+    }
+
+    #[test]
     fn a_wrong_line_is_named_after_the_lines_before_it() {
-        let many: String = (0..50_000).map(|k| format!("{k}\n")).collect();
+        let many: String = (1..50_000).map(|k| format!("{k}\n")).collect();
         for at_a_time in [1000, 1 << 20] {
             let (output, result) = filtered(&format!("{many}seven\n8\n"), at_a_time);
             assert!(output.ends_with("49998,49999,"), "{at_a_time}");
             let message = result.unwrap_err().to_string();
-            assert_eq!(message, "standard input, line 50001, 'seven': it is no number");
+            assert!(message.starts_with("standard input, line 50000, 'seven': it is not a number"));
         }
         let long = "1".repeat(BLOCK + 1);
         assert!(matches!(filtered(&long, 1 << 20).1, Err(Error::Input { line: 1, .. })));

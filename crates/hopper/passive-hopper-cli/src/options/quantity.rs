@@ -28,7 +28,7 @@ pub(crate) struct Quantity {
 
 /// The units: their text, what they measure, the power of ten to the basic unit, and a divisor for the one that has
 /// none.
-const UNITS: [(&str, Kind, i32, f64); 40] = [
+const UNITS: [(&str, Kind, i32, f64); 43] = [
     ("kg", Kind::Mass, 0, 1.0),
     ("g", Kind::Mass, -3, 1.0),
     ("mg", Kind::Mass, -6, 1.0),
@@ -53,10 +53,12 @@ const UNITS: [(&str, Kind, i32, f64); 40] = [
     ("cm", Kind::Length, -2, 1.0),
     ("mm", Kind::Length, -3, 1.0),
     ("µm", Kind::Length, -6, 1.0),
+    ("\u{3bc}m", Kind::Length, -6, 1.0),
     ("um", Kind::Length, -6, 1.0),
     ("s", Kind::Time, 0, 1.0),
     ("ms", Kind::Time, -3, 1.0),
     ("µs", Kind::Time, -6, 1.0),
+    ("\u{3bc}s", Kind::Time, -6, 1.0),
     ("us", Kind::Time, -6, 1.0),
     ("m/s", Kind::Speed, 0, 1.0),
     ("cm/s", Kind::Speed, -2, 1.0),
@@ -67,6 +69,7 @@ const UNITS: [(&str, Kind, i32, f64); 40] = [
     ("J", Kind::Energy, 0, 1.0),
     ("mJ", Kind::Energy, -3, 1.0),
     ("µJ", Kind::Energy, -6, 1.0),
+    ("\u{3bc}J", Kind::Energy, -6, 1.0),
     ("uJ", Kind::Energy, -6, 1.0),
     ("kJ", Kind::Energy, 3, 1.0),
     ("Nm", Kind::Energy, 0, 1.0),

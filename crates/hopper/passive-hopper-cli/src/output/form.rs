@@ -58,6 +58,11 @@ impl Form {
         }
     }
 
+    /// Whether a filter, which has one table, has this one: the first of its command, or the one that is asked for.
+    pub(crate) fn is_first(&self, table: &TableKind) -> bool {
+        self.only.is_none_or(|only| only == table)
+    }
+
     /// Prints those of the tables that the form has. The first one is the main one.
     ///
     /// # Errors

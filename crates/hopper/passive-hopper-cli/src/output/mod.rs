@@ -8,7 +8,7 @@ mod number;
 mod plain;
 mod table;
 
-pub(crate) use form::{Form, Rows};
+pub(crate) use form::Form;
 pub(crate) use motion_table::motion_table;
 pub(crate) use number::number;
-pub(crate) use table::{Cell, Column, Table, TableKind};
+pub(crate) use table::{Cell, Column, Table, TableKind, after};

@@ -73,6 +73,20 @@ impl Column {
     }
 }
 
+/// Columns with one more before them.
+pub(crate) const fn after<const N: usize, const M: usize>(
+    first: Column,
+    others: [Column; N],
+) -> [Column; M] {
+    assert!(M == N + 1, "one column more");
+    let (mut all, mut at) = ([first; M], 0);
+    while at < N {
+        all[at + 1] = others[at];
+        at += 1;
+    }
+    all
+}
+
 /// A cell.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Cell {

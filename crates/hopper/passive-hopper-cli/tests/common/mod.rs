@@ -15,6 +15,7 @@ pub(crate) fn call(arguments: &[&str], mut input: &[u8]) -> Called {
     let streams = Streams {
         input: &mut input,
         input_is_terminal: false,
+        output_has_colors: false,
         output: &mut output,
         messages: &mut messages,
     };
