@@ -62,7 +62,9 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         None => {}
     }
     let Some(out) = &options.out else {
-        if options.job.old_job().is_some() {
+        let place = &options.place;
+        let has_place = place.part.is_some() || place.join || place.force;
+        if has_place || options.job.old_job().is_some() {
             return Err(Error::Misuse(
                 "--out: the folder for the results is missing; give it".into(),
             ));
