@@ -18,7 +18,17 @@ pub struct Enclosure {
 /// The two ends, shortest and exactly: `[0.5, 1]`.
 impl fmt::Display for Enclosure {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "[{}, {}]", self.low, self.high)
+        let [low, high] = [self.low, self.high].map(shown);
+        write!(formatter, "[{low}, {high}]")
+    }
+}
+
+/// A number with all its digits, and with an exponent if it would have many zeros.
+fn shown(number: f64) -> String {
+    let size = number.abs();
+    match size == 0.0 || !size.is_finite() || (1e-7..1e17).contains(&size) {
+        true => number.to_string(),
+        false => format!("{number:e}"),
     }
 }
 

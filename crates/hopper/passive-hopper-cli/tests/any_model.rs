@@ -123,6 +123,44 @@ fn a_proof_holds_what_a_run_finds() {
 }
 
 #[test]
+fn basins_are_proved_and_a_point_that_does_not_attract_is_refused() {
+    let well = model("well.toml");
+    let (certificate, picture) = (File::new("well.jsonl", ""), File::new("well.svg", ""));
+    let ask = |near: &[&str], more: &[&str]| {
+        let window = ["--window", "x=-1.5:1.5", "v=-1:1", "--halvings", "3", "4", "--csv"];
+        call(&[&["prove-basin", &well, "--surface", "later"], near, &window, more].concat())
+    };
+    let files = ["--certificate", certificate.path(), "--figure", picture.path()];
+    let (code, output, messages) = ask(&["--near", "x=1,v=0", "--near", "v=0,x=-1"], &files);
+    assert_eq!(code, 0, "{messages}");
+    let shares: Vec<f64> = output
+        .lines()
+        .skip(1)
+        .map(|row| row.rsplit(',').nth(1).unwrap().parse().unwrap())
+        .collect();
+    // Mirrored, so that neither side can have more than a half.
+    assert!(
+        shares.len() == 2 && shares.iter().all(|share| (0.05..0.5).contains(share)),
+        "{output}"
+    );
+    let text = std::fs::read_to_string(certificate.path()).unwrap();
+    assert!(
+        text.starts_with("{\"format\":\"hybrid system certificate\"")
+            && text.contains("\"kind\":\"basins\"")
+    );
+    assert!(std::fs::read_to_string(picture.path()).unwrap().contains("undecided"));
+    for (near, why) in [
+        (&["--near", "x=0,v=0"][..], "does not attract"),
+        (&["--near", "x=1"], "v is missing"),
+        (&["--near", "x=1,v=0,w=0"], "this is none of x, v"),
+        (&["--near", "x"], "such as x=1"),
+    ] {
+        let (code, output, messages) = ask(near, &[]);
+        assert!(code > 0 && output.is_empty() && messages.contains(why), "{near:?}: {messages}");
+    }
+}
+
+#[test]
 fn what_is_wrong_is_said_in_one_line_with_its_place() {
     let ball = model("ball.toml");
     let file = |text: &str| File::new("broken.toml", text);

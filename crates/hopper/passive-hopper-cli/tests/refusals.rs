@@ -152,7 +152,7 @@ const WRONG: &[(&str, &[&str])] = &[
     ("basins --out TMP/x --zoom 0.12 5e-324", &["M SPEED 0.12 5e-324", "of 5e-324 comes", "give"]),
     ("basins --out TMP/x --zoom 0.12 11.92 -M 0.1 1", &["--zoom", "--mass-ratio"]),
     ("basins --out TMP/x --zoom 0.12 11.92 --frames -1", &["'-1'", "--frames", "whole number"]),
-    ("basins --out TMP/x --coverage 0", &["--coverage 0", "0.5", "give"]),
+    ("basins --out TMP/x --coverage 0", &["TOLERANCE 0", "0.5", "give"]),
     ("basins --out TMP/x --part 4/3", &["'4/3'", "--part", "1/4"]),
     ("basins --out TMP/x --join", &["--join --out", "--part 1/2"]),
     ("hop 7 -M 0.2 --table=", &["--table ''", "hops, landings"]),
@@ -162,7 +162,7 @@ const WRONG: &[(&str, &[&str])] = &[
     ),
     ("completions", &["<SHELL>"]),
     ("completions tcsh", &["'tcsh'", "bash, fish, zsh"]),
-    ("manual hpo", &["COMMAND hpo", "orbit"]),
+    ("manual hpo", &["'hpo'", "orbit"]),
 ];
 
 #[test]

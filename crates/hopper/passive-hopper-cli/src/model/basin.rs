@@ -38,6 +38,9 @@ pub(crate) struct Options {
     /// Starts of the search along each of the first two states
     #[arg(long, default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=1000))]
     starts: u32,
+    /// The most steps of an orbit; one that has come to nothing then is undecided
+    #[arg(long, value_name = "STEPS", default_value_t = RecurrenceLimits::default().budget)]
+    budget: usize,
     /// Pixels across and up
     #[arg(long, num_args = 2, default_values_t = [200, 200], value_parser = clap::value_parser!(u32).range(1..=8192))]
     pixels: Vec<u32>,
@@ -89,7 +92,9 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         ),
         Column::new("starts", "", "starts of the search that came to it"),
     ];
-    let names = states.iter().map(|name| (name.clone(), "a point of it"));
+    let mode_column =
+        (model.modes.len() > 1).then(|| ("mode".to_owned(), "number of its mode, from 0"));
+    let names = states.iter().map(|name| (name.clone(), "a point of it")).chain(mode_column);
     let attractors =
         table(("attractors", "one row for each attractor that was found"), &before, names, &[]);
     let form = options.output.form(&[&BASINS, attractors])?;
@@ -105,6 +110,7 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         plane: (x?, y?),
         cells: options.cells,
         starts: options.starts,
+        budget: options.budget,
         pixels: (options.pixels[0] as usize, options.pixels[1] as usize),
     };
     let (plane, axes) = (question.plane, [&options.window[0].0, &options.window[1].0]);
@@ -140,9 +146,21 @@ fn sides(model: &Model, given: &[(String, String)]) -> Result<Vec<Interval>, Err
         );
         return Err(Error::Misuse(text));
     }
-    let mut sides = vec![None; states.len()];
+    window_of(model, states, given)
+}
+
+/// The window of each of these names, in their order.
+///
+/// # Errors
+/// [`Error::Misuse`] for another name, for one that stands twice or is missing, and for ends that do not increase.
+pub(crate) fn window_of(
+    model: &Model,
+    names: &[String],
+    given: &[(String, String)],
+) -> Result<Vec<Interval>, Error> {
+    let mut sides = vec![None; names.len()];
     for (name, ends) in given {
-        let place = place_of(states, name, "--window")?;
+        let place = place_of(names, name, "--window")?;
         let Some((from, to)) = ends.split_once(':') else {
             return Err(Error::misuse("--window", ends, "give two ends, such as x=-2:2"));
         };
@@ -152,7 +170,7 @@ fn sides(model: &Model, given: &[(String, String)]) -> Result<Vec<Interval>, Err
             Some(side.map_err(|error| Error::Misuse(format!("--window {name}: {error}")))?);
     }
     let missing = |place: usize| {
-        Error::Misuse(format!("--window: {} stands twice, or is missing", states[place]))
+        Error::Misuse(format!("--window: {} stands twice, or is missing", names[place]))
     };
     sides.iter().enumerate().map(|(place, side)| side.ok_or_else(|| missing(place))).collect()
 }
@@ -167,6 +185,7 @@ struct Question {
     plane: (usize, usize),
     cells: u32,
     starts: u32,
+    budget: usize,
     pixels: (usize, usize),
 }
 
@@ -180,24 +199,39 @@ impl Question {
             let steps = FlowSteps::new(field, (0.0, self.step), 1e-9).map_err(failed)?;
             return self.search(&steps);
         }
-        if self.model.modes.len() > 1 {
-            let text = "the basins of a model with several modes need windows of the mode, too: use the package nonsmooth or the crates";
-            return Err(Error::Model(text.to_owned()));
-        }
         let own: EquationsModel<DVector<f64>> = equations.model().map_err(failed)?;
         let run = |mode: Name, x: &[f64]| own.start_at(mode.as_str(), x.to_vec(), (0.0, self.step));
-        self.search(&ExecutionSteps::new(self.sides.len(), &[mode], run))
+        let modes: Vec<Name> = self
+            .model
+            .modes
+            .iter()
+            .map(|name| Name::new(name))
+            .collect::<Result<_, _>>()
+            .map_err(failed)?;
+        self.search(&ExecutionSteps::new(self.sides.len(), &modes, run))
+    }
+
+    /// The number of the mode in which the pixels start, if the model has several: their last coordinate.
+    fn mode_number(&self) -> Option<f64> {
+        let modes = &self.model.modes;
+        let place = modes.iter().position(|mode| *mode == self.mode)?;
+        (modes.len() > 1).then_some(place as f64)
     }
 
     fn search(&self, map: &dyn StateMap) -> Result<Found, Error> {
-        let grid =
-            StateGrid::uniform(Hyperrectangle::new(self.sides.clone())?, self.cells as usize)?;
-        let limits = RecurrenceLimits::default();
+        let mut sides = self.sides.clone();
+        if self.mode_number().is_some() {
+            // Each mode is a whole number within.
+            sides.push(Interval::new(-0.5, self.model.modes.len() as f64 - 0.5)?);
+        }
+        let grid = StateGrid::uniform(Hyperrectangle::new(sides)?, self.cells as usize)?;
+        let limits = RecurrenceLimits { budget: self.budget, ..RecurrenceLimits::default() };
         let (x, y) = (self.sides[self.plane.0], self.sides[self.plane.1]);
         let of = |columns: usize, rows: usize| Grid { x, y, columns, rows };
         let place = |x: f64, y: f64| {
             let mut state = self.start.clone();
             (state[self.plane.0], state[self.plane.1]) = (x, y);
+            state.extend(self.mode_number());
             state
         };
         let coarse = of(self.starts as usize, self.starts as usize);

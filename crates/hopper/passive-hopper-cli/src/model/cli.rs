@@ -1,7 +1,7 @@
 //! The command line of `nonsmooth`: its commands, and their start.
 
 use crate::error::Error;
-use crate::model::{basin, branch, prove, run, section};
+use crate::model::{basin, branch, prove, prove_basin, run, section};
 use crate::options::form::OutputOptions;
 use crate::program::Call;
 use crate::streams::Streams;
@@ -69,6 +69,8 @@ pub(crate) enum Command {
     Basin(basin::Options),
     /// Prove that a return map has a periodic orbit near a point, with its multipliers and a part of its basin
     Prove(prove::Options),
+    /// Prove which starts of a window converge to which orbit of a return map, cell by cell
+    ProveBasin(prove_basin::Options),
     /// Print the completions of a shell
     Completions(crate::commands::texts::Completions),
     /// Print the manual page of the program, or of a command
@@ -88,6 +90,7 @@ impl Call for Command {
             Command::Branch(options) => Some(&options.output),
             Command::Basin(options) => Some(&options.output),
             Command::Prove(options) => Some(&options.output),
+            Command::ProveBasin(options) => Some(&options.output),
             Command::Completions(_) | Command::Manual(_) => None,
         }
     }
@@ -99,6 +102,7 @@ impl Call for Command {
             Command::Branch(options) => branch::run(&options, streams),
             Command::Basin(options) => basin::run(&options, streams),
             Command::Prove(options) => prove::run(&options, streams),
+            Command::ProveBasin(options) => prove_basin::run(&options, streams),
             Command::Completions(options) => {
                 crate::commands::texts::completions(&options, command_line(), streams)
             }

@@ -9,7 +9,9 @@
 //!   section.rs   the returns to a surface
 //!   branch.rs    periodic orbits along a parameter, with their bifurcations
 //!   basin.rs     attractors and the basins of a window
+//!   section_map.rs  the return map of a proof
 //!   prove.rs     a periodic orbit that exists, with a certificate
+//!   prove_basin.rs  which starts come to which orbit, as a theorem
 //! ```
 //!
 //! As `hopper` it holds no mathematics: the crates for any system answer.
@@ -20,6 +22,8 @@ pub(crate) mod cli;
 mod columns;
 mod file;
 mod prove;
+mod prove_basin;
 mod question;
 mod run;
 mod section;
+mod section_map;

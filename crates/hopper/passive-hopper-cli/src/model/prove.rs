@@ -3,9 +3,8 @@
 use crate::commands::search;
 use crate::error::Error;
 use crate::model::file::{Model, texts};
-use crate::model::question::{
-    ModelOptions, check_period, check_surface, failed, mode_of, named, point,
-};
+use crate::model::question::{ModelOptions, check_period, failed, named, point};
+use crate::model::section_map::{MapOptions, MapWords};
 use crate::options::form::OutputOptions;
 use crate::output::{Column, Table, TableKind};
 use crate::streams::Streams;
@@ -13,8 +12,8 @@ use equations::{Formulas, Names};
 use resumable_job::write_atomically;
 use std::path::PathBuf;
 use validated_dynamics::{
-    Certificate, EnclosedMap, Enclosure, ProvedFixedPoint, SectionMap, StartSet, Trap,
-    ValidatedSystem, fixed_point,
+    Certificate, EnclosedMap, Enclosure, ProvedFixedPoint, StartSet, Trap, ValidatedSystem,
+    fixed_point,
 };
 
 /// Prove that a return map has a periodic orbit near a point, with its multipliers and a part of its basin
@@ -22,24 +21,11 @@ use validated_dynamics::{
 pub(crate) struct Options {
     #[command(flatten)]
     model: ModelOptions,
-    /// The surface at which the map ends
-    #[arg(long)]
-    surface: String,
-    /// Events there until it ends
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..))]
-    count: u16,
-    /// The mode in which it begins [default: that of the file, or the first one]
-    #[arg(long)]
-    mode: Option<String>,
+    #[command(flatten)]
+    map: MapOptions,
     /// The fixed point, roughly: the coordinates of the section, such as y=-8.4 z=0.03
     #[arg(long, num_args = 1.., value_name = "NAME=VALUE", value_parser = named, required = true)]
     near: Vec<(String, String)>,
-    /// The other states at the start, and the time t, as formulas of the coordinates, such as x=0; those that are not given are 0
-    #[arg(long, num_args = 1.., value_name = "NAME=FORMULA", value_parser = named)]
-    on: Vec<(String, String)>,
-    /// What is read behind the last event, in the order of the coordinates, such as y z "t - 2*pi" [default: the coordinates]
-    #[arg(long, num_args = 1.., value_name = "FORMULA", allow_hyphen_values = true)]
-    read: Vec<String>,
     /// Boxes with which a trap is looked for about an orbit that attracts: all its points converge to the orbit
     #[arg(long, default_value_t = 1000, value_name = "N")]
     boxes: usize,
@@ -77,44 +63,16 @@ static ORBIT: TableKind = TableKind {
 
 pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Error> {
     let model = options.model.model()?;
-    let mode = mode_of(options.mode.as_deref(), &model)?;
     let names: Vec<String> = options.near.iter().map(|(name, _)| name.clone()).collect();
     let guess = point(&model, &names, &options.near, "--near")?;
-    check_surface(&model, &options.surface)?;
-    let uses_time = !model.equations.is_autonomous();
-    let own_states = model.equations.names().states.clone();
-    for (name, _) in &options.on {
-        let known = own_states.contains(name) || (uses_time && name == "t");
-        if !known || names.contains(name) {
-            let reason = "it is no other state at the start: a state that is not in --near, or the time t of a model that uses it";
-            return Err(Error::misuse("--on", name, reason));
-        }
-    }
+    let words = options.map.words(&model, &names)?;
     let form = options.output.form(&[&PROVED, &ORBIT])?;
-    let state = |name: &String| {
-        let own = options.on.iter().find(|(known, _)| known == name);
-        let default = if names.contains(name) { name.clone() } else { "0".to_owned() };
-        own.map_or(default, |(_, formula)| formula.clone())
-    };
-    let mut states: Vec<String> = model.equations.names().states.iter().map(state).collect();
-    if uses_time {
-        // The time is a component, too.
-        states.push(state(&"t".to_owned()));
-    }
-    let read = if options.read.is_empty() { names.clone() } else { options.read.clone() };
-    let (own, variables) = (options.clone(), names.clone());
+    let own = options.clone();
     let found = search::run(&options.output, &mut streams, move || {
         let system = ValidatedSystem::new(&model.equations).map_err(failed)?;
-        let chart = system.chart(&mode, &texts(&variables), &texts(&states)).map_err(failed)?;
-        let map =
-            SectionMap::new(&system, chart, &own.surface, usize::from(own.count), &texts(&read));
-        let mut map = map.map_err(failed)?;
-        if own.certificate.is_some() {
-            map = map.recorded();
-        }
+        let map = words.map(&system, own.certificate.is_some())?;
         let orbit = fixed_point(&map, &guess, &[]).map_err(failed)?;
-        let question = Closing { model: &model, system: &system, mode: &mode, options: &own };
-        question.check(&variables, &states, &orbit)?;
+        Closing { model: &model, system: &system, words: &words }.check(&orbit)?;
         let trap = orbit.is_attracting().then(|| Trap::new(&map, &orbit, own.boxes).ok()).flatten();
         let mut text = None;
         if own.certificate.is_some() {
@@ -139,18 +97,13 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
 struct Closing<'a> {
     model: &'a Model,
     system: &'a ValidatedSystem,
-    mode: &'a str,
-    options: &'a Options,
+    words: &'a MapWords,
 }
 
 impl Closing<'_> {
     /// Refuses a point from which a state does not come back, and a time that is no period.
-    fn check(
-        &self,
-        coordinates: &[String],
-        states: &[String],
-        orbit: &ProvedFixedPoint,
-    ) -> Result<(), Error> {
+    fn check(&self, orbit: &ProvedFixedPoint) -> Result<(), Error> {
+        let MapWords { variables: coordinates, states, mode, .. } = self.words;
         let own = self.model.equations.names();
         let names = Names { states: coordinates.to_vec(), ..own.clone() };
         let start = Formulas::from_text(names, &texts(states)).map_err(failed)?;
@@ -158,13 +111,7 @@ impl Closing<'_> {
         let all = own.states.iter().map(String::as_str).chain(["t"]).take(states.len());
         let (mut middle, mut times) = (Vec::new(), None);
         for (state, from) in all.zip(&start) {
-            let chart = self
-                .system
-                .chart(self.mode, &texts(coordinates), &texts(states))
-                .map_err(failed)?;
-            let (surface, count) = (&self.options.surface, usize::from(self.options.count));
-            let map =
-                SectionMap::new(self.system, chart, surface, count, &[state]).map_err(failed)?;
+            let map = self.words.map_reading(self.system, &[state])?;
             let image =
                 map.carry(StartSet::of_box(&orbit.point).without_derivatives()).map_err(failed)?;
             let to = image.set.hull()[0];
@@ -181,9 +128,7 @@ impl Closing<'_> {
                 return Err(Error::Misuse(text));
             }
         }
-        times.map_or(Ok(()), |times| {
-            check_period(self.model, self.mode, times, &middle, "--surface")
-        })
+        times.map_or(Ok(()), |times| check_period(self.model, mode, times, &middle, "--surface"))
     }
 }
 
