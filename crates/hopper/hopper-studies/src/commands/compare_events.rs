@@ -1,7 +1,7 @@
 //! `compare-events`: the events of the same scenes, and motions at equal errors, by SciPy, heyoka, diffsol and this repository.
 
 use crate::error::Error;
-use crate::events::{answers, by_diffsol, by_python, by_us, csv, markdown, verdict};
+use crate::events::{answers, by_diffsol, by_python, by_us, csv, markdown, totals, verdict};
 use crate::motions;
 use crate::peers::Python;
 use crate::repository::{Folder, read, repository, results_folder, say};
@@ -18,7 +18,7 @@ pub(crate) struct Options {
     /// Folder for the environment and the results [default: target/peers in the repository]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Renew the tables of docs/performance.md, docs/events.csv and docs/motions.csv with the measured values
+    /// Renew the tables of docs/performance.md and docs/note.md, docs/events.csv and docs/motions.csv with the measured values
     #[arg(long)]
     bless: bool,
 }
@@ -74,6 +74,8 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
     docs.write("performance.md", text.as_bytes())?;
     let text = read(&docs.path().join("accuracy.md"))?;
     docs.write("accuracy.md", replace_block(&text, "hard motions", &hard)?.as_bytes())?;
+    let text = read(&docs.path().join("note.md"))?;
+    docs.write("note.md", replace_block(&text, "totals", &totals(&verdicts))?.as_bytes())?;
     docs.write("events.csv", &data.bytes)?;
     docs.write("motions.csv", &motions_data.bytes)?;
     Ok(())

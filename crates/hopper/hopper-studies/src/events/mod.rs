@@ -11,5 +11,5 @@ mod verdict;
 pub(crate) use answers::answers;
 pub(crate) use diffsol::run_diffsol;
 pub(crate) use found::{by_diffsol, by_python, by_us};
-pub(crate) use table::{csv, markdown};
+pub(crate) use table::{csv, markdown, totals};
 pub(crate) use verdict::verdict;

@@ -25,6 +25,43 @@ pub(crate) fn markdown<'a>(verdicts: &'a [Verdict]) -> String {
     markdown_table(columns, verdicts.iter().map(row))
 }
 
+/// The sums over all scenes, a program a row, with the smallest and the largest time of an event in that of the first program.
+pub(crate) fn totals(verdicts: &[Verdict]) -> String {
+    let mut programs: Vec<&str> = Vec::new();
+    for verdict in verdicts {
+        if !programs.contains(&verdict.program.as_str()) {
+            programs.push(&verdict.program);
+        }
+    }
+    let first = programs.first().copied().unwrap_or_default();
+    let row = |program: &&str| {
+        let own: Vec<&Verdict> = verdicts.iter().filter(|own| own.program == *program).collect();
+        let events: usize = own.iter().map(|own| own.exact).sum();
+        let missed: usize = own.iter().map(|own| own.exact - own.right).sum();
+        let wrong: usize = own.iter().map(|own| own.wrong).sum();
+        let right = own.iter().filter(|own| own.end == End::Right).count();
+        let ratios = own.iter().filter_map(|own| {
+            let ours = verdicts.iter().find(|v| v.program == first && v.scene == own.scene)?;
+            Some(own.seconds / ours.seconds)
+        });
+        let (low, high) = ratios
+            .fold((f64::INFINITY, 0.0f64), |(low, high), ratio| (low.min(ratio), high.max(ratio)));
+        let times = match *program == first {
+            true => "1".into(),
+            false => format!("{} to {}", two_digits(low), two_digits(high)),
+        };
+        format!("{program} | {events} | {missed} | {wrong} | {right} of {} | {times}", own.len())
+    };
+    let columns = "program | events: | missed: | wrong: | scenes that end right: | time, of ours:";
+    markdown_table(columns, programs.iter().map(row))
+}
+
+/// A positive number with two digits.
+fn two_digits(number: f64) -> String {
+    let rounded: f64 = format!("{number:.1e}").parse().unwrap_or(number);
+    rounded.to_string()
+}
+
 fn end(end: End) -> String {
     match end {
         End::Right => "right".into(),
@@ -65,6 +102,35 @@ pub(crate) fn csv(verdicts: &[Verdict]) -> Result<DataFile, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The table of docs/note.md has the sums of docs/events.csv.
+    #[test]
+    fn the_note_has_the_sums_of_the_measurements() {
+        let docs = crate::repository::repository().join("docs");
+        let [data, note] =
+            ["events.csv", "note.md"].map(|name| std::fs::read_to_string(docs.join(name)).unwrap());
+        let verdicts = data.lines().skip(1).map(|line| {
+            let fields: Vec<&str> = line.split(',').collect();
+            let number = |at: usize| fields[at].parse::<usize>().unwrap();
+            Verdict {
+                scene: fields[0].into(),
+                program: fields[1].into(),
+                exact: number(2),
+                right: number(2) - number(3),
+                wrong: number(4),
+                error: fields[5].parse().unwrap(),
+                end: match fields[6] {
+                    "right" => End::Right,
+                    "not reached" => End::Stuck,
+                    _ => End::Wrong(0.0),
+                },
+                seconds: fields[7].parse().unwrap(),
+                lines: number(8),
+            }
+        });
+        let table = totals(&verdicts.collect::<Vec<_>>());
+        assert!(note.contains(&table), "docs/note.md needs this table:\n{table}");
+    }
 
     #[test]
     fn a_scene_is_named_once() {
