@@ -14,7 +14,7 @@ export function snippets() {
   const [bottom, top] = positive(view.alpha);
   const point = pin ?? { m: 0.2, alpha: 7 };
   const picture = depth
-    ? `hopper basins --zoom ${depth.m} ${depth.alpha} --frames ${Math.ceil(depth.depth) + 1} --out zoom`
+    ? `hopper zoom ${depth.m} ${depth.alpha} --frames ${Math.ceil(depth.depth) + 1} --out zoom`
     : `hopper basins --mass-ratio ${left} ${right} --speed ${bottom} ${top}${own ? ` --layer ${own}` : ""} --out basins`;
   const float = (value) => (Number.isInteger(value) ? value.toFixed(1) : String(value));
   return {

@@ -53,7 +53,7 @@ pub(crate) enum Command {
     /// Find the fates of lift-off speeds, with the trap and the number of hops; a filter
     Fate(commands::fate::Options),
     /// Compute the basins over mass ratio and speed as rasters, in pieces; a call that was killed can be continued
-    Basins(basins::Options),
+    Basins(Box<basins::Options>),
     /// Compute the share of every basin in each pixel, so that no needle is missed
     Coverage(JobOptions<CoverageOptions>),
     /// Show the speeds below a fixed point, or beside a preimage of it, at all scales

@@ -90,7 +90,7 @@ pub(crate) static SUDDEN: TableKind = TableKind {
 
 pub(crate) static SHARES: TableKind = TableKind {
     name: "shares",
-    about: "one row for each fate that occurs, with --about or --coverage",
+    about: "one row for each fate that occurs, of `coverage` and `scales`",
     long: false,
     columns: &[
         Column::new("label", "", "number of the fate"),
@@ -102,7 +102,7 @@ pub(crate) static SHARES: TableKind = TableKind {
 
 pub(crate) static EDGE: TableKind = TableKind {
     name: "edge",
-    about: "the edge of a basin in the middle of all frames, with --zoom",
+    about: "the edge of a basin in the middle of all frames, of `zoom`",
     long: false,
     columns: &[
         Column::new("speed", "m₂gω/k", "the edge p as the nearest number").measured(),
