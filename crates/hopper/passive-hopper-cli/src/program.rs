@@ -104,9 +104,9 @@ pub fn run_nonsmooth(arguments: impl IntoIterator<Item = OsString>, streams: Str
 }
 
 /// Sets the number of threads of the process, if one is given.
-fn with_threads(threads: Option<u16>) -> Result<(), Error> {
+fn with_threads(threads: Option<u64>) -> Result<(), Error> {
     let Some(threads) = threads else { return Ok(()) };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::try_from(threads).unwrap_or(1));
     // Within a process that has computed before, the number is fixed.
     let refused = |error| Error::Misuse(format!("--threads {threads}: {error}"));
     pool.build_global().map_err(refused)

@@ -160,6 +160,83 @@ fn basins_are_proved_and_a_point_that_does_not_attract_is_refused() {
     }
 }
 
+/// A model of x and v with these rates and one more surface.
+fn pair(name: &str, rates: [&str; 2], surface: &str) -> File {
+    let [x, v] = rates;
+    let text = format!(
+        "states = [\"x\", \"v\"]\n[[mode]]\nname = \"m\"\nrates = {{ x = \"{x}\", v = \"{v}\" }}\n{surface}\n"
+    );
+    File::new(name, &text)
+}
+
+/// Maps whose iterates are not the flow: what is proved of them would be false of the model.
+#[test]
+fn maps_that_do_not_go_on_as_the_flow_does_are_refused() {
+    let tick = |guard: &str| {
+        format!("[[mode.surface]]\nname = \"tick\"\nguard = \"{guard}\"\ndirection = \"rising\"")
+    };
+    let third = pair("third.toml", ["x*(v - 1)", "1"], &tick("t - 1"));
+    let saddle = pair("saddle.toml", ["x", "-v"], &tick("t - 1"));
+    let half = pair("half.toml", ["v", "-x - v + sin(t)"], &tick("t - pi"));
+    let whole = pair("whole.toml", ["v", "-x - v + sin(t)"], &tick("t - 2*pi"));
+    let press = "\n[[mode.surface]]\nname = \"press\"\nguard = \"x - 2 + t\"\ndirection = \"rising\"\nstops = true";
+    let pressed = pair("pressed.toml", ["-x", "-v"], &(tick("t - 1") + press));
+    let window = ["--window", "x=-1:1", "v=-1:1", "--halvings", "2", "3"];
+    let calls: [(&File, Vec<&str>, &str); 8] = [
+        (&third, vec!["prove-basin", "--near", "x=0", "--window", "x=-1:1"], "v is in"),
+        (&third, vec!["prove", "--near", "x=0"], "v is in"),
+        (&saddle, vec!["prove", "--near", "v=0", "--on", "x=v"], "x is in"),
+        (
+            &saddle,
+            [&["prove-basin", "--near", "x=0,v=0", "--read", "x/9", "v"], &window[..]].concat(),
+            "x is in",
+        ),
+        (&half, [&["prove-basin", "--near", "x=0,v=0"], &window[..]].concat(), "no period"),
+        (
+            &whole,
+            [&["prove-basin", "--near", "x=0,v=0", "--on", "t=3"], &window[..]].concat(),
+            "no period",
+        ),
+        (
+            &whole,
+            [&["prove-basin", "--near", "x=0,v=0", "--on", "t=x"], &window[..]].concat(),
+            "from point to",
+        ),
+        (
+            &pressed,
+            [&["prove-basin", "--near", "x=0,v=0"], &window[..]].concat(),
+            "the surface press",
+        ),
+    ];
+    for (file, arguments, why) in calls {
+        let (command, rest) = arguments.split_first().unwrap();
+        let (code, output, messages) =
+            call(&[&[*command, file.path(), "--surface", "tick"], rest].concat());
+        assert!(code == 2 && output.is_empty(), "{arguments:?}: {output}");
+        assert!(
+            messages.contains(why) && messages.lines().count() == 1,
+            "{arguments:?}: {messages}"
+        );
+    }
+    // A whole period is one, and a kick must fit the step.
+    let (code, output, messages) = call(
+        &[
+            &["prove-basin", whole.path(), "--surface", "tick", "--near", "x=-0.5,v=-0.5", "--csv"],
+            &window[..],
+        ]
+        .concat(),
+    );
+    assert_eq!((code, output.lines().count()), (0, 2), "{messages}");
+    let kick = pair(
+        "kick.toml",
+        ["v", "x - x^3 - 0.3*v"],
+        "[[mode.surface]]\nname = \"kick\"\nperiod = 1\nresets = { v = \"v + 0.1\" }",
+    );
+    let (code, _, messages) =
+        call(&["basin", kick.path(), "--window", "x=-1:1", "v=-1:1", "--step", "0.7"]);
+    assert!(code == 2 && messages.contains("no period of the surface kick"), "{messages}");
+}
+
 #[test]
 fn what_is_wrong_is_said_in_one_line_with_its_place() {
     let ball = model("ball.toml");

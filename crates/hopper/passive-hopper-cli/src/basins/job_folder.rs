@@ -42,14 +42,13 @@ pub(crate) enum Share {
 }
 
 /// The folder of a call, what it does there, and the call itself.
-#[derive(Debug)]
 pub(crate) struct Place<'a> {
     pub(crate) out: &'a Path,
     pub(crate) share: Share,
     /// Whether results that are there are removed.
     pub(crate) force: bool,
-    /// The call without its place, such as `hopper basins --pixels 64 64`.
-    pub(crate) call: String,
+    /// The call without its place, such as `hopper basins --pixels 64 64`. It is asked for when the folder is locked.
+    pub(crate) call: &'a dyn Fn() -> String,
 }
 
 /// The results of a job, or of a layer of it.
@@ -85,7 +84,7 @@ impl JobFolder {
         description: String,
         results: &[&str],
     ) -> Result<Self, Error> {
-        let &Place { out, share, force, .. } = place;
+        let &Place { out, share, force, call } = place;
         if share == Share::Join && !is_claimed(out) {
             return Err(Error::misuse(
                 "--join --out",
@@ -108,7 +107,18 @@ impl JobFolder {
         if force {
             remove_results(out, is_result)?;
         }
-        claim(out, &description, is_result).map_err(|error| match error {
+        // Before the description: a call that is killed between the two leaves a folder that can go on.
+        let is_new = !is_claimed(out) && !out.join(CALL).exists();
+        if is_new {
+            write_call(out, &call())?;
+        }
+        claim(out, &description, is_result).map_err(|error| {
+            if is_new {
+                // A folder of another one stays as it was. What cannot be removed is found by the next call.
+                let _ = std::fs::remove_file(out.join(CALL));
+            }
+            error
+        }).map_err(|error| match error {
             resumable_job::Error::OtherJob { found, wanted, .. } => Error::misuse(
                 "--out",
                 out.display(),
@@ -128,7 +138,7 @@ impl JobFolder {
             ),
             other => other.into(),
         })?;
-        write_call(out, &place.call)?;
+        write_call(out, &call())?;
         Ok(JobFolder { path: out.to_path_buf(), description, share, lock })
     }
 
@@ -311,6 +321,15 @@ fn write_call(folder: &Path, call: &str) -> Result<(), Error> {
     let text = format!("{call}\n");
     match read_regular(&path)? {
         Contents::Bytes(own) if own == text.as_bytes() => Ok(()),
+        Contents::Bytes(own) if !own.starts_with(b"hopper ") && !is_claimed(folder) => {
+            Err(Error::misuse(
+                "--out",
+                folder.display(),
+                &format!(
+                    "its {CALL} is no call of this program; give another folder, or another name to that file"
+                ),
+            ))
+        }
         _ => Ok(write_atomically(&path, text.as_bytes())?),
     }
 }
@@ -330,6 +349,17 @@ pub(crate) fn read_call(folder: &Path) -> Result<String, Error> {
             Err(Error::misuse("folder", folder.display(), &reason))
         }
     }
+}
+
+/// The description of the job in a folder; `None` if there is none.
+///
+/// # Errors
+/// [`Error::Job`] if it cannot be read.
+pub(crate) fn read_description(folder: &Path) -> Result<Option<String>, Error> {
+    Ok(match read_regular(&folder.join("job.txt"))? {
+        Contents::Bytes(bytes) => Some(String::from_utf8_lossy(&bytes).trim_end().to_owned()),
+        Contents::Missing | Contents::NoFile => None,
+    })
 }
 
 /// Whether a name is that of a result of this command, or of a folder with its pieces.

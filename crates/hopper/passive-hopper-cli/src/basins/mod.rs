@@ -72,7 +72,8 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         return preview::run(options, streams);
     };
     let Options { job, place, output, .. } = options;
-    if *job == RasterOptions::default() && out.join(job_folder::CALL).is_file() && !place.force {
+    if *job == RasterOptions::default() && resumable_job::is_claimed(out) {
+        // Without any option the job is that of the folder, which is refused if the folder does not say it.
         return run_job(&*job_in(out)?, (out, place), output, &mut streams);
     }
     match job.old_job() {
@@ -109,14 +110,20 @@ fn run_job(
         (None, true) => Share::Join,
         (None, false) => Share::Whole,
     };
-    let call = job.words_in(out).line();
-    let place = Place { out, share, force: options.force, call };
+    let force = options.force;
+    let words = || if force { job.words() } else { job.words_in(out) };
+    let place = Place { out, share, force, call: &|| words().line() };
     let mut call = Call {
         interrupt: Interrupt::watch()?,
         quiet: output.is_quiet(),
         messages: &mut *streams.messages,
     };
-    let tables = job.run(&place, &mut call)?;
+    let tables = job.run(&place, &mut call).map_err(|error| match error {
+        Error::Interrupted { status, done } if force => {
+            Error::Interrupted { status, done: format!("{done}, which --force would remove") }
+        }
+        other => other,
+    })?;
     form.print(&tables.into_all(), streams.output)
 }
 

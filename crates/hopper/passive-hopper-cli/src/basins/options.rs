@@ -26,7 +26,7 @@ pub(crate) struct RasterOptions {
     /// Lift-off speeds from and to, in m₂gω/k [default: the first and the sixth fixed point]
     #[arg(long, num_args = 2, value_names = ["FROM", "TO"], value_parser = values::finite, allow_negative_numbers = true)]
     pub(crate) speed: Option<Vec<f64>>,
-    /// Pixels across and up [default: 1024 1024; of a preview what a terminal shows]
+    /// Pixels across and up [default: 1024 1024; of a preview 72 40]
     #[arg(long, num_args = 2, value_names = ["COLUMNS", "ROWS"], value_parser = values::count, allow_negative_numbers = true)]
     pub(crate) pixels: Option<Vec<usize>>,
     /// What to compute, one or several [default: label]
@@ -183,9 +183,10 @@ pub(crate) const PAGE: Page = Page {
              A call that is interrupted or killed keeps its finished pieces: `hopper basins --out DIR` goes on, of \
              whichever kind the job in the folder is.\n\
              A folder has the results of one job, which job.txt in it names; call.txt has the call.\n\
-             A preview has colours on a terminal, unless NO_COLOR is set; elsewhere it has signs: a digit is the \
-             fixed point to which the orbits converge, a point is decaying, # grounded, ? undecided, + a fixed point \
-             beyond the ninth.\n\
+             A preview has colours on a terminal, unless NO_COLOR is set, and two rows of pixels in a line. Elsewhere it \
+             shows every second row in signs: a digit is the fixed point to which the orbits converge, a point is \
+             decaying, # grounded, ? undecided, + a fixed point beyond the ninth. Of layers of numbers the digits are \
+             shades, from 0, dark, to 9, light; --picture has the scale.\n\
              The number of threads does not change the results.",
     is_filter: false,
     tables: tables::ALL,

@@ -5,6 +5,7 @@ use crate::basins::options::Options;
 use crate::commands::orbit::drawing_of;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
+use crate::options::output_file;
 use crate::streams::Streams;
 use basin_of_attraction::{Grid, Label};
 use hopper_figures::{Meaning, draw_layer, label_of};
@@ -25,6 +26,11 @@ const MOST_PIXELS: usize = 1 << 22;
 /// # Errors
 /// [`Error::Misuse`] for a window that no raster has, and for too many pixels; [`Error::Interrupted`] after a signal.
 pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Error> {
+    if !options.output.is_plain() {
+        let reason = "a picture without a folder is no table; give a folder with --out, or leave out --csv, --json, --ndjson and --table";
+        return Err(Error::Misuse(format!("--out: {reason}")));
+    }
+    output_file::check(&[("--picture", options.picture.as_ref())])?;
     let pixels = if options.picture.is_some() { PIXELS_OF_PICTURE } else { PIXELS };
     let grid = options.job.grid(pixels)?;
     let (columns, rows) = (grid.columns, grid.rows);
@@ -95,7 +101,8 @@ fn text(layer: &StoredLayer, grid: &Grid, pixels: &[u64], colors: bool) -> Strin
 
 /// An end of an axis, to read and not to compute with.
 fn short(number: f64) -> String {
-    format!("{:.5}", number).trim_end_matches('0').trim_end_matches('.').to_owned()
+    let rounded = format!("{number:.5e}").parse().unwrap_or(number);
+    crate::output::number(rounded)
 }
 
 fn append_colored(layer: &StoredLayer, values: [Option<u64>; 2], text: &mut String) {

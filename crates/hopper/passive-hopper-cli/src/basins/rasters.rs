@@ -65,9 +65,8 @@ impl Job for RasterOptions {
     /// With the layers that are in the folder already, in the order of the table.
     fn words_in(&self, folder: &Path) -> Words {
         let mut own = self.clone();
-        let without_layers = |job: &Self| Self { layer: Vec::new(), ..job.clone() };
         if let Some(kept) = raster_in(folder)
-            && without_layers(&kept) == without_layers(self)
+            && kept.grid(PIXELS).ok() == self.grid(PIXELS).ok()
         {
             let layers: Vec<&str> = [self, &kept]
                 .iter()

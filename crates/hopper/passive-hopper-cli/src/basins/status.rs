@@ -1,7 +1,7 @@
 //! `hopper basins status` and `verify`: how far is a job, and are its files as they were written?
 
 use crate::basins::job::job_in;
-use crate::basins::job_folder::{StoredResults, pieces, stored_results};
+use crate::basins::job_folder::{StoredResults, pieces, read_description, stored_results};
 use crate::error::Error;
 use crate::output::{Column, Table, TableKind};
 use rayon::prelude::*;
@@ -41,13 +41,22 @@ pub(crate) static STATUS: TableKind = TableKind {
 /// # Errors
 /// [`Error::Misuse`] for a folder without a job; [`Error::Job`] if it cannot be read.
 pub(crate) fn status(folder: &Path, look: Look) -> Result<(Table, Result<(), Error>), Error> {
+    let described = read_description(folder)?;
     let mut table = Table::new(&STATUS);
     let mut damages: Vec<String> = Vec::new();
     job_in(folder)?.visit(&mut |description, work, results| {
+        if described.as_deref() != Some(description) {
+            let reason = "its job.txt and its call.txt have two jobs, or one is of another version; give the whole call, with its options";
+            return Err(Error::misuse("folder", folder.display(), reason));
+        }
         // The list of digests is written last, so that its name says that the results are complete.
         let found = match look {
             Look::Bytes => stored_results(folder, description, results)?,
-            Look::Names if folder.join(results.digests).is_file() => {
+            Look::Names
+                if [results.digests, results.main, results.summary]
+                    .iter()
+                    .all(|name| folder.join(name).is_file()) =>
+            {
                 StoredResults::Whole(serde_json::Value::Null)
             }
             Look::Names => StoredResults::None,

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::options::form::OutputOptions;
 use crate::options::input::{Filter, InputOptions, MASS_RATIO, NUMBER, Starts, by_mass_ratio};
 use crate::options::line_form::LineForm;
+use crate::options::lines::PART;
 use crate::options::values;
 use crate::output::{Cell, Column, Table, TableKind, after};
 use crate::streams::Streams;
@@ -110,26 +111,29 @@ pub(crate) fn filter(
     };
     let form = output.form(&[&FATES])?;
     let kinds = [&FATES, &FATES_OF_PAIRS];
-    Filter { input, output, form, lines, kinds, widths: &WIDTHS }.run(streams, |starts, rows| {
-        for starts in by_mass_ratio(starts) {
-            let own;
-            let fates = match &shared {
-                Some(fates) => fates,
-                None => {
-                    own = Fates::new(starts[0].mass_ratio)?;
-                    &own
+    Filter { input, output, form, lines, kinds, widths: &WIDTHS, largest_part: PART }.run(
+        streams,
+        |starts, rows| {
+            for starts in by_mass_ratio(starts) {
+                let own;
+                let fates = match &shared {
+                    Some(fates) => fates,
+                    None => {
+                        own = Fates::new(starts[0].mass_ratio)?;
+                        &own
+                    }
+                };
+                let speeds: Vec<f64> = starts.iter().map(|start| start.speed).collect();
+                for (start, found) in starts.iter().zip(fates.fates_within(&speeds, HOP_BUDGET)?) {
+                    if matches!(found.0, HopperFate::Undecided(_)) {
+                        rows.count_undecided();
+                    }
+                    rows.push(start, &row(fates, start.speed, found)?);
                 }
-            };
-            let speeds: Vec<f64> = starts.iter().map(|start| start.speed).collect();
-            for (start, found) in starts.iter().zip(fates.fates_within(&speeds, HOP_BUDGET)?) {
-                if matches!(found.0, HopperFate::Undecided(_)) {
-                    rows.count_undecided();
-                }
-                rows.push(start, &row(fates, start.speed, found)?);
             }
-        }
-        Ok(())
-    })
+            Ok(())
+        },
+    )
 }
 
 /// The fate of a speed, with the number of hops, as a row of [`FATES`].

@@ -132,24 +132,27 @@ fn filter(
         true => ([&HOPS, &HOPS_OF_PAIRS], &HOP_WIDTHS[..]),
         false => ([&LANDINGS, &LANDINGS_OF_PAIRS], &LANDING_WIDTHS[..]),
     };
-    Filter { input, output, form, lines, kinds, widths }.run(streams, |starts, filtered| {
-        for start in starts {
-            match rows(&LiftOffMap::new(start.mass_ratio), start.speed) {
-                Ok((hop, _)) if shows_hops => filtered.push(start, &hop),
-                Ok((_, landings)) => {
-                    landings.iter().for_each(|landing| filtered.push(start, landing));
-                }
-                Err(passive_hopper::Error::Undecided { .. }) => {
-                    filtered.count_undecided();
-                    if shows_hops {
-                        filtered.push(start, &undecided(start.speed));
+    Filter { input, output, form, lines, kinds, widths, largest_part: 1 << 10 }.run(
+        streams,
+        |starts, filtered| {
+            for start in starts {
+                match rows(&LiftOffMap::new(start.mass_ratio), start.speed) {
+                    Ok((hop, _)) if shows_hops => filtered.push(start, &hop),
+                    Ok((_, landings)) => {
+                        landings.iter().for_each(|landing| filtered.push(start, landing));
                     }
+                    Err(passive_hopper::Error::Undecided { .. }) => {
+                        filtered.count_undecided();
+                        if shows_hops {
+                            filtered.push(start, &undecided(start.speed));
+                        }
+                    }
+                    Err(error) => return Err(error.into()),
                 }
-                Err(error) => return Err(error.into()),
             }
-        }
-        Ok(())
-    })
+            Ok(())
+        },
+    )
 }
 
 const HOP_WIDTHS: [usize; 12] =

@@ -21,7 +21,7 @@ use passive_hopper::{
     BoundedOrbit, Enclosed, EnclosedHop, ExtendedStep, FixedPointSpeed, LiftOffMap, index_below,
 };
 use rayon::prelude::*;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
@@ -210,16 +210,23 @@ fn filter(
         return fate::filter(lines, input, output, streams);
     }
     let kinds = [&ORBITS, &ORBITS_OF_PAIRS];
-    Filter { input, output, form, lines, kinds, widths: &WIDTHS }.run(streams, |starts, rows| {
+    let cut = AtomicUsize::new(0);
+    let filter = Filter { input, output, form, lines, kinds, widths: &WIDTHS, largest_part: 1 };
+    filter.run(streams, |starts, rows| {
         for starts in by_mass_ratio(starts) {
             let fates = Fates::new(starts[0].mass_ratio)?;
             for start in starts {
-                let hops = match given {
-                    Some(hops) => hops,
-                    None => fates.fate_within(start.speed, HOP_BUDGET)?.1.min(USUAL_HOPS),
+                let found = match given.is_none() || input.is_strict() {
+                    true => Some(fates.fate_within(start.speed, HOP_BUDGET)?),
+                    false => None,
                 };
+                let until_fate = found.map_or(0, |(_, hops)| hops);
+                let hops = given.unwrap_or(until_fate.min(USUAL_HOPS));
+                if given.is_none() && until_fate > USUAL_HOPS {
+                    cut.fetch_add(1, Ordering::Relaxed);
+                }
                 let orbit = Orbit::follow(fates.map(), start.speed, hops)?;
-                if orbit.undecided {
+                if orbit.undecided || matches!(found, Some((HopperFate::Undecided(_), _))) {
                     rows.count_undecided();
                 }
                 for row in table(fates.map(), &orbit)?.rows {
@@ -228,7 +235,15 @@ fn filter(
             }
         }
         Ok(())
-    })
+    })?;
+    let cut = cut.into_inner();
+    if cut > 0 {
+        let text = format!(
+            "{cut} fates are known after more than {USUAL_HOPS} hops, of which {USUAL_HOPS} are shown; --hops shows more"
+        );
+        output.note(streams, text);
+    }
+    Ok(())
 }
 
 /// The widths of the columns of [`ORBITS`] in plain text.

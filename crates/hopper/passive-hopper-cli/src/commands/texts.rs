@@ -5,8 +5,8 @@ use crate::refusal::shortened;
 use crate::streams::Streams;
 use clap::builder::PossibleValuesParser;
 use clap_complete::Shell;
-use resumable_job::make_folder;
-use std::path::PathBuf;
+use resumable_job::{make_folder, write_atomically};
+use std::path::{Path, PathBuf};
 
 /// The shell.
 #[derive(Debug, Clone, clap::Args)]
@@ -30,7 +30,7 @@ pub(crate) struct Manual {
 pub(crate) fn with_names(program: clap::Command) -> clap::Command {
     let names: Vec<String> =
         program.get_subcommands().map(|own| own.get_name().to_owned()).collect();
-    let names = PossibleValuesParser::new(names.into_iter().filter(|name| name != "manual"));
+    let names = PossibleValuesParser::new(names);
     program.mut_subcommand("manual", |manual| {
         manual.mut_arg("command", |own| own.value_parser(names).hide_possible_values(true))
     })
@@ -53,6 +53,24 @@ pub(crate) fn completions(
     streams.output.write_all(&text).map_err(Error::output)
 }
 
+/// A program whose commands have no command `help`, which has no page.
+fn without_help(program: clap::Command) -> clap::Command {
+    program.disable_help_subcommand(true).mut_subcommands(without_help)
+}
+
+/// Writes the page of a command, and those of its own commands.
+fn write_pages(command: clap::Command, folder: &Path) -> Result<(), Error> {
+    let name = command.get_display_name().unwrap_or_else(|| command.get_name()).to_owned();
+    for own in command.get_subcommands() {
+        let name = format!("{name}-{}", own.get_name());
+        write_pages(own.clone().display_name(name), folder)?;
+    }
+    let path = folder.join(format!("{name}.1"));
+    let mut text = Vec::new();
+    clap_mangen::Man::new(command).render(&mut text).map_err(Error::output)?;
+    Ok(write_atomically(&path, &text)?)
+}
+
 /// Prints a page for `man`.
 pub(crate) fn manual(
     options: &Manual,
@@ -61,9 +79,9 @@ pub(crate) fn manual(
 ) -> Result<(), Error> {
     if let Some(folder) = &options.all {
         make_folder(folder)?;
-        let written = clap_mangen::generate_to(program.disable_help_subcommand(true), folder);
-        return written.map_err(|source| Error::File { path: folder.clone(), source });
+        return write_pages(without_help(program), folder);
     }
+    let program = without_help(program);
     let own_name = program.get_name().to_owned();
     let command = match &options.command {
         None => program,

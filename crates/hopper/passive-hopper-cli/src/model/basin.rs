@@ -5,7 +5,8 @@ use crate::commands::search;
 use crate::error::Error;
 use crate::model::columns::table;
 use crate::model::file::Model;
-use crate::model::question::{ModelOptions, StartOptions, check_period, failed, numbers, place_of};
+use crate::model::period::check_period;
+use crate::model::question::{ModelOptions, StartOptions, failed, numbers, place_of};
 use crate::options::form::OutputOptions;
 use crate::options::output_file::{OutputFile, check, figure};
 use crate::output::{Cell, Column, Table, TableKind};
@@ -78,11 +79,8 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     if !(step > 0.0 && step.is_finite()) {
         return Err(Error::misuse("--step", &options.step, "a step takes a positive time"));
     }
-    for part in [0.25, 0.5, 0.9] {
-        let state: Vec<f64> =
-            sides.iter().map(|side| side.left + part * (side.right - side.left)).collect();
-        check_period(&model, &mode, (0.0, step), &state, "--step")?;
-    }
+    let middle: Vec<f64> = sides.iter().map(|side| side.left.midpoint(side.right)).collect();
+    check_period(&model, step, &middle, None, "--step")?;
     let before = [
         Column::new("label", "", "number of its basin"),
         Column::new(

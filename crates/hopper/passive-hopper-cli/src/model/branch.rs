@@ -5,9 +5,8 @@ use crate::commands::search;
 use crate::error::Error;
 use crate::model::columns::table;
 use crate::model::file::{Model, texts};
-use crate::model::question::{
-    ModelOptions, check_period, check_surface, failed, mode_of, named, point,
-};
+use crate::model::period::check_period;
+use crate::model::question::{ModelOptions, check_surface, failed, mode_of, named, point};
 use crate::options::form::OutputOptions;
 use crate::options::output_file::{OutputFile, check, figure};
 use crate::output::{Cell, Column, Table, TableKind};
@@ -146,7 +145,7 @@ fn closes(
                 return Err(Error::Misuse(text));
             }
         }
-        return check_period(model, mode, (0.0, event.time), &whole, "--surface");
+        return check_period(model, event.time, &whole, Some(&options.surface), "--surface");
     }
     Ok(())
 }

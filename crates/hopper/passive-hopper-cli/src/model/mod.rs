@@ -4,6 +4,7 @@
 //!   file.rs      a model as TOML or JSON, and its equations
 //!   cli.rs       the commands
 //!   question.rs  what all commands ask: the model, its parameters, a start
+//!   period.rs    whether a time is a period of a model
 //!   columns.rs   tables whose columns are the states of a model
 //!   run.rs       a trajectory with its events
 //!   section.rs   the returns to a surface
@@ -21,6 +22,7 @@ mod branch;
 pub(crate) mod cli;
 mod columns;
 mod file;
+mod period;
 mod prove;
 mod prove_basin;
 mod question;

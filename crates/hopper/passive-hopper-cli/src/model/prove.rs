@@ -2,18 +2,15 @@
 
 use crate::commands::search;
 use crate::error::Error;
-use crate::model::file::{Model, texts};
-use crate::model::question::{ModelOptions, check_period, failed, named, point};
-use crate::model::section_map::{MapOptions, MapWords};
+use crate::model::question::{ModelOptions, failed, named, point};
+use crate::model::section_map::MapOptions;
 use crate::options::form::OutputOptions;
 use crate::output::{Column, Table, TableKind};
 use crate::streams::Streams;
-use equations::{Formulas, Names};
-use resumable_job::write_atomically;
+use resumable_job::{AtomicFile, write_atomically};
 use std::path::PathBuf;
 use validated_dynamics::{
-    Certificate, EnclosedMap, Enclosure, ProvedFixedPoint, StartSet, Trap, ValidatedSystem,
-    fixed_point,
+    Certificate, Enclosure, ProvedFixedPoint, Trap, ValidatedSystem, fixed_point,
 };
 
 /// Prove that a return map has a periodic orbit near a point, with its multipliers and a part of its basin
@@ -66,13 +63,18 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     let names: Vec<String> = options.near.iter().map(|(name, _)| name.clone()).collect();
     let guess = point(&model, &names, &options.near, "--near")?;
     let words = options.map.words(&model, &names)?;
+    if let Some(file) = &options.certificate {
+        drop(AtomicFile::create(file)?);
+    }
     let form = options.output.form(&[&PROVED, &ORBIT])?;
     let own = options.clone();
     let found = search::run(&options.output, &mut streams, move || {
         let system = ValidatedSystem::new(&model.equations).map_err(failed)?;
         let map = words.map(&system, own.certificate.is_some())?;
         let orbit = fixed_point(&map, &guess, &[]).map_err(failed)?;
-        Closing { model: &model, system: &system, words: &words }.check(&orbit)?;
+        let middle: Vec<f64> = orbit.point.iter().map(middle_of).collect();
+        let half: Vec<f64> = middle.iter().map(|x| BESIDE * (1.0 + x.abs())).collect();
+        words.check_closing(&model, &system, (&middle, &half))?;
         let trap = orbit.is_attracting().then(|| Trap::new(&map, &orbit, own.boxes).ok()).flatten();
         let mut text = None;
         if own.certificate.is_some() {
@@ -93,44 +95,9 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     form.print(&[proved(&names, &orbit), kind(&orbit, trap.as_ref())], streams.output)
 }
 
-/// What must be asked of a fixed point: whether the states that are no coordinates come back, too.
-struct Closing<'a> {
-    model: &'a Model,
-    system: &'a ValidatedSystem,
-    words: &'a MapWords,
-}
-
-impl Closing<'_> {
-    /// Refuses a point from which a state does not come back, and a time that is no period.
-    fn check(&self, orbit: &ProvedFixedPoint) -> Result<(), Error> {
-        let MapWords { variables: coordinates, states, mode, .. } = self.words;
-        let own = self.model.equations.names();
-        let names = Names { states: coordinates.to_vec(), ..own.clone() };
-        let start = Formulas::from_text(names, &texts(states)).map_err(failed)?;
-        let start = start.enclosures(Enclosure::ZERO, &orbit.point).map_err(failed)?;
-        let all = own.states.iter().map(String::as_str).chain(["t"]).take(states.len());
-        let (mut middle, mut times) = (Vec::new(), None);
-        for (state, from) in all.zip(&start) {
-            let map = self.words.map_reading(self.system, &[state])?;
-            let image =
-                map.carry(StartSet::of_box(&orbit.point).without_derivatives()).map_err(failed)?;
-            let to = image.set.hull()[0];
-            if state == "t" && own.states.len() < states.len() && middle.len() == own.states.len() {
-                times = Some((middle_of(from), middle_of(&to)));
-                continue;
-            }
-            middle.push(middle_of(&to));
-            let apart = to.high() < from.low() || from.high() < to.low();
-            if apart && !coordinates.iter().any(|name| name == state) {
-                let text = format!(
-                    "--on: {state} is in {from} at the start, and in {to} at the end: the orbit is not periodic; name {state} in --near"
-                );
-                return Err(Error::Misuse(text));
-            }
-        }
-        times.map_or(Ok(()), |times| check_period(self.model, mode, times, &middle, "--surface"))
-    }
-}
+/// How far beside the orbit it is looked whether the map goes on as the flow does, as a part of its size: far enough that
+/// states differ by more than the widths of enclosures.
+const BESIDE: f64 = 1e-3;
 
 fn middle_of(x: &Enclosure) -> f64 {
     x.low().midpoint(x.high())
@@ -178,7 +145,7 @@ fn kind(orbit: &ProvedFixedPoint, trap: Option<&Trap>) -> Table {
 const HALVINGS: usize = 60;
 
 /// Half of the side of a cube about the trap's centre that is in the trap, for certain.
-fn reach(trap: &Trap) -> Option<f64> {
+pub(crate) fn reach(trap: &Trap) -> Option<f64> {
     let cube = |half: f64| {
         let side = |x: &f64| Enclosure::new((x - half).next_down(), (x + half).next_up());
         trap.centre().iter().map(side).collect::<Vec<Enclosure>>()

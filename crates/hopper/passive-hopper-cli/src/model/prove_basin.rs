@@ -4,14 +4,15 @@ use crate::commands::orbit::drawing;
 use crate::commands::search;
 use crate::error::Error;
 use crate::model::basin::window_of;
-use crate::model::question::{ModelOptions, check_period, failed, named, point};
-use crate::model::section_map::{MapOptions, MapWords};
+use crate::model::prove::reach;
+use crate::model::question::{ModelOptions, failed, named, point};
+use crate::model::section_map::MapOptions;
 use crate::options::form::OutputOptions;
 use crate::options::output_file::{OutputFile, check, figure};
 use crate::output::{Cell, Column, Table, TableKind};
 use crate::streams::Streams;
 use basin_of_attraction::{AxisNames, Grid, Interval, Label, LabelImage, UndecidedReason};
-use resumable_job::write_atomically;
+use resumable_job::{AtomicFile, write_atomically};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -42,7 +43,7 @@ pub(crate) struct Options {
     /// Boxes with which each trap is looked for
     #[arg(long, default_value_t = 1000, value_name = "N")]
     boxes: usize,
-    /// The picture of the first two coordinates: .svg or .png. White is not decided
+    /// The picture of a window of two coordinates: .svg or .png. White is not decided
     #[arg(long, value_parser = figure)]
     figure: Option<OutputFile>,
     /// A certificate, which a second program confirms: some kilobytes a cell
@@ -70,7 +71,12 @@ static FATES: TableKind = TableKind {
             "the orbit to which the starts converge, or the surface at which they end",
         ),
         Column::new("share", "", "at least this part of the window's volume has it").bound(),
-        Column::new("trap", "", "size of the trap about the orbit").bound(),
+        Column::new(
+            "trap",
+            "",
+            "all starts nearer to it than this, along each coordinate, converge to it",
+        )
+        .bound(),
     ],
 };
 
@@ -95,10 +101,27 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     let words = options.map.words(&model, &names)?;
     let form = options.output.form(&[&FATES])?;
     let taken = check(&[("--figure", options.figure.as_ref())])?;
-    if options.figure.is_some() && names.len() < 2 {
-        return Err(Error::Misuse(
-            "--figure: the window has one coordinate, and a picture shows two; leave it out".into(),
-        ));
+    if options.figure.is_some() && names.len() != 2 {
+        return Err(Error::Misuse(format!(
+            "--figure: the window has {} coordinates, and a picture shows two; leave it out",
+            names.len()
+        )));
+    }
+    let [first, last] = [options.halvings[0], options.halvings[1]];
+    if first > last {
+        let reason = "the largest cells come first; give two numbers that do not fall, such as 5 8";
+        return Err(Error::misuse("--halvings", format!("{first} {last}"), reason));
+    }
+    // 2 to the 600th is no number of cells either.
+    let cells = 2f64.powi(i32::try_from(names.len() as u64 * u64::from(first)).unwrap_or(i32::MAX));
+    if cells > options.images as f64 {
+        let reason = format!(
+            "the first {cells} cells have an image each; give as many at least, or fewer halvings"
+        );
+        return Err(Error::misuse("--images", options.images, &reason));
+    }
+    if let Some(file) = &options.certificate {
+        drop(AtomicFile::create(file)?);
     }
     let own = options.clone();
     let window: Vec<Enclosure> =
@@ -108,10 +131,12 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         let system = ValidatedSystem::new(&model.equations).map_err(failed)?;
         let map = words.map(&system, own.certificate.is_some())?;
         let mut certificate = Certificate::new("nonsmooth");
-        let (mut traps, mut numbers) = (Vec::new(), Vec::new());
+        let middle: Vec<f64> = window.iter().map(|x| x.low().midpoint(x.high())).collect();
+        let half: Vec<f64> = window.iter().map(|x| 0.5 * (x.high() - x.low())).collect();
+        words.check_closing(&model, &system, (&middle, &half))?;
+        let (mut traps, mut numbers): (Vec<Trap>, Vec<_>) = (Vec::new(), Vec::new());
         for guess in &guesses {
             let orbit = fixed_point(&map, guess, &[]).map_err(failed)?;
-            check_forcing(&model, &words, orbit.image.events.iter().map(|event| event.time))?;
             if !orbit.is_attracting() {
                 let text = format!(
                     "--near: the fixed point at {} does not attract, or that is not proved, and only one that does has a \
@@ -119,6 +144,16 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
                     shown(&words.variables, orbit.point.iter().map(|x| x.low().midpoint(x.high())))
                 );
                 return Err(Error::Model(text));
+            }
+            // Its orbits beside the window may end in another way.
+            let point: Vec<f64> = orbit.point.iter().map(|x| x.low().midpoint(x.high())).collect();
+            words.check_closing(&model, &system, (&point, &vec![0.0; point.len()]))?;
+            if traps.iter().any(|trap| trap.contains(&orbit.point)) {
+                let text = format!(
+                    "--near: the orbit at {} is there twice; give each once",
+                    shown(&words.variables, point.into_iter())
+                );
+                return Err(Error::Misuse(text));
             }
             let trap = Trap::new(&map, &orbit, own.boxes).map_err(failed)?;
             if own.certificate.is_some() {
@@ -156,25 +191,6 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     form.print(&[shares(&found.basins, &names)], streams.output)
 }
 
-/// Refuses a forced model whose map takes no period: what follows from one image does not hold for the next.
-fn check_forcing(
-    model: &crate::model::file::Model,
-    words: &MapWords,
-    times: impl Iterator<Item = Enclosure>,
-) -> Result<(), Error> {
-    let Some(last) = times.last() else { return Ok(()) };
-    let states = model.equations.names().states.len();
-    // The map begins at the time that --on names, which is 0 unless it is given.
-    let begins_at_zero = words.states.get(states).is_none_or(|time| time == "0");
-    if !begins_at_zero {
-        return Ok(());
-    }
-    let middle = last.low().midpoint(last.high());
-    // At a state where formulas are seldom special.
-    let state: Vec<f64> = (0..states).map(|at| 0.3 + 0.1 * at as f64).collect();
-    check_period(model, &words.mode, (0.0, middle), &state, "--surface")
-}
-
 /// The fates that occur, in their order.
 fn fates(basins: &ProvedBasins) -> Vec<ProvedFate> {
     let mut fates: Vec<ProvedFate> = (0..basins.traps().len()).map(ProvedFate::Trap).collect();
@@ -201,7 +217,7 @@ fn shares(basins: &ProvedBasins, names: &[String]) -> Table {
         let (name, size) = match fate {
             ProvedFate::Trap(at) => {
                 let trap = &basins.traps()[at];
-                (format!("to {}", shown(names, trap.centre().iter().copied())), Some(trap.size()))
+                (format!("to {}", shown(names, trap.centre().iter().copied())), reach(trap))
             }
             ProvedFate::Stopped(surface) => (format!("ends at {surface}"), None),
         };

@@ -113,34 +113,6 @@ pub(crate) fn check_surface(model: &Model, surface: &str) -> Result<(), Error> {
     Err(Error::misuse("--surface", shortened(surface), &reason))
 }
 
-/// How far rates may differ at two times that are a period apart, as a part of their size: rounding of the times.
-const SAME_RATES: f64 = 1e-9;
-
-/// Refuses times that are no period of the model's time: the rates at a state differ then. Nothing is refused of a model without the time.
-pub(crate) fn check_period(
-    model: &Model,
-    mode: &str,
-    (from, to): (f64, f64),
-    state: &[f64],
-    option: &str,
-) -> Result<(), Error> {
-    if model.equations.is_autonomous() {
-        return Ok(());
-    }
-    let mode = hybrid_system::Label::new(mode).map_err(failed)?;
-    let field = model.equations.field(mode).map_err(failed)?;
-    let rates = |time: f64| field.values(time, state).map_err(failed);
-    let (one, other) = (rates(from)?, rates(to)?);
-    let same = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME_RATES * (1.0 + a.abs() + b.abs());
-    match one.iter().zip(&other).all(same) {
-        true => Ok(()),
-        false => Err(Error::Misuse(format!(
-            "{option}: the equations use the time, and their rates at t = {from} and at t = {to} differ, so that this is no period of them; \
-             give a period, or make the phase a state"
-        ))),
-    }
-}
-
 /// The place of a state.
 pub(crate) fn place_of(states: &[String], name: &str, option: &str) -> Result<usize, Error> {
     states.iter().position(|known| known == name).ok_or_else(|| {

@@ -1,9 +1,11 @@
-//! The return map of a proof, from its options.
+//! The return map of a proof, from its options, and whether it is what the flow does.
 
 use crate::error::Error;
 use crate::model::file::{Model, texts};
+use crate::model::period::{check_period, spread};
 use crate::model::question::{check_surface, failed, mode_of, named};
-use validated_dynamics::{SectionMap, ValidatedSystem};
+use equations::{Formulas, Names};
+use validated_dynamics::{EnclosedMap, Enclosure, SectionMap, StartSet, ValidatedSystem};
 
 /// A return map.
 #[derive(Debug, Clone, clap::Args)]
@@ -20,8 +22,8 @@ pub(crate) struct MapOptions {
     /// The other states at the start, and the time t, as formulas of the coordinates, such as x=0; those that are not given are 0
     #[arg(long, num_args = 1.., value_name = "NAME=FORMULA", value_parser = named)]
     on: Vec<(String, String)>,
-    /// What is read behind the last event, in the order of the coordinates, such as y z "t - 2*pi" [default: the coordinates]
-    #[arg(long, num_args = 1.., value_name = "FORMULA", allow_hyphen_values = true)]
+    /// What is read behind the last event, in the order of the coordinates, such as y z "t - 2*pi" [default: the coordinates]. A formula does not begin with a sign: (-v)
+    #[arg(long, num_args = 1.., value_name = "FORMULA")]
     read: Vec<String>,
 }
 
@@ -104,4 +106,80 @@ impl MapWords {
         let start = start.map_err(failed)?;
         SectionMap::new(system, start, &self.surface, self.count, read).map_err(failed)
     }
+}
+
+/// Points at which it is looked whether a map goes on as the flow does.
+const LOOKED: usize = 12;
+
+impl MapWords {
+    /// Refuses a map whose iterates are not the flow: one that begins anew elsewhere than where it has ended, or at a time
+    /// that is no period of the model. It is looked at points of the box with these middles and halves of sides, in enclosures. Formulas that differ
+    /// are the same at all of them by chance only; a point whose way is not decided is passed over.
+    ///
+    /// # Errors
+    /// [`Error::Misuse`] with the state that does not come back.
+    pub(crate) fn check_closing(
+        &self,
+        model: &Model,
+        system: &ValidatedSystem,
+        (middle, half): (&[f64], &[f64]),
+    ) -> Result<(), Error> {
+        let own = model.equations.names();
+        let names = Names { states: self.variables.clone(), ..own.clone() };
+        let again = Formulas::from_text(names, &texts(&self.states)).map_err(failed)?;
+        let components: Vec<&str> =
+            own.states.iter().map(String::as_str).chain(["t"]).take(self.states.len()).collect();
+        let maps = components
+            .iter()
+            .map(|component| self.map_reading(system, &[component]))
+            .chain([self.map(system, false)])
+            .collect::<Result<Vec<_>, Error>>()?;
+        let inside = spread(LOOKED, middle.len())
+            .map(|part| (0..middle.len()).map(|at| middle[at] + part[at] * half[at]).collect());
+        let mut period: Option<Enclosure> = None;
+        let mut around: Option<Vec<f64>> = None;
+        for point in std::iter::once(middle.to_vec()).chain(inside) {
+            let start: Vec<Enclosure> = point.iter().map(|x| Enclosure::from(*x)).collect();
+            let end = |map: &SectionMap<'_>| {
+                let image = map.carry(StartSet::of_box(&start).without_derivatives()).ok()?;
+                Some(image.set.hull().to_vec())
+            };
+            let Some(ends) = maps.iter().map(end).collect::<Option<Vec<_>>>() else { continue };
+            let Some((next, ends)) = ends.split_last() else { continue };
+            let Ok(begin) = again.enclosures(Enclosure::ZERO, next) else { continue };
+            for ((component, from), to) in components.iter().zip(&begin).zip(ends) {
+                let to = to[0];
+                if *component == "t" && own.states.len() < self.states.len() {
+                    let own = to - *from;
+                    if period.is_some_and(|period| apart(&period, &own)) {
+                        let text = "--on, --read: the time between the ends of two returns and their beginnings differs from point to \
+                                    point, so that it is no period; give the time as a coordinate, or a surface at fixed times";
+                        return Err(Error::Misuse(text.to_owned()));
+                    }
+                    period = Some(own);
+                } else if apart(&to, from) {
+                    let text = format!(
+                        "--on, --read: {component} is in {to} where a return ends, and in {from} where the next one begins: the map is not \
+                         what the flow does; name {component} in --near, or give it in --on as it is there"
+                    );
+                    return Err(Error::Misuse(text));
+                }
+            }
+            around.get_or_insert_with(|| {
+                let end = |end: &Vec<Enclosure>| end[0].low().midpoint(end[0].high());
+                ends.iter().take(own.states.len()).map(end).collect()
+            });
+        }
+        match (period, around) {
+            (Some(period), Some(around)) => {
+                let period = period.low().midpoint(period.high());
+                check_period(model, period, &around, Some(&self.surface), "--surface")
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn apart(one: &Enclosure, other: &Enclosure) -> bool {
+    one.high() < other.low() || other.high() < one.low()
 }

@@ -1,9 +1,13 @@
 //! The form of the output: plain text, CSV or JSON; which tables; how many notes.
 
 use crate::error::Error;
+use crate::options::values;
 use crate::output::{Form, TableKind};
 use crate::refusal::shortened;
 use crate::streams::Streams;
+
+/// More threads than any computer has processors.
+const MOST_THREADS: u64 = 65_535;
 
 /// The options of every command that prints tables.
 #[derive(Debug, Clone, clap::Args)]
@@ -22,8 +26,8 @@ pub(crate) struct OutputOptions {
     #[arg(long, value_name = "NAME")]
     table: Option<String>,
     /// Use so many threads [default: one for each processor]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[arg(long, value_name = "N", value_parser = values::whole(1..=MOST_THREADS))]
+    threads: Option<u64>,
     /// Print no notes on standard error
     #[arg(short, long, conflicts_with = "verbose")]
     quiet: bool,
@@ -55,8 +59,13 @@ impl OutputOptions {
         }
     }
 
+    /// Whether neither another form nor a table is asked for.
+    pub(crate) fn is_plain(&self) -> bool {
+        !(self.json || self.csv || self.ndjson) && self.table.is_none()
+    }
+
     /// The number of threads, if one is given.
-    pub(crate) fn threads(&self) -> Option<u16> {
+    pub(crate) fn threads(&self) -> Option<u64> {
         self.threads
     }
 

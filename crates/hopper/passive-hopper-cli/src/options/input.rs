@@ -21,7 +21,7 @@ pub(crate) struct InputOptions {
     #[arg(long, help_heading = "Input", conflicts_with_all = ["mass_ratio", "columns"])]
     pairs: bool,
     /// Read CSV with a line of names: α from the column of this name; with two names, M and α
-    #[arg(long, value_name = "NAMES", help_heading = "Input", value_delimiter = ',')]
+    #[arg(long, value_name = "NAMES", help_heading = "Input", value_delimiter = ',', value_parser = |name: &str| Ok::<_, String>(name.trim().to_owned()))]
     columns: Vec<String>,
     /// Pass over lines of the input that are no speed; a note says how many, and the first one
     #[arg(long, help_heading = "Input")]
@@ -35,7 +35,10 @@ pub(crate) struct InputOptions {
 pub(crate) const LIMITS: &str = "Of the input, empty lines, lines that begin with # and a byte order mark are passed \
                                  over. A line that does not have what is asked for ends the call with status 2 and the \
                                  number of the line; the rows of the lines before it have been written. With \
-                                 --skip-invalid it is passed over.";
+                                 --skip-invalid it is passed over, unless it is longer than 1 MiB or a quote in it is not \
+                                 closed. A filter prints one table: the first, or that of --table. Where the lines have M, \
+                                 the column mass_ratio is before the others; the orbits of many speeds have the column \
+                                 start.";
 
 /// The column before those of a table if the mass ratio comes from the input.
 pub(crate) const MASS_RATIO: Column = Column::new("mass_ratio", "", "M = m₂/m₁");
@@ -84,6 +87,11 @@ impl InputOptions {
         }
     }
 
+    /// Whether something undecided is an error.
+    pub(crate) fn is_strict(&self) -> bool {
+        self.strict
+    }
+
     /// An error if something is undecided, and that is one.
     pub(crate) fn judged(&self, undecided: u64) -> Result<(), Error> {
         match self.strict && undecided > 0 {
@@ -103,6 +111,8 @@ pub(crate) struct Filter<'a> {
     pub(crate) kinds: [&'static TableKind; 2],
     /// Widths of the columns of the first one in plain text.
     pub(crate) widths: &'a [usize],
+    /// The most bytes of lines that are computed together, if they are not one line: 1 for long rows.
+    pub(crate) largest_part: usize,
 }
 
 /// The width of a number in plain text: most have 18 characters.
@@ -142,8 +152,7 @@ impl Filter<'_> {
             false => (plain, self.widths.to_vec()),
             true => (with_mass_ratio, [&[NUMBER], self.widths].concat()),
         };
-        let (table, start) = self.form.rows(kind, &widths);
-        streams.output.write_all(start.as_bytes()).map_err(Error::output)?;
+        let (table, head) = self.form.rows(kind, &widths);
         let undecided = AtomicU64::new(0);
         let part = |starts: &[Start], first: bool| {
             let mut table = table.continued(!first);
@@ -160,12 +169,18 @@ impl Filter<'_> {
             undecided.fetch_add(own.undecided, Ordering::Relaxed);
             Ok(text)
         };
-        let skipped = lines::filter(streams, self.input.skip_invalid, self.lines, part)?;
-        streams.output.write_all(table.end().as_bytes()).map_err(Error::output)?;
+        let own = (head.as_str(), &self.largest_part);
+        let read = lines::filter(streams, self.input.skip_invalid, self.lines, own, part);
+        if let Ok(_) | Err(Error::Input { .. }) = &read {
+            // What was written before a wrong line is whole.
+            streams.output.write_all(table.end().as_bytes()).map_err(Error::output)?;
+        }
+        let skipped = read?;
         if let Some((line, text, reason)) = skipped.first {
             let count = skipped.count;
+            let lines = if count == 1 { "line was" } else { "lines were" };
             let note = format!(
-                "{count} lines were passed over; the first is line {line}, '{text}': {reason}"
+                "{count} {lines} passed over; the first is line {line}, '{text}': {reason}"
             );
             self.output.note(streams, one_line(&note));
         }

@@ -32,10 +32,15 @@ pub(crate) struct Columns {
     found: OnceLock<Found>,
 }
 
+/// The most names of columns in a message.
+const LISTED: usize = 20;
+
 /// The separator of the fields, and the places of the columns from 0.
 #[derive(Debug, Clone, Copy)]
 struct Found {
     separator: char,
+    /// The number of names, which is that of the fields of each line.
+    fields: usize,
     speed: usize,
     mass_ratio: Option<usize>,
 }
@@ -48,20 +53,34 @@ impl Columns {
 
     /// Finds the columns in the line of names.
     fn find(&self, line: &str) -> Result<(), String> {
-        // The separator that the line has most of; a comma if it has none.
-        let count = |separator: &char| line.matches(*separator).count();
+        // The separator that gives the most names; a comma if none does.
+        let count = |separator: &char| fields(line, *separator).map_or(0, |names| names.len());
         let separator = ['\t', ';', ','].into_iter().max_by_key(count).unwrap_or(',');
         let names = fields(line, separator)?;
         let place = |wanted: &str| {
-            names.iter().position(|name| name == wanted).ok_or_else(|| {
-                let shown: Vec<_> = names.iter().map(|name| shortened(name)).collect();
-                let wanted = shortened(wanted);
-                format!("there is no column '{wanted}'; give one of: {}", shown.join(", "))
-            })
+            let mut places = (0..names.len()).filter(|&at| names[at] == wanted);
+            match (places.next(), places.next()) {
+                (Some(place), None) => Ok(place),
+                (Some(_), Some(_)) => Err(format!(
+                    "two columns have the name '{}'; give each its own",
+                    shortened(wanted)
+                )),
+                (None, _) => {
+                    let shown: Vec<_> =
+                        names.iter().take(LISTED).map(|name| shortened(name)).collect();
+                    let more = if names.len() > LISTED { ", …" } else { "" };
+                    let (wanted, shown) = (shortened(wanted), shown.join(", "));
+                    Err(format!("there is no column '{wanted}'; give one of: {shown}{more}"))
+                }
+            }
         };
         let speed = place(&self.speed)?;
         let mass_ratio = self.mass_ratio.as_ref().err().map(|name| place(name)).transpose()?;
-        self.found.get_or_init(|| Found { separator, speed, mass_ratio });
+        if mass_ratio == Some(speed) {
+            return Err("the columns of M and α are the same; give two names".into());
+        }
+        let fields = names.len();
+        self.found.get_or_init(|| Found { separator, fields, speed, mass_ratio });
         Ok(())
     }
 }
@@ -99,7 +118,7 @@ impl LineForm {
     pub(crate) fn read(&self, line: &str) -> Result<Start, String> {
         match self {
             LineForm::Speed(mass_ratio) => {
-                Ok(Start { mass_ratio: *mass_ratio, speed: values::speed(line)? })
+                Ok(Start { mass_ratio: *mass_ratio, speed: values::speed(line.trim_ascii())? })
             }
             LineForm::Pair => {
                 let is_between = |c: char| c.is_whitespace() || c == ',' || c == ';';
@@ -125,15 +144,14 @@ impl Columns {
             return Err("the line with the names of the columns is missing".into());
         };
         let fields = fields(line, found.separator)?;
-        let field = |at: usize| {
-            fields.get(at).map(String::as_str).ok_or_else(|| {
-                format!("it has {} fields, and the column is number {}", fields.len(), at + 1)
-            })
-        };
-        let speed = values::speed(field(found.speed)?).map_err(|why| named(&self.speed, why))?;
+        if fields.len() != found.fields {
+            let (own, names) = (fields.len(), found.fields);
+            return Err(format!("it has {own} fields, and there are {names} names of columns"));
+        }
+        let speed = values::speed(&fields[found.speed]).map_err(|why| named(&self.speed, why))?;
         let mass_ratio = match (&self.mass_ratio, found.mass_ratio) {
             (Err(name), Some(at)) => {
-                values::mass_ratio(field(at)?).map_err(|why| named(name, why))?
+                values::mass_ratio(&fields[at]).map_err(|why| named(name, why))?
             }
             (Ok(given), _) => *given,
             (Err(_), None) => return Err("the column of the mass ratios is not known".into()),
@@ -147,27 +165,50 @@ fn named(column: &str, reason: String) -> String {
     format!("{}: {reason}", shortened(column))
 }
 
+/// A field that goes on in the next line: what follows it cannot be read either, whether wrong lines are passed over or not.
+pub(crate) const UNCLOSED: &str = "a quote in it is not closed; a field must not have a line break";
+
 /// The fields of a line of CSV, without the quotes and the spaces around them.
 fn fields(line: &str, separator: char) -> Result<Vec<String>, String> {
-    let mut fields = vec![String::new()];
-    let (mut quoted, mut characters) = (false, line.chars().peekable());
-    while let Some(character) = characters.next() {
-        let field = fields.last_mut();
-        match (character, field) {
-            // Two quotes within quotes are one.
-            ('"', Some(field)) if quoted && characters.next_if_eq(&'"').is_some() => {
-                field.push('"');
+    let mut fields = Vec::new();
+    let mut rest = line;
+    loop {
+        let start = rest.trim_start_matches(' ');
+        let (field, after) = match start.strip_prefix('"') {
+            Some(quoted) => quoted_field(quoted)?,
+            None => {
+                let end = start.find(separator).unwrap_or(start.len());
+                let (field, after) = start.split_at(end);
+                if field.contains('"') {
+                    return Err("a quote is within a field; quote the whole field".into());
+                }
+                (field.to_owned(), after)
             }
-            ('"', _) => quoted = !quoted,
-            (own, _) if own == separator && !quoted => fields.push(String::new()),
-            (own, Some(field)) => field.push(own),
-            (_, None) => {}
+        };
+        fields.push(field.trim().to_owned());
+        let after = after.trim_start_matches(' ');
+        match after.strip_prefix(separator) {
+            Some(others) => rest = others,
+            None if after.is_empty() => return Ok(fields),
+            None => return Err("something is behind a closed quote; quote the whole field".into()),
         }
     }
-    if quoted {
-        return Err("a quote in it is not closed; a field must not have a line break".into());
+}
+
+/// A field up to its closing quote, and what is behind it. Two quotes within are one.
+fn quoted_field(text: &str) -> Result<(String, &str), String> {
+    let (mut field, mut rest) = (String::new(), text);
+    loop {
+        let (part, after) = rest.split_once('"').ok_or(UNCLOSED)?;
+        field += part;
+        match after.strip_prefix('"') {
+            Some(others) => {
+                field.push('"');
+                rest = others;
+            }
+            None => return Ok((field, after)),
+        }
     }
-    Ok(fields.into_iter().map(|field| field.trim().to_owned()).collect())
 }
 
 #[cfg(test)]
@@ -198,7 +239,23 @@ mod tests {
         let form = columns("run;\"alpha\"; M").unwrap();
         assert!(!form.wants_names());
         assert_eq!(form.read("\"a;\"\"b\"; 7 ;0.2"), start(0.2, 7.0));
-        assert!(form.read("a;7").unwrap_err().contains("2 fields"));
+        assert_eq!(form.read("a; 7;\"0.2\" "), start(0.2, 7.0));
+        for (line, why) in [
+            ("a;7", "it has 2 fields, and there are 3"),
+            ("a;7;0.2;1", "it has 4 fields"),
+            ("a;7\"8\";0.2", "within a field"),
+            ("\"a\"b;7;0.2", "behind a closed quote"),
+            (";7", "2 fields"),
+        ] {
+            assert!(form.read(line).unwrap_err().contains(why), "{line}");
+        }
+        // An empty field at the beginning stays a field.
+        let tabs = LineForm::Columns(Columns::new("alpha".into(), Ok(MassRatio::ONE)));
+        tabs.read_names("\tx\talpha").unwrap();
+        assert_eq!(tabs.read("0\t5\t7"), start(1.0, 7.0));
+        assert!(tabs.read("\t5\t").unwrap_err().starts_with("alpha: "));
+        assert!(columns("M,alpha,alpha").unwrap_err().contains("two columns"));
+        assert!(columns("\"a;b;c;d\",alpha,M").is_ok());
         assert!(form.read("a;seven;0.2").unwrap_err().starts_with("alpha: "));
         assert!(form.read("\"a;7;0.2").unwrap_err().contains("not closed"));
         let missing = columns("run,speed,M").unwrap_err();

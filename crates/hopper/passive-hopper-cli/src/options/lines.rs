@@ -7,7 +7,7 @@
 //! A block is what one read gives: a filter behind a slow program answers each line as it comes.
 
 use crate::error::Error;
-use crate::options::line_form::{LineForm, Start};
+use crate::options::line_form::{LineForm, Start, UNCLOSED};
 use crate::refusal::shortened;
 use crate::streams::Streams;
 use rayon::prelude::*;
@@ -19,9 +19,15 @@ const BLOCK: usize = 1 << 20;
 /// U+FEFF in UTF-8.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Bytes of a part: some thousand lines, whose fates take a millisecond. A smaller part fills the vectors of the
-/// kernel less; with a larger one the threads wait for the last of them.
-const PART: usize = 1 << 15;
+/// The most bytes of a part whose lines take microseconds: some thousand lines, whose fates take a millisecond. A
+/// smaller part fills the vectors of the kernel less; with a larger one the threads wait for the last of them.
+pub(crate) const PART: usize = 1 << 15;
+
+/// The fewest bytes of such a part: of a short input all threads have some.
+const SMALLEST_PART: usize = 1 << 9;
+
+/// Parts for each thread that are computed before the next ones.
+const PARTS_A_THREAD: usize = 4;
 
 /// Lines that were passed over.
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -32,8 +38,9 @@ pub(crate) struct Skipped {
     pub(crate) first: Option<(u64, String, String)>,
 }
 
-/// Reads a start from each line, and writes the texts that `write` makes of them, in their order. `write` is told
-/// whether its starts are the first. Lines that are none are passed over if `skips`.
+/// Reads a start from each line, and writes `head` and the texts that `write` makes of them, in their order. `write` is told
+/// whether its starts are the first, and has starts of lines of `largest` bytes at most, if it is not one line. Lines
+/// that are none are passed over if `skips`. Nothing is written before a line that can be read, or the end.
 ///
 /// # Errors
 /// [`Error::Misuse`] if a person would have to type the lines; [`Error::Input`] for a line that is no start, after
@@ -42,9 +49,10 @@ pub(crate) fn filter(
     streams: &mut Streams<'_>,
     skips: bool,
     form: &LineForm,
+    (head, largest): (&str, &usize),
     write: impl Fn(&[Start], bool) -> Result<String, Error> + Sync,
 ) -> Result<Skipped, Error> {
-    let mut skipped = Skipped::default();
+    let (mut skipped, mut head_is_written) = (Skipped::default(), false);
     if streams.input_is_terminal {
         return Err(Error::Misuse(
             "SPEED: no speed is given, and standard input is a terminal; give speeds, or the lines of a file: < FILE"
@@ -66,7 +74,7 @@ pub(crate) fn filter(
             Some(at) => kept + at + 1,
             None if filled == block.len() => {
                 let text = shortened(&String::from_utf8_lossy(&block[..filled]));
-                let reason = format!("it is longer than {BLOCK} bytes; give one number a line");
+                let reason = format!("it is longer than {BLOCK} bytes; give one start a line");
                 return Err(Error::Input { line: line + 1, text, reason });
             }
             None => {
@@ -78,54 +86,80 @@ pub(crate) fn filter(
         if line == 0 && block[..end].starts_with(BYTE_ORDER_MARK) {
             start = BYTE_ORDER_MARK.len();
         }
-        let mut lines = &block[std::mem::take(&mut start)..end];
-        while form.wants_names() && !lines.is_empty() {
-            let length =
-                lines.iter().position(|&byte| byte == b'\n').map_or(lines.len(), |at| at + 1);
-            let (names, others) = lines.split_at(length);
-            (lines, line) = (others, line + 1);
-            let text = String::from_utf8_lossy(names.trim_ascii());
-            if is_content(text.as_bytes()) {
-                form.read_names(&text).map_err(|reason| Error::Input {
-                    line,
-                    text: shortened(&text),
-                    reason,
-                })?;
+        let lines = &block[std::mem::take(&mut start)..end];
+        let lines = after_names(form, lines, &mut line)?;
+        let size = (lines.len() / PARTS_A_THREAD / rayon::current_num_threads())
+            .clamp(SMALLEST_PART.min(*largest), *largest);
+        let mut parts = parts(lines, size).map(|bytes| ReadLines::read(bytes, skips, form));
+        loop {
+            // So many at once that no thread waits for long, and that their texts fit the memory.
+            let some: Vec<ReadLines> =
+                parts.by_ref().take(PARTS_A_THREAD * rayon::current_num_threads()).collect();
+            if some.is_empty() {
+                break;
             }
-        }
-        let parts: Vec<ReadLines> =
-            parts(lines).map(|bytes| ReadLines::read(bytes, skips, form)).collect();
-        let first = parts.iter().position(|part| !part.starts.is_empty());
-        let texts: Vec<_> = parts
-            .par_iter()
-            .enumerate()
-            .map(|(at, part)| write(&part.starts, !begun && first == Some(at)))
-            .collect();
-        for (part, text) in parts.into_iter().zip(texts) {
-            streams.output.write_all(text?.as_bytes()).map_err(Error::output)?;
-            skipped.count += part.skipped;
-            if let (true, Some((at, text, reason))) = (skips, &part.wrong) {
-                skipped.first.get_or_insert((line + at, text.clone(), reason.clone()));
-            } else if let Some((at, text, reason)) = part.wrong {
-                streams.output.flush().map_err(Error::output)?;
-                return Err(Error::Input { line: line + at, text, reason });
+            let first = some.iter().position(|part| !part.starts.is_empty());
+            let texts: Vec<_> = some
+                .par_iter()
+                .enumerate()
+                .map(|(at, part)| write(&part.starts, !begun && first == Some(at)))
+                .collect();
+            begun |= first.is_some();
+            for (part, text) in some.into_iter().zip(texts) {
+                if !std::mem::replace(&mut head_is_written, true) {
+                    streams.output.write_all(head.as_bytes()).map_err(Error::output)?;
+                }
+                streams.output.write_all(text?.as_bytes()).map_err(Error::output)?;
+                skipped.count += part.skipped;
+                if let (true, Some((at, text, reason))) = (skips && !part.ends, &part.wrong) {
+                    skipped.first.get_or_insert((line + at, text.clone(), reason.clone()));
+                } else if let Some((at, text, reason)) = part.wrong {
+                    streams.output.flush().map_err(Error::output)?;
+                    return Err(Error::Input { line: line + at, text, reason });
+                }
+                line += part.lines;
             }
-            line += part.lines;
+            streams.output.flush().map_err(Error::output)?;
         }
-        begun |= first.is_some();
-        streams.output.flush().map_err(Error::output)?;
         if read == 0 {
+            if !head_is_written {
+                streams.output.write_all(head.as_bytes()).map_err(Error::output)?;
+            }
             return Ok(skipped);
         }
+        drop(parts);
         block.copy_within(end..filled, 0);
         kept = filled - end;
     }
 }
 
+/// The lines behind the one with the names of columns, if that is still to come.
+fn after_names<'a>(
+    form: &LineForm,
+    mut lines: &'a [u8],
+    line: &mut u64,
+) -> Result<&'a [u8], Error> {
+    while form.wants_names() && !lines.is_empty() {
+        let length = lines.iter().position(|&byte| byte == b'\n').map_or(lines.len(), |at| at + 1);
+        let (names, others) = lines.split_at(length);
+        lines = others;
+        *line += 1;
+        if is_content(names) {
+            let text = String::from_utf8_lossy(without_end(names));
+            form.read_names(&text).map_err(|reason| Error::Input {
+                line: *line,
+                text: shortened(text.trim()),
+                reason,
+            })?;
+        }
+    }
+    Ok(lines)
+}
+
 /// Splits whole lines into parts of whole lines.
-fn parts(mut bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
+fn parts(mut bytes: &[u8], size: usize) -> impl Iterator<Item = &[u8]> {
     std::iter::from_fn(move || {
-        let after = bytes.get(PART..).unwrap_or_default();
+        let after = bytes.get(size..).unwrap_or_default();
         let rest =
             after.iter().position(|&byte| byte == b'\n').map_or(0, |at| after.len() - at - 1);
         let (part, others) = bytes.split_at(bytes.len() - rest);
@@ -136,7 +170,13 @@ fn parts(mut bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
 
 /// Whether a line is neither empty nor a comment.
 fn is_content(line: &[u8]) -> bool {
-    line.first().is_some_and(|&first| first != b'#')
+    line.trim_ascii().first().is_some_and(|&first| first != b'#')
+}
+
+/// A line without what ends it. A tab is no end: it divides fields.
+fn without_end(line: &[u8]) -> &[u8] {
+    let line = line.strip_suffix(b"\n").unwrap_or(line);
+    line.strip_suffix(b"\r").unwrap_or(line)
 }
 
 /// The starts of some lines, up to the first wrong one, unless wrong ones are passed over.
@@ -146,6 +186,8 @@ struct ReadLines {
     skipped: u64,
     /// The number of the first wrong line in this part, its text, and what is wrong.
     wrong: Option<(u64, String, String)>,
+    /// Whether that line ends the call in any case.
+    ends: bool,
 }
 
 impl ReadLines {
@@ -155,24 +197,31 @@ impl ReadLines {
             lines: 0,
             skipped: 0,
             wrong: None,
+            ends: false,
         };
         let whole = bytes.strip_suffix(b"\n").unwrap_or(bytes);
         for line in whole.split(|&byte| byte == b'\n') {
             part.lines += 1;
-            let line = line.trim_ascii();
+            let line = without_end(line);
             if !is_content(line) {
                 continue;
             }
             let read = match std::str::from_utf8(line) {
                 Ok(text) => form.read(text),
-                Err(_) => Err("it is no text in UTF-8; give one number a line".into()),
+                Err(_) => Err("it is no text in UTF-8; give numbers in UTF-8".into()),
             };
             match read {
                 Ok(start) => part.starts.push(start),
                 Err(reason) => {
-                    let text = shortened(&String::from_utf8_lossy(line));
+                    let text = shortened(&String::from_utf8_lossy(line.trim_ascii()));
+                    let goes_on = reason == UNCLOSED;
+                    if goes_on {
+                        // The lines behind it may be parts of a field.
+                        part.ends = true;
+                        part.wrong = None;
+                    }
                     part.wrong.get_or_insert((part.lines, text, reason));
-                    if !skips {
+                    if !skips || goes_on {
                         break;
                     }
                     part.skipped += 1;
@@ -220,7 +269,7 @@ mod tests {
             let texts = starts.iter().enumerate();
             Ok(texts.map(|(k, start)| format!("{}{}", start.speed, end(k))).collect())
         };
-        let result = filter(&mut streams, false, form, write).map(drop);
+        let result = filter(&mut streams, false, form, ("", &PART), write).map(drop);
         (String::from_utf8(output).unwrap(), result)
     }
 
