@@ -112,13 +112,12 @@ impl JobFolder {
         if is_new {
             write_call(out, &call())?;
         }
-        claim(out, &description, is_result).map_err(|error| {
-            if is_new {
-                // A folder of another one stays as it was. What cannot be removed is found by the next call.
-                let _ = std::fs::remove_file(out.join(CALL));
-            }
-            error
-        }).map_err(|error| match error {
+        let claimed = claim(out, &description, is_result);
+        if is_new && claimed.is_err() {
+            // A folder of another one stays as it was. What cannot be removed is found by the next call.
+            let _ = std::fs::remove_file(out.join(CALL));
+        }
+        claimed.map_err(|error| match error {
             resumable_job::Error::OtherJob { found, wanted, .. } => Error::misuse(
                 "--out",
                 out.display(),
