@@ -57,6 +57,8 @@ pub(crate) struct Tube<'s> {
     pub(crate) length: f64,
     /// The order p.
     pub(crate) order: usize,
+    /// That of the guesses of the step.
+    coupling: f64,
     /// From the centre.
     centre: Coefficients<Enclosure>,
     /// From all states of the set.
@@ -84,27 +86,34 @@ impl<'s> Tube<'s> {
         let identity = Matrix::identity(series.dimension);
         let varied = series.varied(set.hull(), &identity, order + 1).map_err(Reason::Domain)?;
         let scale = scale(&centre, set);
-        let mut step = Step { series, varied: &varied, order, length: 0.0 };
+        let mut step = Step { series, varied: &varied, order, length: 0.0, coupling: 0.0 };
         let own = |k: usize| largest(centre.states(), k);
         // A state of rest says nothing of times: those near it do.
         let near = |k: usize| largest(varied.derivatives(), k);
         let length = step_length(own, order, error * scale)
             .or_else(|| step_length(near, order, error))
             .unwrap_or_else(|| natural_length(own));
-        step.length = (part * length).min(longest);
+        let first = (part * length).min(longest);
+        step.length = first;
         let mut refused = Reason::NoSolution { step: step.length };
-        for _ in 0..TRIES {
+        // Where a component is 0 beside others the guesses are tried again with what they feel of each other.
+        let again = if has_small_component(&varied) { TRIES } else { 0 };
+        for at in 0..TRIES + again {
+            if at == TRIES {
+                (step.length, step.coupling) = (first, f64::EPSILON);
+            }
             let mut shorter = SHORTER;
             match step.bounded(with_derivatives) {
                 Ok(Some((beyond, varied_beyond))) => {
                     let most = step.remainder(&beyond);
                     if most <= ACCEPTED * error * scale {
-                        let length = step.length;
+                        let (length, coupling) = (step.length, step.coupling);
                         return Ok(Tube {
                             set,
                             series,
                             length,
                             order,
+                            coupling,
                             centre,
                             varied,
                             beyond,
@@ -134,7 +143,9 @@ impl<'s> Tube<'s> {
             return true;
         }
         let (series, order, length) = (self.series, self.order, self.length);
-        let step = Step { series, varied: &self.varied, order, length };
+        // The states are those that are proved: by the same guesses.
+        let coupling = self.coupling;
+        let step = Step { series, varied: &self.varied, order, length, coupling };
         self.varied_beyond = step.with_derivatives(&step.guesses()).ok().flatten();
         self.varied_beyond.is_some()
     }
@@ -245,6 +256,12 @@ fn largest<'c>(components: impl Iterator<Item = &'c [Enclosure]>, k: usize) -> f
     components.map(|series| series[k].magnitude()).fold(0.0, f64::max)
 }
 
+/// Whether a component is 0 beside the largest one, to the rounding of that.
+fn has_small_component(varied: &Varied) -> bool {
+    let least = f64::EPSILON * largest(varied.states(), 0);
+    varied.states().any(|series| series[0].magnitude() < least)
+}
+
 /// The time at which a coefficient k of this size is a term as large as wanted; infinite for one that is 0 but for rounding.
 fn time_of(wanted: f64, size: f64, k: usize) -> f64 {
     if size > NOTHING { pow(wanted / size, 1.0 / k as f64) } else { f64::INFINITY }
@@ -270,6 +287,8 @@ struct Step<'t> {
     varied: &'t Varied,
     order: usize,
     length: f64,
+    /// How much wider the guess of a component is at least, as a part of the largest one.
+    coupling: f64,
 }
 
 /// The expansion at all states of a step, and the same with derivatives if they are wanted.
@@ -301,14 +320,16 @@ impl Step<'_> {
 
     /// What the states are guessed to be on the step.
     fn guesses(&self) -> Vec<Enclosure> {
-        self.varied.states().map(|series| self.guess(series)).collect()
+        let largest = largest(self.varied.states(), 0);
+        self.varied.states().map(|series| self.guess(series, largest)).collect()
     }
 
     /// The expansion with derivatives at all of these states, which are proved to be those of the step, if the box of the derivatives is proved too.
     fn with_derivatives(&self, states: &[Enclosure]) -> Result<Option<Varied>, equations::Error> {
         let size = self.series.dimension;
+        let largest = largest(self.varied.derivatives(), 0);
         let entries: Vec<Enclosure> =
-            self.varied.derivatives().map(|series| self.guess(series)).collect();
+            self.varied.derivatives().map(|series| self.guess(series, largest)).collect();
         if !entries.iter().all(Enclosure::is_valid) {
             return Ok(None);
         }
@@ -323,12 +344,14 @@ impl Step<'_> {
         Expansion { coefficients: &coefficients[..=self.order], rest }.at(times)
     }
 
-    /// What a component is guessed to be on the step.
-    fn guess(&self, coefficients: &[Enclosure]) -> Enclosure {
+    /// What a component is guessed to be on the step. `largest` is the size of the largest one.
+    fn guess(&self, coefficients: &[Enclosure], largest: f64) -> Enclosure {
         let size = GUESS * last(coefficients).magnitude();
         let found = self.at_all_times(coefficients, Enclosure::new(-size, size));
-        // Strictly wider, also where nothing changes.
-        found.widened(GUESS * f64::EPSILON * found.magnitude() + f64::MIN_POSITIVE)
+        // Strictly wider, also where nothing changes. A component that is 0 at rest feels how much wider the others are: in a
+        // remainder, where that is small.
+        let size = found.magnitude().max(self.coupling * largest);
+        found.widened(GUESS * f64::EPSILON * size + f64::MIN_POSITIVE)
     }
 
     /// True if each component is inside of its guess, with the remainder that follows from the guess.

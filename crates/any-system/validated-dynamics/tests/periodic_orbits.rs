@@ -84,6 +84,19 @@ fn a_doubled_orbit_lies_between_two_parameters() {
     assert!(multiplier("3.000000001").high() < -1.0);
 }
 
+/// At a point of rest that is a pair of doubles nothing moves, and the velocity is 0 exactly.
+#[test]
+fn a_guess_may_be_a_point_of_rest_exactly() {
+    let oscillator = Equations::new(&["x", "v"], &[])
+        .mode_text("flow", &["v", "1 - x - 0.7*v"])
+        .rising_text("later", "t - 2");
+    let system = ValidatedSystem::new(&oscillator).unwrap();
+    let start = system.chart("flow", &["x", "v"], &["x", "v", "0"]).unwrap();
+    let map = SectionMap::new(&system, start, "later", 1, &["x", "v"]).unwrap();
+    let rest = fixed_point(&map, &[1.0, 0.0], &[]).unwrap();
+    assert!(rest.is_attracting() && rest.point[0].contains(1.0) && rest.point[1].contains(0.0));
+}
+
 #[test]
 fn what_is_no_fixed_point_is_not_proved() {
     let names = Names::new(&["x"], &[]).unwrap();
