@@ -18,6 +18,7 @@
 //! let streams = passive_hopper_cli::Streams {
 //!     input: &mut std::io::empty(),
 //!     input_is_terminal: false,
+//!     output_has_colors: false,
 //!     output: &mut output,
 //!     messages: &mut messages,
 //! };
