@@ -34,7 +34,7 @@ pub fn claim(
 ) -> Result<(), Error> {
     let lock = Lock::wait(folder, JOB_FILE_LOCK)?;
     let path = folder.join(JOB_FILE);
-    match read(&path)? {
+    match claimed_by(folder)? {
         Some(found) if found == description => Ok(()),
         Some(found) => {
             Err(Error::OtherJob { folder: folder.into(), found, wanted: description.to_owned() })
@@ -92,8 +92,12 @@ fn is_folder(path: &Path) -> bool {
     std::fs::symlink_metadata(path).is_ok_and(|data| data.is_dir())
 }
 
-/// The description in a file; `None` if there is no file.
-fn read(path: &Path) -> Result<Option<String>, Error> {
+/// The description of the job whose results a folder has; `None` if it has none.
+///
+/// # Errors
+/// [`Error::File`] for a `job.txt` that is no description of a job, or cannot be read.
+pub fn claimed_by(folder: &Path) -> Result<Option<String>, Error> {
+    let path = &folder.join(JOB_FILE);
     match read_regular(path)? {
         Contents::Bytes(bytes) if bytes.len() as u64 <= LONGEST => {
             Ok(Some(String::from_utf8_lossy(&bytes).trim_end().to_owned()))

@@ -13,7 +13,7 @@
 //! |---|---|
 //! | [`Lock`] | gives a job in a folder to one process, or each of its parts to one process; ends with the process |
 //! | [`Part`] | part K of N of a job: each N-th piece |
-//! | [`claim`], [`is_claimed`], [`remove_results`] | `job.txt`: the one job whose results a folder has |
+//! | [`claim`], [`is_claimed`], [`claimed_by`], [`remove_results`] | `job.txt`: the one job whose results a folder has |
 //! | [`Pieces`], [`StoredPiece`] | the finished pieces of one job; [`Pieces::assemble`] joins them to one checked file |
 //! | [`AtomicFile`], [`write_atomically`] | a file that appears under its name complete or not at all |
 //! | [`Progress`], [`Pace`], [`Place`] | how far a job is and how long it still takes: a line on a terminal, or in a log every 30 seconds |
@@ -95,7 +95,7 @@ mod progress;
 mod regular_file;
 
 pub use atomic_file::{AtomicFile, destination, make_folder, remove_leftovers, write_atomically};
-pub use claim::{claim, is_claimed, remove_results};
+pub use claim::{claim, claimed_by, is_claimed, remove_results};
 pub use digest::{digest, file_digest, program_digest};
 pub use error::{Error, UnusablePiece};
 pub use lock::Lock;

@@ -142,9 +142,7 @@ impl Coverage {
         }
         Ok(Coverage { grid, limits: CoverageLimits { tolerance, ..CoverageLimits::default() } })
     }
-}
 
-impl Coverage {
     fn description(&self) -> String {
         let Coverage { grid, limits } = self;
         format!(

@@ -21,8 +21,7 @@ pub(crate) trait Job: Debug {
     fn words(&self) -> Words;
 
     /// The same, with what earlier calls of this job have added to its folder.
-    fn words_in(&self, folder: &Path) -> Words {
-        let _ = folder;
+    fn words_in(&self, _folder: &Path) -> Words {
         self.words()
     }
 
@@ -100,13 +99,7 @@ enum Stored {
 /// # Errors
 /// [`Error::Misuse`] for a folder without one; [`Error::Job`] if it cannot be read.
 pub(crate) fn job_in(folder: &Path) -> Result<Box<dyn Job>, Error> {
-    let call = read_call(folder)?;
-    let stored = Stored::try_parse_from(call.split_whitespace()).map_err(|_| {
-        let reason =
-            "its call.txt is damaged, or of another version; give the whole call, with its options";
-        Error::misuse("folder", folder.display(), reason)
-    })?;
-    Ok(match stored {
+    Ok(match stored(folder)? {
         Stored::Basins(job) => match job.old_job() {
             Some((job, _)) => job,
             None => Box::new(job),

@@ -350,17 +350,6 @@ pub(crate) fn read_call(folder: &Path) -> Result<String, Error> {
     }
 }
 
-/// The description of the job in a folder; `None` if there is none.
-///
-/// # Errors
-/// [`Error::Job`] if it cannot be read.
-pub(crate) fn read_description(folder: &Path) -> Result<Option<String>, Error> {
-    Ok(match read_regular(&folder.join("job.txt"))? {
-        Contents::Bytes(bytes) => Some(String::from_utf8_lossy(&bytes).trim_end().to_owned()),
-        Contents::Missing | Contents::NoFile => None,
-    })
-}
-
 /// Whether a name is that of a result of this command, or of a folder with its pieces.
 fn is_result(name: &str) -> bool {
     let numbered = |start: &str, end: &str| {

@@ -86,7 +86,7 @@ fn text(layer: &StoredLayer, grid: &Grid, pixels: &[u64], colors: bool) -> Strin
         for (at, &value) in upper.iter().enumerate() {
             let below = lower.get(at).copied();
             match colors {
-                true => append_colored(layer, [Some(value), below], &mut text),
+                true => append_colored(layer, value, below, &mut text),
                 false => text.push(sign(layer, value)),
             }
         }
@@ -105,12 +105,10 @@ fn short(number: f64) -> String {
     crate::output::number(rounded)
 }
 
-fn append_colored(layer: &StoredLayer, values: [Option<u64>; 2], text: &mut String) {
-    let [upper, lower] = values.map(|value| value.map(|value| layer.values.color(value)));
-    if let Some([red, green, blue]) = upper {
-        let _ = write!(text, "\u{1b}[38;2;{red};{green};{blue}m");
-    }
-    let _ = match lower {
+fn append_colored(layer: &StoredLayer, value: u64, below: Option<u64>, text: &mut String) {
+    let [red, green, blue] = layer.values.color(value);
+    let _ = write!(text, "\u{1b}[38;2;{red};{green};{blue}m");
+    let _ = match below.map(|value| layer.values.color(value)) {
         Some([red, green, blue]) => write!(text, "\u{1b}[48;2;{red};{green};{blue}m▀"),
         None => write!(text, "\u{1b}[49m▀"),
     };

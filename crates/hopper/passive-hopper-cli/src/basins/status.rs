@@ -1,11 +1,11 @@
 //! `hopper basins status` and `verify`: how far is a job, and are its files as they were written?
 
 use crate::basins::job::job_in;
-use crate::basins::job_folder::{StoredResults, pieces, read_description, stored_results};
+use crate::basins::job_folder::{StoredResults, pieces, stored_results};
 use crate::error::Error;
 use crate::output::{Column, Table, TableKind};
 use rayon::prelude::*;
-use resumable_job::StoredPiece;
+use resumable_job::{StoredPiece, claimed_by};
 use std::path::Path;
 
 /// What is looked at.
@@ -41,7 +41,7 @@ pub(crate) static STATUS: TableKind = TableKind {
 /// # Errors
 /// [`Error::Misuse`] for a folder without a job; [`Error::Job`] if it cannot be read.
 pub(crate) fn status(folder: &Path, look: Look) -> Result<(Table, Result<(), Error>), Error> {
-    let described = read_description(folder)?;
+    let described = claimed_by(folder)?;
     let mut table = Table::new(&STATUS);
     let mut damages: Vec<String> = Vec::new();
     job_in(folder)?.visit(&mut |description, work, results| {

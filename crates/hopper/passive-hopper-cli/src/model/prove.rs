@@ -99,7 +99,7 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
 /// states differ by more than the widths of enclosures.
 const BESIDE: f64 = 1e-3;
 
-fn middle_of(x: &Enclosure) -> f64 {
+pub(crate) fn middle_of(x: &Enclosure) -> f64 {
     x.low().midpoint(x.high())
 }
 

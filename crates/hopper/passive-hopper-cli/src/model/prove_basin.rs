@@ -4,7 +4,7 @@ use crate::commands::orbit::drawing;
 use crate::commands::search;
 use crate::error::Error;
 use crate::model::basin::window_of;
-use crate::model::prove::reach;
+use crate::model::prove::{middle_of, reach};
 use crate::model::question::{ModelOptions, failed, named, point};
 use crate::model::section_map::MapOptions;
 use crate::options::form::OutputOptions;
@@ -131,7 +131,7 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         let system = ValidatedSystem::new(&model.equations).map_err(failed)?;
         let map = words.map(&system, own.certificate.is_some())?;
         let mut certificate = Certificate::new("nonsmooth");
-        let middle: Vec<f64> = window.iter().map(|x| x.low().midpoint(x.high())).collect();
+        let middle: Vec<f64> = window.iter().map(middle_of).collect();
         let half: Vec<f64> = window.iter().map(|x| 0.5 * (x.high() - x.low())).collect();
         words.check_closing(&model, &system, (&middle, &half))?;
         let (mut traps, mut numbers): (Vec<Trap>, Vec<_>) = (Vec::new(), Vec::new());
@@ -141,12 +141,12 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
                 let text = format!(
                     "--near: the fixed point at {} does not attract, or that is not proved, and only one that does has a \
                      trap; give another one",
-                    shown(&words.variables, orbit.point.iter().map(|x| x.low().midpoint(x.high())))
+                    shown(&words.variables, orbit.point.iter().map(middle_of))
                 );
                 return Err(Error::Model(text));
             }
             // Its orbits beside the window may end in another way.
-            let point: Vec<f64> = orbit.point.iter().map(|x| x.low().midpoint(x.high())).collect();
+            let point: Vec<f64> = orbit.point.iter().map(middle_of).collect();
             words.check_closing(&model, &system, (&point, &vec![0.0; point.len()]))?;
             if traps.iter().any(|trap| trap.contains(&orbit.point)) {
                 let text = format!(

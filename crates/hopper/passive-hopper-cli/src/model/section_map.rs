@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::model::file::{Model, texts};
 use crate::model::period::{check_period, spread};
+use crate::model::prove::middle_of;
 use crate::model::question::{check_surface, failed, mode_of, named};
 use equations::{Formulas, Names};
 use validated_dynamics::{EnclosedMap, Enclosure, SectionMap, StartSet, ValidatedSystem};
@@ -166,14 +167,13 @@ impl MapWords {
                 }
             }
             around.get_or_insert_with(|| {
-                let end = |end: &Vec<Enclosure>| end[0].low().midpoint(end[0].high());
+                let end = |end: &Vec<Enclosure>| middle_of(&end[0]);
                 ends.iter().take(own.states.len()).map(end).collect()
             });
         }
         match (period, around) {
             (Some(period), Some(around)) => {
-                let period = period.low().midpoint(period.high());
-                check_period(model, period, &around, Some(&self.surface), "--surface")
+                check_period(model, middle_of(&period), &around, Some(&self.surface), "--surface")
             }
             _ => Ok(()),
         }

@@ -169,7 +169,7 @@ impl Filter<'_> {
             undecided.fetch_add(own.undecided, Ordering::Relaxed);
             Ok(text)
         };
-        let own = (head.as_str(), &self.largest_part);
+        let own = (head.as_str(), self.largest_part);
         let read = lines::filter(streams, self.input.skip_invalid, self.lines, own, part);
         if let Ok(_) | Err(Error::Input { .. }) = &read {
             // What was written before a wrong line is whole.

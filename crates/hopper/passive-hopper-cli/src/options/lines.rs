@@ -49,7 +49,7 @@ pub(crate) fn filter(
     streams: &mut Streams<'_>,
     skips: bool,
     form: &LineForm,
-    (head, largest): (&str, &usize),
+    (head, largest): (&str, usize),
     write: impl Fn(&[Start], bool) -> Result<String, Error> + Sync,
 ) -> Result<Skipped, Error> {
     let (mut skipped, mut head_is_written) = (Skipped::default(), false);
@@ -89,7 +89,7 @@ pub(crate) fn filter(
         let lines = &block[std::mem::take(&mut start)..end];
         let lines = after_names(form, lines, &mut line)?;
         let size = (lines.len() / PARTS_A_THREAD / rayon::current_num_threads())
-            .clamp(SMALLEST_PART.min(*largest), *largest);
+            .clamp(SMALLEST_PART.min(largest), largest);
         let mut parts = parts(lines, size).map(|bytes| ReadLines::read(bytes, skips, form));
         loop {
             // So many at once that no thread waits for long, and that their texts fit the memory.
@@ -269,7 +269,7 @@ mod tests {
             let texts = starts.iter().enumerate();
             Ok(texts.map(|(k, start)| format!("{}{}", start.speed, end(k))).collect())
         };
-        let result = filter(&mut streams, false, form, ("", &PART), write).map(drop);
+        let result = filter(&mut streams, false, form, ("", PART), write).map(drop);
         (String::from_utf8(output).unwrap(), result)
     }
 
