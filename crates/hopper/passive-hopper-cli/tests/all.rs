@@ -14,6 +14,7 @@ mod job_folders;
 mod kills;
 mod long_jobs;
 mod long_jobs_page;
+mod modes_and_diagrams;
 mod random_arguments;
 mod refusals;
 mod streams;

@@ -183,6 +183,15 @@ impl Equations {
         )
     }
 
+    /// The same, from texts.
+    #[must_use]
+    pub fn rests_at_text(self, mode: &str, state: &[&str]) -> Self {
+        self.take(
+            |names| Formulas::from_text(names, state),
+            |known, state| known.with_rest(mode, Some(state)),
+        )
+    }
+
     fn with_rest(mut self, mode: &str, state: Option<Formulas>) -> Self {
         match (Label::new(mode), self.modes.last_mut()) {
             (Err(error), _) => self.refused(error),

@@ -14,6 +14,22 @@ pub struct DiagramColumn {
     pub orbits: Vec<Result<Vec<Vec<f64>>, Error>>,
 }
 
+impl DiagramColumn {
+    /// After how many images each orbit comes back to its points, each within `tolerance` · (1 + |x|); `None` for an orbit that does not do so
+    /// twice within its points, and for one that has none.
+    ///
+    /// It is as sure as its points: a long transient, and an orbit that is periodic only to this tolerance, have a period here.
+    pub fn periods(&self, tolerance: f64) -> Vec<Option<usize>> {
+        let near = |(x, y): (&f64, &f64)| (x - y).abs() <= tolerance * (1.0 + x.abs());
+        let is_period = |points: &[Vec<f64>], period: usize| {
+            points.iter().zip(&points[period..]).all(|(a, b)| a.iter().zip(b).all(near))
+        };
+        let period =
+            |points: &Vec<Vec<f64>>| (1..=points.len() / 2).find(|p| is_period(points, *p));
+        self.orbits.iter().map(|orbit| orbit.as_ref().ok().and_then(period)).collect()
+    }
+}
+
 /// Where the orbits of a column begin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Seeds {
@@ -49,6 +65,7 @@ pub struct OrbitLength {
 /// let orbit = columns[1].orbits[0].as_ref().expect("an orbit");
 /// // A cycle of period two.
 /// assert!((orbit[0][0] - orbit[2][0]).abs() < 1e-12 && (orbit[0][0] - orbit[1][0]).abs() > 0.1);
+/// assert_eq!(columns[1].periods(1e-9), [Some(2)]);
 /// ```
 pub fn bifurcation_diagram<M: MapFamily + ?Sized>(
     map: &M,

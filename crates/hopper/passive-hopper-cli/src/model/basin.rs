@@ -6,7 +6,9 @@ use crate::error::Error;
 use crate::model::columns::table;
 use crate::model::file::Model;
 use crate::model::period::check_period;
-use crate::model::question::{ModelOptions, StartOptions, failed, numbers, place_of};
+use crate::model::question::{
+    ModelOptions, Named, StartOptions, failed, named, named_mode, numbers, place_in, place_of,
+};
 use crate::options::form::OutputOptions;
 use crate::options::output_file::{OutputFile, check, figure};
 use crate::output::{Cell, Column, Table, TableKind};
@@ -19,6 +21,7 @@ use hybrid_system::{EquationsModel, Label as Name};
 use nalgebra::DVector;
 use return_map::{ExecutionSteps, FlowSteps};
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Find the attractors of a window of states, and the basin of each of its points
 #[derive(Debug, Clone, clap::Args)]
@@ -27,9 +30,9 @@ pub(crate) struct Options {
     model: ModelOptions,
     #[command(flatten)]
     start: StartOptions,
-    /// The window of each state, such as x=-2:2 v=-2:2. The picture has the first two; the others have their value of the start there
-    #[arg(long, num_args = 1.., value_name = "NAME=FROM:TO", value_parser = crate::model::question::named, required = true)]
-    window: Vec<(String, String)>,
+    /// The window of each state, such as x=-2:2,v=-2:2. The picture has the first two; the others have their value of the start there
+    #[arg(long, num_args = 1.., value_name = "NAME=FROM:TO", value_parser = named, required = true)]
+    window: Vec<Named>,
     /// The time of a step: a period of the forcing, or about a turn. It may be a formula, such as 2*pi
     #[arg(long)]
     step: String,
@@ -42,6 +45,9 @@ pub(crate) struct Options {
     /// The most steps of an orbit; one that has come to nothing then is undecided
     #[arg(long, value_name = "STEPS", default_value_t = RecurrenceLimits::default().budget)]
     budget: usize,
+    /// Orbits with which each attractor is tested, of 3000 steps: fewer are sooner, and miss an opening smaller than 3/N of its surroundings
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(50..=1_000_000))]
+    tests: u32,
     /// Pixels across and up
     #[arg(long, num_args = 2, default_values_t = [200, 200], value_parser = clap::value_parser!(u32).range(1..=8192))]
     pixels: Vec<u32>,
@@ -72,9 +78,9 @@ struct Found {
 
 pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Error> {
     let model = options.model.model()?;
-    let (mode, start) = options.start.start_in(&model)?;
     let states = model.equations.names().states.clone();
-    let sides = sides(&model, &options.window)?;
+    let window = options.window.concat();
+    let sides = sides(&model, &window)?;
     let step = numbers(&model, std::slice::from_ref(&options.step), "--step")?[0];
     if !(step > 0.0 && step.is_finite()) {
         return Err(Error::misuse("--step", &options.step, "a step takes a positive time"));
@@ -90,29 +96,36 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         ),
         Column::new("starts", "", "starts of the search that came to it"),
     ];
-    let mode_column =
-        (model.modes.len() > 1).then(|| ("mode".to_owned(), "number of its mode, from 0"));
+    let mode_column = (model.modes.len() > 1).then(|| ("mode".to_owned(), "its mode"));
     let names = states.iter().map(|name| (name.clone(), "a point of it")).chain(mode_column);
     let attractors =
         table(("attractors", "one row for each attractor that was found"), &before, names, &[]);
     let form = options.output.form(&[&BASINS, attractors])?;
     let taken = check(&[("--figure", options.figure.as_ref())])?;
-    let plane = [0, 1].map(|at| place_of(&states, &options.window[at].0, "--window"));
-    let [x, y] = plane;
+    let axes = [&window[0].0, &window[1].0];
+    let [x, y] = axes.map(|name| place_of(&states, name, "--window"));
+    let (modes, plane) = (model.modes.clone(), (x?, y?));
     let question = Question {
+        mode: named_mode(options.start.mode.as_deref(), &model)?,
+        start: options.start.state(&model)?,
         model,
-        mode,
-        start,
         sides,
         step,
-        plane: (x?, y?),
+        plane,
         cells: options.cells,
         starts: options.starts,
-        budget: options.budget,
+        limits: RecurrenceLimits {
+            budget: options.budget,
+            tests: options.tests as usize,
+            ..RecurrenceLimits::default()
+        },
         pixels: (options.pixels[0] as usize, options.pixels[1] as usize),
     };
-    let (plane, axes) = (question.plane, [&options.window[0].0, &options.window[1].0]);
-    let found = search::run(&options.output, &mut streams, move || question.answer())?;
+    question.check_modes()?;
+    let pixels = ("pixels", question.pixels.0 * question.pixels.1);
+    let found = search::run_counted(&options.output, &mut streams, pixels, move |count| {
+        question.answer(count)
+    })?;
     if let Some(file) = &options.figure {
         let names = AxisNames { x: axes[0], y: axes[1] };
         let svg = found.image.picture(&found.attractors.positions(), plane, names)?;
@@ -128,7 +141,11 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     for own in found.attractors.attractors() {
         let mut row: Vec<Cell> =
             vec![u64::from(own.label.code()).into(), own.period.into(), own.starts.into()];
-        row.extend(own.points.first().into_iter().flatten().map(|x| Cell::from(*x)));
+        let point = own.points.first().map_or(&[][..], Vec::as_slice);
+        row.extend(point.iter().take(states.len()).map(|x| Cell::from(*x)));
+        // Behind the states of a model with several modes is the number of the mode.
+        let mode = point.get(states.len()).and_then(|number| modes.get(number.round() as usize));
+        row.extend(mode.map(|mode| Cell::from(mode.clone())));
         known.rows.push(row);
     }
     form.print(&[shares(&found.image), known], streams.output)
@@ -176,26 +193,40 @@ pub(crate) fn window_of(
 /// All that the search needs.
 struct Question {
     model: Model,
-    mode: String,
+    /// The mode in which all begin; without it each begins in the one in which its state is.
+    mode: Option<String>,
     start: Vec<f64>,
     sides: Vec<Interval>,
     step: f64,
     plane: (usize, usize),
     cells: u32,
     starts: u32,
-    budget: usize,
+    limits: RecurrenceLimits,
     pixels: (usize, usize),
 }
 
 impl Question {
-    fn answer(&self) -> Result<Found, Error> {
+    /// Refuses a window with starts in no mode.
+    fn check_modes(&self) -> Result<(), Error> {
+        let grid = self.grid(self.pixels);
+        let wanted = self.mode.is_none() && self.model.places.iter().any(Option::is_some);
+        let count = if wanted { grid.columns * grid.rows } else { 0 };
+        for pixel in 0..count {
+            let (x, y) = (grid.x_at(pixel % grid.columns), grid.y_at(pixel / grid.columns));
+            place_in(&self.model, &self.state_at(x, y))?;
+        }
+        Ok(())
+    }
+
+    /// The attractors and the picture; counts the pixels that have begun.
+    fn answer(&self, count: &AtomicUsize) -> Result<Found, Error> {
         let equations = &self.model.equations;
-        let mode = Name::new(&self.mode).map_err(failed)?;
         if self.model.modes.len() == 1 && equations.surfaces().next().is_none() {
+            let mode = Name::new(&self.model.modes[0]).map_err(failed)?;
             let field = equations.field(mode).map_err(failed)?;
             // As exact as a run that Python starts.
             let steps = FlowSteps::new(field, (0.0, self.step), 1e-9).map_err(failed)?;
-            return self.search(&steps);
+            return self.search(&steps, count);
         }
         let own: EquationsModel<DVector<f64>> = equations.model().map_err(failed)?;
         let run = |mode: Name, x: &[f64]| own.start_at(mode.as_str(), x.to_vec(), (0.0, self.step));
@@ -206,41 +237,50 @@ impl Question {
             .map(|name| Name::new(name))
             .collect::<Result<_, _>>()
             .map_err(failed)?;
-        self.search(&ExecutionSteps::new(self.sides.len(), &modes, run))
+        self.search(&ExecutionSteps::new(self.sides.len(), &modes, run), count)
     }
 
-    /// The number of the mode in which the pixels start, if the model has several: their last coordinate.
-    fn mode_number(&self) -> Option<f64> {
-        let modes = &self.model.modes;
-        let place = modes.iter().position(|mode| *mode == self.mode)?;
-        (modes.len() > 1).then_some(place as f64)
+    fn grid(&self, (columns, rows): (usize, usize)) -> Grid {
+        Grid { x: self.sides[self.plane.0], y: self.sides[self.plane.1], columns, rows }
     }
 
-    fn search(&self, map: &dyn StateMap) -> Result<Found, Error> {
+    /// The state of a start.
+    fn state_at(&self, x: f64, y: f64) -> Vec<f64> {
+        let mut state = self.start.clone();
+        (state[self.plane.0], state[self.plane.1]) = (x, y);
+        state
+    }
+
+    /// The start in the map's coordinates: of several modes the number of the mode is the last one.
+    fn start_at(&self, x: f64, y: f64) -> Vec<f64> {
+        let mut state = self.state_at(x, y);
+        if self.model.modes.len() > 1 {
+            let named = |mode: &String| self.model.modes.iter().position(|own| own == mode);
+            let place =
+                self.mode.as_ref().map_or_else(|| place_in(&self.model, &state).ok(), named);
+            // A start in no mode has no image.
+            state.push(place.unwrap_or(self.model.modes.len()) as f64);
+        }
+        state
+    }
+
+    fn search(&self, map: &dyn StateMap, count: &AtomicUsize) -> Result<Found, Error> {
         let mut sides = self.sides.clone();
-        if self.mode_number().is_some() {
+        if self.model.modes.len() > 1 {
             // Each mode is a whole number within.
             sides.push(Interval::new(-0.5, self.model.modes.len() as f64 - 0.5)?);
         }
         let grid = StateGrid::uniform(Hyperrectangle::new(sides)?, self.cells as usize)?;
-        let limits = RecurrenceLimits { budget: self.budget, ..RecurrenceLimits::default() };
-        let (x, y) = (self.sides[self.plane.0], self.sides[self.plane.1]);
-        let of = |columns: usize, rows: usize| Grid { x, y, columns, rows };
-        let place = |x: f64, y: f64| {
-            let mut state = self.start.clone();
-            (state[self.plane.0], state[self.plane.1]) = (x, y);
-            state.extend(self.mode_number());
-            state
-        };
-        let coarse = of(self.starts as usize, self.starts as usize);
+        let coarse = self.grid((self.starts as usize, self.starts as usize));
         let starts: Vec<Vec<f64>> = (0..coarse.columns)
             .flat_map(|column| (0..coarse.rows).map(move |row| (column, row)))
-            .map(|(column, row)| place(coarse.x_at(column), coarse.y_at(row)))
+            .map(|(column, row)| self.start_at(coarse.x_at(column), coarse.y_at(row)))
             .collect();
-        let attractors = Attractors::search(map, grid, &starts, limits)?;
-        let pixels = of(self.pixels.0, self.pixels.1);
-        let image =
-            attractors.raster(map, pixels, |x, y, state| state.copy_from_slice(&place(x, y)))?;
+        let attractors = Attractors::search(map, grid, &starts, self.limits)?;
+        let image = attractors.raster(map, self.grid(self.pixels), |x, y, state| {
+            count.fetch_add(1, Ordering::Relaxed);
+            state.copy_from_slice(&self.start_at(x, y));
+        })?;
         Ok(Found { attractors, image })
     }
 }

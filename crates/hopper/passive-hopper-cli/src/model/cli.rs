@@ -1,7 +1,7 @@
 //! The command line of `nonsmooth`: its commands, and their start.
 
 use crate::error::Error;
-use crate::model::{basin, branch, prove, prove_basin, run, section};
+use crate::model::{basin, branch, diagram, prove, prove_basin, run, section};
 use crate::options::form::OutputOptions;
 use crate::program::Call;
 use crate::streams::Streams;
@@ -65,6 +65,8 @@ pub(crate) enum Command {
     Section(section::Options),
     /// Follow the periodic orbits of a return map along a parameter, with their bifurcations
     Branch(branch::Options),
+    /// Follow the returns of some starts along a parameter, after a transient: a bifurcation diagram
+    Diagram(diagram::Options),
     /// Find the attractors of a window of states, and the basin of each of its points
     Basin(basin::Options),
     /// Prove that a return map has a periodic orbit near a point, with its multipliers and a part of its basin
@@ -88,6 +90,7 @@ impl Call for Command {
             Command::Run(options) => Some(&options.output),
             Command::Section(options) => Some(&options.output),
             Command::Branch(options) => Some(&options.output),
+            Command::Diagram(options) => Some(&options.output),
             Command::Basin(options) => Some(&options.output),
             Command::Prove(options) => Some(&options.output),
             Command::ProveBasin(options) => Some(&options.output),
@@ -100,6 +103,7 @@ impl Call for Command {
             Command::Run(options) => run::run(&options, streams),
             Command::Section(options) => section::run(&options, streams),
             Command::Branch(options) => branch::run(&options, streams),
+            Command::Diagram(options) => diagram::run(&options, streams),
             Command::Basin(options) => basin::run(&options, streams),
             Command::Prove(options) => prove::run(&options, streams),
             Command::ProveBasin(options) => prove_basin::run(&options, streams),

@@ -7,6 +7,11 @@ fn kept(text: String) -> &'static str {
     Box::leak(text.into_boxed_str())
 }
 
+/// The same table, which plain text has only with --table.
+pub(crate) fn long(table: &TableKind) -> &'static TableKind {
+    Box::leak(Box::new(TableKind { long: true, ..*table }))
+}
+
 /// A table with these columns and, at `at`, one for each name. It is kept as long as the program runs, as all tables are.
 pub(crate) fn table(
     (name, about): (&'static str, &'static str),

@@ -39,6 +39,9 @@ struct ModelFile {
     #[serde(default)]
     parameters: BTreeMap<String, Number>,
     mode: Vec<Mode>,
+    /// Whether a run goes on along a surface at which the fields of both sides point.
+    #[serde(default)]
+    slides: bool,
     #[serde(default)]
     start: Start,
 }
@@ -51,6 +54,13 @@ struct Mode {
     rates: BTreeMap<String, Number>,
     #[serde(default)]
     surface: Vec<Surface>,
+    /// Where the states of the mode are: this formula is not negative there. A start without a mode is in the first one that has it.
+    #[serde(rename = "where")]
+    place: Option<String>,
+    /// The mode behind infinitely many events in finite time, and the states there that are not their limit.
+    rests: Option<String>,
+    #[serde(default)]
+    at_rest: BTreeMap<String, Number>,
 }
 
 /// A surface with what happens there; without `resets`, `to` and `stops` nothing does.
@@ -113,6 +123,10 @@ pub(crate) struct Model {
     pub(crate) modes: Vec<String>,
     /// The surfaces that are times.
     pub(crate) clocks: Vec<String>,
+    /// For each mode a formula that is not negative at its states, if the file has one.
+    pub(crate) places: Vec<Option<Formulas>>,
+    /// Whether a run goes on along a surface at which the fields of both sides point.
+    pub(crate) slides: bool,
 }
 
 /// Reads a file. The ending .json says JSON; others are TOML.
@@ -138,9 +152,10 @@ pub(crate) fn read(path: &Path) -> Result<Model, Error> {
     if is_json && text.contains("\"hybrid equations\"") {
         let equations = Equations::from_json(&text).map_err(|error| refused(error.to_string()))?;
         let parts = equations.mode_parts(&[]).map_err(|error| refused(error.to_string()))?;
-        let modes = parts.iter().map(|mode| mode.name.to_string()).collect();
-        let clocks = clocks_of(&text);
-        return Ok(Model { equations, start: Start::default(), modes, clocks });
+        let modes: Vec<String> = parts.iter().map(|mode| mode.name.to_string()).collect();
+        let (clocks, places) = (clocks_of(&text), vec![None; modes.len()]);
+        let start = Start::default();
+        return Ok(Model { equations, start, modes, clocks, places, slides: false });
     }
     let file: ModelFile = match is_json {
         true => serde_json::from_str(&text).map_err(|error| refused(error.to_string()))?,
@@ -151,7 +166,13 @@ pub(crate) fn read(path: &Path) -> Result<Model, Error> {
     let modes = file.mode.iter().map(|mode| mode.name.clone()).collect();
     let surfaces = file.mode.iter().flat_map(|mode| &mode.surface);
     let clocks = surfaces.filter(|own| own.guard.is_none()).map(|own| own.name.clone()).collect();
-    Ok(Model { equations, start: file.start, modes, clocks })
+    let place = |mode: &Mode| {
+        let formula = |text: &String| Formulas::from_text(equations.names().clone(), &[text]);
+        let formula = mode.place.as_ref().map(formula).transpose();
+        formula.map_err(|error| refused(format!("the mode {}: where: {error}", mode.name)))
+    };
+    let places = file.mode.iter().map(place).collect::<Result<_, Error>>()?;
+    Ok(Model { equations, start: file.start, modes, clocks, places, slides: file.slides })
 }
 
 /// The surfaces of equations as JSON that are times.
@@ -219,6 +240,19 @@ fn equations_of(file: &ModelFile) -> Result<Equations, String> {
         equations = equations.mode_text(&mode.name, &texts(&rates));
         for surface in &mode.surface {
             equations = with_surface(equations, &file.states, surface)?;
+        }
+        if let Some(rest) = &mode.rests {
+            let what = format!("at_rest of {}", mode.name);
+            let own = in_order(&file.states, &mode.at_rest, &what, |state| Ok(state.to_owned()))?;
+            equations = match mode.at_rest.is_empty() {
+                true => equations.rests(rest),
+                false => equations.rests_at_text(rest, &texts(&own)),
+            };
+        } else if !mode.at_rest.is_empty() {
+            return Err(format!(
+                "the mode {}: at_rest without rests; name the mode behind the limit",
+                mode.name
+            ));
         }
     }
     Ok(equations)

@@ -8,7 +8,9 @@
 //!   columns.rs   tables whose columns are the states of a model
 //!   run.rs       a trajectory with its events
 //!   section.rs   the returns to a surface
+//!   returns.rs   a return map along a parameter
 //!   branch.rs    periodic orbits along a parameter, with their bifurcations
+//!   diagram.rs   where orbits are after a transient, along a parameter
 //!   basin.rs     attractors and the basins of a window
 //!   section_map.rs  the return map of a proof
 //!   prove.rs     a periodic orbit that exists, with a certificate
@@ -21,11 +23,13 @@ mod basin;
 mod branch;
 pub(crate) mod cli;
 mod columns;
+mod diagram;
 mod file;
 mod period;
 mod prove;
 mod prove_basin;
 mod question;
+mod returns;
 mod run;
 mod section;
 mod section_map;

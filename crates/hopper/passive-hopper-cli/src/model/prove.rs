@@ -2,7 +2,7 @@
 
 use crate::commands::search;
 use crate::error::Error;
-use crate::model::question::{ModelOptions, failed, named, point};
+use crate::model::question::{ModelOptions, Named, failed, named, names_of, point};
 use crate::model::section_map::MapOptions;
 use crate::options::form::OutputOptions;
 use crate::output::{Column, Table, TableKind};
@@ -20,9 +20,9 @@ pub(crate) struct Options {
     model: ModelOptions,
     #[command(flatten)]
     map: MapOptions,
-    /// The fixed point, roughly: the coordinates of the section, such as y=-8.4 z=0.03
+    /// The fixed point, roughly: the coordinates of the section, such as y=-8.4,z=0.03
     #[arg(long, num_args = 1.., value_name = "NAME=VALUE", value_parser = named, required = true)]
-    near: Vec<(String, String)>,
+    near: Vec<Named>,
     /// Boxes with which a trap is looked for about an orbit that attracts: all its points converge to the orbit
     #[arg(long, default_value_t = 1000, value_name = "N")]
     boxes: usize,
@@ -60,9 +60,10 @@ static ORBIT: TableKind = TableKind {
 
 pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Error> {
     let model = options.model.model()?;
-    let names: Vec<String> = options.near.iter().map(|(name, _)| name.clone()).collect();
-    let guess = point(&model, &names, &options.near, "--near")?;
-    let words = options.map.words(&model, &names)?;
+    let near = options.near.concat();
+    let names = names_of(&near);
+    let guess = point(&model, &names, &near, "--near")?;
+    let words = options.map.words(&model, (&names, &guess))?;
     if let Some(file) = &options.certificate {
         drop(AtomicFile::create(file)?);
     }

@@ -5,7 +5,7 @@ use crate::commands::search;
 use crate::error::Error;
 use crate::model::basin::window_of;
 use crate::model::prove::{middle_of, reach};
-use crate::model::question::{ModelOptions, failed, named, point};
+use crate::model::question::{ModelOptions, Named, failed, named, names_of, point};
 use crate::model::section_map::MapOptions;
 use crate::options::form::OutputOptions;
 use crate::options::output_file::{OutputFile, check, figure};
@@ -29,11 +29,11 @@ pub(crate) struct Options {
     #[command(flatten)]
     map: MapOptions,
     /// A fixed point that attracts, roughly, such as x=1,v=0; once for each
-    #[arg(long, value_name = "NAME=VALUE,…", required = true, value_parser = named_list)]
-    near: Vec<NamedList>,
-    /// The window of each coordinate of the section, such as x=-2:2 v=-2:2
+    #[arg(long, value_name = "NAME=VALUE,…", required = true, value_parser = named)]
+    near: Vec<Named>,
+    /// The window of each coordinate of the section, such as x=-2:2,v=-2:2
     #[arg(long, num_args = 1.., value_name = "NAME=FROM:TO", value_parser = named, required = true)]
-    window: Vec<(String, String)>,
+    window: Vec<Named>,
     /// Halvings of the window's sides to the largest and to the smallest cells
     #[arg(long, num_args = 2, value_names = ["FIRST", "LAST"], default_values_t = [5, 8], value_parser = clap::value_parser!(u32).range(1..=30))]
     halvings: Vec<u32>,
@@ -51,13 +51,6 @@ pub(crate) struct Options {
     certificate: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) output: OutputOptions,
-}
-
-/// Names with values, of one option.
-type NamedList = Vec<(String, String)>;
-
-fn named_list(text: &str) -> Result<NamedList, String> {
-    text.split(',').map(named).collect()
 }
 
 static FATES: TableKind = TableKind {
@@ -91,14 +84,15 @@ const PIXELS: usize = 512;
 
 pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Error> {
     let model = options.model.model()?;
-    let names: Vec<String> = options.window.iter().map(|(name, _)| name.clone()).collect();
-    let sides = window_of(&model, &names, &options.window)?;
+    let window = options.window.concat();
+    let names = names_of(&window);
+    let sides = window_of(&model, &names, &window)?;
     let guesses = options
         .near
         .iter()
         .map(|near| point(&model, &names, near, "--near"))
         .collect::<Result<Vec<_>, Error>>()?;
-    let words = options.map.words(&model, &names)?;
+    let words = options.map.words(&model, (&names, &guesses[0]))?;
     let form = options.output.form(&[&FATES])?;
     let taken = check(&[("--figure", options.figure.as_ref())])?;
     if options.figure.is_some() && names.len() != 2 {

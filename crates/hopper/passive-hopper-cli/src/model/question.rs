@@ -14,28 +14,37 @@ pub(crate) struct ModelOptions {
     file: PathBuf,
     /// Give a parameter another value, such as g=1.62; may be given more than once
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = named)]
-    set: Vec<(String, String)>,
+    set: Vec<Named>,
 }
 
 /// The start.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct StartOptions {
-    /// The mode in which it starts [default: that of the file, or the first one]
+    /// The mode in which it starts [default: that of the file, or the first one whose `where` the start fulfils]
     #[arg(long)]
     pub(crate) mode: Option<String>,
-    /// States at the start, such as x=1 v=0; the others are those of the file, or 0
+    /// States at the start, such as x=1,v=0; the others are those of the file, or 0
     #[arg(long, num_args = 1.., value_name = "NAME=VALUE", value_parser = named)]
-    pub(crate) start: Vec<(String, String)>,
+    pub(crate) start: Vec<Named>,
 }
 
-/// A name with a value.
-pub(crate) fn named(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
+/// Names with values, as they stand in one argument.
+pub(crate) type Named = Vec<(String, String)>;
+
+/// Names with values, such as x=1,v=0. A comma in parentheses belongs to a formula.
+pub(crate) fn named(text: &str) -> Result<Named, String> {
+    let mut depth = 0;
+    let is_between = |c: char| {
+        depth += i32::from(c == '(') - i32::from(c == ')');
+        c == ',' && depth == 0
+    };
+    let pair = |part: &str| match part.split_once('=') {
         Some((name, value)) if !name.trim().is_empty() && !value.trim().is_empty() => {
             Ok((name.trim().to_owned(), value.trim().to_owned()))
         }
         _ => Err("give a name and a value, such as x=1".to_owned()),
-    }
+    };
+    text.split(is_between).map(pair).collect()
 }
 
 /// The error of a library, in its words.
@@ -44,14 +53,30 @@ pub(crate) fn failed(error: impl std::fmt::Display) -> Error {
 }
 
 impl ModelOptions {
-    /// The model with the parameters that are given.
+    /// The same for a question that does not follow motions along surfaces.
+    ///
+    /// # Errors
+    /// As [`sliding_model`](Self::sliding_model), and [`Error::Misuse`] for a model with such motions.
     pub(crate) fn model(&self) -> Result<Model, Error> {
+        let model = self.sliding_model()?;
+        if model.slides {
+            let text = "the file says slides = true, and only `nonsmooth run` follows motions along surfaces; write such a motion as a mode";
+            return Err(Error::Misuse(format!("{}: {text}", self.file.display())));
+        }
+        Ok(model)
+    }
+
+    /// The model with the parameters that are given.
+    ///
+    /// # Errors
+    /// Those of the file; [`Error::Misuse`] for other parameters.
+    pub(crate) fn sliding_model(&self) -> Result<Model, Error> {
         let mut model = file::read(&self.file)?;
         let decimal = |(name, value): &(String, String)| {
             let value = file::decimal(value, name);
             Ok((name.clone(), value.map_err(|reason| Error::Misuse(format!("--set: {reason}")))?))
         };
-        let set = self.set.iter().map(decimal).collect::<Result<Vec<_>, Error>>()?;
+        let set = self.set.iter().flatten().map(decimal).collect::<Result<Vec<_>, Error>>()?;
         let set: Vec<(&str, &str)> =
             set.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
         let known = &model.equations.names().parameters;
@@ -71,31 +96,67 @@ impl ModelOptions {
 impl StartOptions {
     /// The mode and the state.
     pub(crate) fn start_in(&self, model: &Model) -> Result<(String, Vec<f64>), Error> {
+        let state = self.state(model)?;
+        Ok((mode_at(self.mode.as_deref(), model, &state)?, state))
+    }
+
+    /// The state.
+    pub(crate) fn state(&self, model: &Model) -> Result<Vec<f64>, Error> {
         let states = &model.equations.names().states;
         let mut texts = vec!["0".to_owned(); states.len()];
         for (name, value) in &model.start.state {
             texts[place_of(states, name, "[start] of the file:")?] = value.text();
         }
-        for (name, value) in &self.start {
+        for (name, value) in self.start.iter().flatten() {
             texts[place_of(states, name, "--start")?].clone_from(value);
         }
-        Ok((mode_of(self.mode.as_deref(), model)?, numbers(model, &texts, "--start")?))
+        numbers(model, &texts, "--start")
     }
 }
 
-/// The mode that is given, that of the file, or the first one.
-pub(crate) fn mode_of(given: Option<&str>, model: &Model) -> Result<String, Error> {
-    let mode = given.or(model.start.mode.as_deref());
-    let Some(mode) = mode.or(model.modes.first().map(String::as_str)) else {
-        return Err(Error::Misuse("the model has no mode".to_owned()));
-    };
-    match model.modes.iter().any(|known| known == mode) {
-        true => Ok(mode.to_owned()),
-        false => {
-            let reason = format!("there is no such mode; there are: {}", model.modes.join(", "));
-            Err(Error::misuse("--mode", shortened(mode), &reason))
+/// The mode that is given, or that of the file's start.
+///
+/// # Errors
+/// [`Error::Misuse`] for a mode that the model does not have.
+pub(crate) fn named_mode(given: Option<&str>, model: &Model) -> Result<Option<String>, Error> {
+    let Some(mode) = given.or(model.start.mode.as_deref()) else { return Ok(None) };
+    if model.modes.iter().any(|known| known == mode) {
+        return Ok(Some(mode.to_owned()));
+    }
+    let reason = format!("there is no such mode; there are: {}", model.modes.join(", "));
+    Err(Error::misuse("--mode", shortened(mode), &reason))
+}
+
+/// The mode that is given, that of the file's start, or the one in which this state is.
+///
+/// # Errors
+/// As [`named_mode`] and [`place_in`].
+pub(crate) fn mode_at(given: Option<&str>, model: &Model, state: &[f64]) -> Result<String, Error> {
+    match named_mode(given, model)? {
+        Some(mode) => Ok(mode),
+        None => Ok(model.modes[place_in(model, state)?].clone()),
+    }
+}
+
+/// The number of the first mode in which a state is: its formula `where` is not negative there, or it has none.
+///
+/// # Errors
+/// [`Error::Misuse`] for a state in no mode, and for a formula without a value.
+pub(crate) fn place_in(model: &Model, state: &[f64]) -> Result<usize, Error> {
+    for (number, formula) in model.places.iter().enumerate() {
+        let Some(formula) = formula else { return Ok(number) };
+        let value = formula.values(0.0, state).map_err(|error| {
+            Error::Misuse(format!("the mode {}: where: {error}", model.modes[number]))
+        })?;
+        if value.first().is_some_and(|value| *value >= 0.0) {
+            return Ok(number);
         }
     }
+    let states = model.equations.names().states.iter().zip(state);
+    let values: Vec<String> = states.map(|(name, x)| format!("{name} = {x}")).collect();
+    let (values, reason) =
+        (values.join(", "), "the formulas `where` of all modes are negative there");
+    Err(Error::Misuse(format!("the start {values} is in no mode: {reason}; give --mode")))
 }
 
 /// Refuses a surface that the model has not.
@@ -128,6 +189,11 @@ pub(crate) fn numbers(model: &Model, texts: &[String], option: &str) -> Result<V
     let refused = |error: equations::Error| Error::Misuse(format!("{option}: {error}"));
     let formulas = Formulas::from_text(names, &file::texts(texts)).map_err(refused)?;
     formulas.values(0.0, &[]).map_err(refused)
+}
+
+/// The names of an option, in their order.
+pub(crate) fn names_of(given: &[(String, String)]) -> Vec<String> {
+    given.iter().map(|(name, _)| name.clone()).collect()
 }
 
 /// The values of some states that are all named, in the order of `names`.

@@ -4,9 +4,12 @@ use crate::error::Error;
 use crate::model::columns::table;
 use crate::model::question::{ModelOptions, StartOptions, failed, numbers};
 use crate::options::form::OutputOptions;
-use crate::output::{Cell, Column, Table};
+use crate::output::{Cell, Column, Table, TableKind};
 use crate::streams::Streams;
-use hybrid_system::{Certainty, EquationsModel, Execution, Limits, Stop};
+use hybrid_system::{
+    ArcEnd, Certainty, EquationsModel, Execution, Filippov, FilippovMode, FilippovSurface,
+    HybridSystem, Label, Limits, Stop, Tolerances,
+};
 use nalgebra::DVector;
 
 /// Follow a run: its events, each with its error and its certainty, and states at equal times
@@ -63,14 +66,14 @@ pub(crate) fn reason(stop: Option<Stop>) -> &'static str {
         Some(Stop::NoFurtherEvent) => "no event follows",
         Some(Stop::Zeno) => "the events have a limit (Zeno); give the mode behind it",
         Some(Stop::Sliding) => {
-            "the fields on both sides point at a surface; give the mode of sliding"
+            "the fields on both sides point at a surface; slides = true in the file goes on along it"
         }
         Some(_) => "a budget of the search",
     }
 }
 
 pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> {
-    let model = options.model.model()?;
+    let model = options.model.sliding_model()?;
     let (mode, start) = options.start.start_in(&model)?;
     let of_file = model
         .start
@@ -96,55 +99,130 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
     let form = options.output.form(&[events, samples, end])?;
 
     let own: EquationsModel<DVector<f64>> = model.equations.model().map_err(failed)?;
-    let begun = || {
-        let run = own.start_at(&mode, start.clone(), (0.0, time)).map_err(failed)?;
-        Ok::<_, Error>(Execution::restore(
-            &own,
-            run.checkpoint(),
-            Limits::new(time, options.events),
-        ))
+    let at = own.start_at(&mode, start, (0.0, time)).map_err(failed)?.checkpoint();
+    let limits = Limits::new(time, options.events);
+    let (steps, tables) = (options.samples, [events, samples, end]);
+    let (shown, wrong) = if model.slides {
+        let relay = Filippov::new(own.clone(), SLIDING);
+        let (mode, state) = (FilippovMode::Free(at.mode()), at.state());
+        let begun = || Execution::new(&relay, mode, state.clone(), limits);
+        follow(begun, tables, count, (time, steps))?
+    } else {
+        let begun = || Execution::restore(&own, at.clone(), limits);
+        follow(begun, tables, count, (time, steps))?
     };
-    let mut found = [Table::new(events), Table::new(samples), Table::new(end)];
-    let mut execution = begun()?;
-    let mut last = None;
-    for arc in execution.by_ref() {
-        let arc = arc.map_err(failed)?;
-        if let Some(event) = arc.event() {
-            let (mode, state) = match &event.after {
-                Some((mode, state)) => (Some(mode.to_string()), state),
-                None => (None, &event.before),
-            };
-            let mut row: Vec<Cell> =
-                vec![Cell::measured(event.time, event.time_error), Cell::Error(event.time_error)];
-            row.extend([event.surface.to_string().into(), mode.into()]);
-            // Behind the states may be the time.
-            row.extend(state.iter().take(count).map(|x| Cell::from(*x)));
-            row.push(certainty(event.certainty).into());
-            found[0].rows.push(row);
+    form.print(&shown, streams.output)?;
+    wrong.map_or(Ok(()), Err)
+}
+
+/// The tolerances of a motion along a surface: those of Python.
+const SLIDING: Tolerances = Tolerances::both(1e-12);
+
+/// A name of a mode or a surface.
+trait Word {
+    fn word(&self) -> String;
+}
+
+impl Word for Label {
+    fn word(&self) -> String {
+        self.to_string()
+    }
+}
+
+impl Word for FilippovMode<Label, Label> {
+    fn word(&self) -> String {
+        match self {
+            FilippovMode::Free(mode) => mode.to_string(),
+            FilippovMode::Sliding { surface, .. } => format!("along {surface}"),
         }
-        last = Some(arc);
+    }
+}
+
+impl Word for FilippovSurface<Label, Label> {
+    fn word(&self) -> String {
+        match self {
+            FilippovSurface::Model(surface) => surface.to_string(),
+            FilippovSurface::Tangent { surface, .. } => format!("{surface}: end of sliding"),
+        }
+    }
+}
+
+/// What stands in place of a surface where infinitely many events in finite time have their limit.
+const LIMIT: &str = "(limit)";
+
+/// Follows a run: its events, samples and end, and the error that has ended it. States have `count` components, and may have the time behind them.
+fn follow<'m, T>(
+    begun: impl Fn() -> Execution<'m, T>,
+    [events, samples, end]: [&'static TableKind; 3],
+    count: usize,
+    (time, steps): (f64, Option<u32>),
+) -> Result<(Vec<Table>, Option<Error>), Error>
+where
+    T: HybridSystem<State = DVector<f64>, Mode: Word, Surface: Word> + 'm,
+{
+    let (mut found, mut wrong) = (Table::new(events), None);
+    let mut execution = begun();
+    let states = |state: &DVector<f64>| {
+        state.iter().take(count).map(|x| Cell::from(*x)).collect::<Vec<Cell>>()
+    };
+    for arc in execution.by_ref() {
+        let arc = match arc {
+            Ok(arc) => arc,
+            // What was found before is shown.
+            Err(error) => {
+                wrong = Some(failed(error));
+                break;
+            }
+        };
+        let (time, error, surface, after, before, certainty) = match &arc.end {
+            ArcEnd::Event(event) => {
+                let how = certainty(event.certainty);
+                let (time, surface) = (event.time, event.surface.word());
+                (time, Some(event.time_error), surface, &event.after, &event.before, how)
+            }
+            ArcEnd::Zeno { limit, after } => {
+                let error = Some(limit.time_error);
+                (limit.time, error, LIMIT.to_owned(), after, &limit.state, "estimated")
+            }
+            ArcEnd::Sliding { sliding, after } => {
+                let surface = format!("{}: sliding", sliding.surface.word());
+                (sliding.time, None, surface, after, &sliding.state, "estimated")
+            }
+            _ => continue,
+        };
+        let (mode, state) = match after {
+            Some((mode, state)) => (Some(mode.word()), state),
+            None => (None, before),
+        };
+        let mut row: Vec<Cell> = match error {
+            Some(error) => vec![Cell::measured(time, error), Cell::Error(error)],
+            None => vec![time.into(), Cell::Missing],
+        };
+        row.extend([surface.into(), mode.into()]);
+        row.extend(states(state));
+        row.push(certainty.into());
+        found.rows.push(row);
     }
     let at = execution.checkpoint();
-    let mut row: Vec<Cell> = vec![at.time().into(), at.mode().to_string().into()];
-    row.extend(at.state().iter().take(count).map(|x| Cell::from(*x)));
-    row.push(reason(execution.stop()).into());
-    found[2].rows.push(row);
-    drop(last);
-    if let Some(steps) = options.samples {
+    let mut last = Table::new(end);
+    let mut row: Vec<Cell> = vec![at.time().into(), at.mode().word().into()];
+    row.extend(states(at.state()));
+    row.push(if wrong.is_some() { "an error" } else { reason(execution.stop()) }.into());
+    last.rows.push(row);
+    let mut shown = vec![found];
+    if let Some(steps) = steps.filter(|_| wrong.is_none()) {
         let grid: Vec<f64> =
             (0..=steps).map(|k| time * f64::from(k) / f64::from(steps.max(1))).collect();
-        let trajectory = begun()?.trajectory(&grid).map_err(failed)?;
+        let trajectory = begun().trajectory(&grid).map_err(failed)?;
+        let mut found = Table::new(samples);
         for row in (0..trajectory.times.len()).filter(|row| trajectory.on_grid[*row]) {
             let mut cells: Vec<Cell> =
-                vec![trajectory.times[row].into(), trajectory.modes[row].to_string().into()];
-            cells.extend(
-                trajectory.states.row(row).iter().take(states.len()).map(|x| Cell::from(*x)),
-            );
-            found[1].rows.push(cells);
+                vec![trajectory.times[row].into(), trajectory.modes[row].word().into()];
+            cells.extend(trajectory.states.row(row).iter().take(count).map(|x| Cell::from(*x)));
+            found.rows.push(cells);
         }
+        shown.push(found);
     }
-    let [events, samples, end] = found;
-    let samples = (!samples.rows.is_empty()).then_some(samples);
-    let shown: Vec<Table> = [Some(events), samples, Some(end)].into_iter().flatten().collect();
-    form.print(&shown, streams.output)
+    shown.push(last);
+    Ok((shown, wrong))
 }

@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::model::file::{Model, texts};
 use crate::model::period::{check_period, spread};
 use crate::model::prove::middle_of;
-use crate::model::question::{check_surface, failed, mode_of, named};
+use crate::model::question::{Named, check_surface, failed, mode_at, named};
 use equations::{Formulas, Names};
 use validated_dynamics::{EnclosedMap, Enclosure, SectionMap, StartSet, ValidatedSystem};
 
@@ -22,7 +22,7 @@ pub(crate) struct MapOptions {
     mode: Option<String>,
     /// The other states at the start, and the time t, as formulas of the coordinates, such as x=0; those that are not given are 0
     #[arg(long, num_args = 1.., value_name = "NAME=FORMULA", value_parser = named)]
-    on: Vec<(String, String)>,
+    on: Vec<Named>,
     /// What is read behind the last event, in the order of the coordinates, such as y z "t - 2*pi" [default: the coordinates]. A formula does not begin with a sign: (-v)
     #[arg(long, num_args = 1.., value_name = "FORMULA")]
     read: Vec<String>,
@@ -42,16 +42,19 @@ pub(crate) struct MapWords {
 }
 
 impl MapOptions {
-    /// The map with these coordinates.
+    /// The map with these coordinates, near a point.
     ///
     /// # Errors
     /// [`Error::Misuse`] for names that the model does not have.
-    pub(crate) fn words(&self, model: &Model, variables: &[String]) -> Result<MapWords, Error> {
-        let mode = mode_of(self.mode.as_deref(), model)?;
+    pub(crate) fn words(
+        &self,
+        model: &Model,
+        (variables, near): (&[String], &[f64]),
+    ) -> Result<MapWords, Error> {
         check_surface(model, &self.surface)?;
         let uses_time = !model.equations.is_autonomous();
         let own_states = &model.equations.names().states;
-        for (name, _) in &self.on {
+        for (name, _) in self.on.iter().flatten() {
             let known = own_states.contains(name) || (uses_time && name == "t");
             if !known || variables.contains(name) {
                 let reason = "it is no other state at the start: a state that is no coordinate, or the time t of a model that uses it";
@@ -59,7 +62,7 @@ impl MapOptions {
             }
         }
         let state = |name: &String| {
-            let own = self.on.iter().find(|(known, _)| known == name);
+            let own = self.on.iter().flatten().find(|(known, _)| known == name);
             let default = if variables.contains(name) { name.clone() } else { "0".to_owned() };
             own.map_or(default, |(_, formula)| formula.clone())
         };
@@ -68,6 +71,9 @@ impl MapOptions {
             // The time is a component, too.
             states.push(state(&"t".to_owned()));
         }
+        let own = &states[..own_states.len()];
+        let start = formulas_of(model, variables, own)?.values(0.0, near).map_err(failed)?;
+        let mode = mode_at(self.mode.as_deref(), model, &start)?;
         let read = if self.read.is_empty() { variables } else { &self.read[..] };
         Ok(MapWords {
             surface: self.surface.clone(),
@@ -126,8 +132,7 @@ impl MapWords {
         (middle, half): (&[f64], &[f64]),
     ) -> Result<(), Error> {
         let own = model.equations.names();
-        let names = Names { states: self.variables.clone(), ..own.clone() };
-        let again = Formulas::from_text(names, &texts(&self.states)).map_err(failed)?;
+        let again = formulas_of(model, &self.variables, &self.states)?;
         let components: Vec<&str> =
             own.states.iter().map(String::as_str).chain(["t"]).take(self.states.len()).collect();
         let maps = components
@@ -178,6 +183,13 @@ impl MapWords {
             _ => Ok(()),
         }
     }
+}
+
+/// Formulas of the coordinates of a section.
+fn formulas_of(model: &Model, variables: &[String], of: &[String]) -> Result<Formulas, Error> {
+    let names = Names { states: variables.to_vec(), ..model.equations.names().clone() };
+    let refused = |error: equations::Error| Error::Misuse(format!("--on: {error}"));
+    Formulas::from_text(names, &texts(of)).map_err(refused)
 }
 
 fn apart(one: &Enclosure, other: &Enclosure) -> bool {

@@ -1,5 +1,7 @@
 //! Calls of the program in this process.
 
+pub(crate) mod nonsmooth;
+
 use passive_hopper_cli::{Streams, run};
 
 /// What a call gave.
