@@ -10,6 +10,7 @@
 //! | citations of `docs/theory.md` name statements that exist | `theory_citations.rs` |
 //! | sources cited by name and year are in the bibliography | `bibliography.rs` |
 //! | links lead to files and headings that exist | `links.rs` |
+//! | nothing in a page is hidden by a mark; titles are those of the contents | `page_marks.rs` |
 //! | the files and tests that the documentation names exist | `names_in_pages.rs` |
 
 mod bibliography;
@@ -20,6 +21,7 @@ pub(crate) mod links;
 mod listed_tests;
 mod names_in_pages;
 mod one_line;
+mod page_marks;
 mod root_folder;
 mod sources;
 mod theory_citations;
@@ -62,6 +64,7 @@ fn breaches(root: &Path) -> Result<Vec<Breach>, Error> {
     let bibliography = sources::read(root, bibliography::BIBLIOGRAPHY)?;
     bibliography::check(&bibliography, &sources, &documents, &mut breaches);
     links::check(root, &documents, &mut breaches);
+    page_marks::check(&documents, &mut breaches);
     let pages: Vec<_> = documents.into_iter().filter(sources::is_page).collect();
     names_in_pages::check(&pages, &sources, &mut breaches);
     Ok(breaches)

@@ -1,4 +1,4 @@
-//! The picture beside the example is the one that it draws.
+//! The picture beside the example is the one that it draws, and the page of bifurcations shows its lines.
 
 #![allow(missing_docs, clippy::unwrap_used, unreachable_pub, dead_code)]
 
@@ -15,4 +15,11 @@ fn the_picture_beside_the_example() {
         same.is_none() && lines[0] == lines[1],
         "line {same:?} of {lines:?}: write it anew with cargo run --release -p return-map --example bifurcation_diagram"
     );
+}
+
+#[test]
+fn the_page_shows_the_lines_of_the_example() {
+    let source = include_str!("../examples/bifurcation_diagram.rs");
+    let (_, code) = source.split_once("\nuse ").unwrap();
+    assert!(include_str!("../../../../docs/bifurcations.md").contains(code));
 }

@@ -1,6 +1,6 @@
-"""The hopper in motion, with the curves of both masses."""
+"""The hopper in motion, with the curves of both masses: this start hops for ever."""
 
 import passive_hopper as hopper
 
-motion = hopper.motion(7.0, M=0.2, hops=1)
+motion = hopper.motion(4.55, M=0.2, hops=2)
 hopper.animate(motion, "animated_hopper.gif")

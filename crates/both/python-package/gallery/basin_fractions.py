@@ -14,4 +14,4 @@ for n in range(1, 5):
     axes.fill_between(ratios, lower, upper, color=colour, edgecolor=colour, label=hopper.label_name(n))
 axes.set(xlabel="mass ratio M", ylabel="share of the basin", yscale="log")
 axes.legend(frameon=False, fontsize=8)
-figure.savefig("basin_fractions.png", dpi=80)
+figure.savefig("basin_fractions.png", dpi=160)

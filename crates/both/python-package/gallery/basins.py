@@ -4,4 +4,4 @@ import matplotlib.pyplot as plt
 import passive_hopper as hopper
 
 hopper.plot_basins(shape=(640, 400))
-plt.savefig("basins.png", dpi=80)
+plt.savefig("basins.png", dpi=160)

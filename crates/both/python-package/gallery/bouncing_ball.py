@@ -24,6 +24,6 @@ figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
 axes.plot(found["times"], found["states"][:, 0], color="#10386e", linewidth=0.9)
 axes.axvline(zeno.time, color="#d55e00", linewidth=0.8)
 axes.set(
-    xlabel="time", ylabel="height", title=f"{len(found['event_times'])} bounces, then at rest from {zeno.time:.12f}"
+    xlabel="time", ylabel="height", title=f"{len(found['event_times'])} bounces followed; their limit is at {zeno.time:.12f}"
 )
-figure.savefig("bouncing_ball.png", dpi=80)
+figure.savefig("bouncing_ball.png", dpi=160)

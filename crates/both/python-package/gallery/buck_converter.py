@@ -23,4 +23,4 @@ run = converter.run([12, 0.55, 0], time=(0, 240 * T), mode="off", t=np.linspace(
 figure, axes = plt.subplots(figsize=(5, 3), layout="constrained")
 axes.plot(*run.y[:2], linewidth=0.8)
 axes.set(xlabel="voltage, V", ylabel="current, A")
-figure.savefig("buck_converter.png", dpi=80)
+figure.savefig("buck_converter.png", dpi=160)

@@ -4,4 +4,4 @@ import matplotlib.pyplot as plt
 import passive_hopper as hopper
 
 hopper.cobweb(0.2, 7.0)
-plt.savefig("cobweb.png", dpi=80)
+plt.savefig("cobweb.png", dpi=160)

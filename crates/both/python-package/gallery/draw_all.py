@@ -12,13 +12,29 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 DOCS = HERE.parents[3] / "docs"
-#: The scripts of systems other than the hopper, and those of the hopper, in the order of the index.
+#: The scripts with their titles: of systems other than the hopper, and of the hopper, in the order of the index.
 SCRIPTS = {
-    "Any system": [
-        "bouncing_ball", "thermostat", "impact_oscillator", "spring_leg", "buck_converter", "magnetic_pendulum", "double_well", "henon", "newton", "valve",
-    ],
-    "The hopper": ["basins", "cobweb", "animated_hopper", "basin_fractions", "tipping", "zoom"],
-}  # fmt: skip
+    "Any system": {
+        "bouncing_ball": "A bouncing ball",
+        "thermostat": "A thermostat",
+        "impact_oscillator": "An impact oscillator",
+        "spring_leg": "A runner on a spring leg",
+        "buck_converter": "A buck converter",
+        "magnetic_pendulum": "A magnetic pendulum",
+        "double_well": "A double well",
+        "henon": "Hénon's map",
+        "newton": "Newton's method",
+        "valve": "A valve",
+    },
+    "The hopper": {
+        "basins": "The basins of the hopper",
+        "cobweb": "The map and an orbit",
+        "animated_hopper": "The hopper in motion",
+        "basin_fractions": "Fractions of basins",
+        "tipping": "Tipping",
+        "zoom": "A zoom",
+    },
+}
 
 
 def draw(folder):
@@ -32,9 +48,9 @@ def draw(folder):
             runpy.run_path(str(script), run_name="__main__")
 
 
-def title(name):
-    """The sentence with which a script begins."""
-    return ast.get_docstring(ast.parse((HERE / f"{name}.py").read_text()))
+def about(name):
+    """The sentences with which a script begins."""
+    return ast.get_docstring(ast.parse((HERE / f"{name}.py").read_text())).replace("α*", "α\\*")
 
 
 def picture(name):
@@ -44,26 +60,26 @@ def picture(name):
 def pages():
     """The pages of the gallery by the names of their files: one for each script, and an index."""
     found = {}
-    for name in (name for names in SCRIPTS.values() for name in names):
+    for name, title in (script for scripts in SCRIPTS.values() for script in scripts.items()):
         source = (HERE / f"{name}.py").read_text()
         body = source.split('"""', 2)[2].lstrip("\n")
         found[f"{name}.md"] = "\n".join(
             [
-                f"# {name.replace('_', ' ').capitalize()}\n",
-                f"{title(name)}\n",
+                f"# {title}\n",
+                f"{about(name)}\n",
                 f"![{name.replace('_', ' ')}](../figures/python/{picture(name)})\n",
                 f"[{name}.py](../../crates/both/python-package/gallery/{name}.py), as it stands:\n",
                 f"```python\n{body}```\n",
-                "[All pictures](README.md) · [In Python](../python.md)\n",
+                "[All pictures](README.md) · [Use Python](../python.md)\n",
             ]
         )
     index = [
-        "# Gallery\n",
+        "# Pictures in Python\n",
         "Each picture links to its page with the script that made it, of at most 30 lines. `python crates/both/python-package/gallery/draw_all.py` draws all of them again.",
     ]
-    for heading, names in SCRIPTS.items():
+    for heading, scripts in SCRIPTS.items():
         index += [f"\n## {heading}\n", "| | |", "|---|---|"]
-        cells = [f"[![{name.replace('_', ' ')}](../figures/python/{picture(name)})]({name}.md) {title(name)}" for name in names]
+        cells = [f"[![{name.replace('_', ' ')}](../figures/python/{picture(name)})]({name}.md) {about(name)}" for name in scripts]
         index += [f"| {' | '.join(cells[k : k + 2])} |" for k in range(0, len(cells), 2)]
     found["README.md"] = "\n".join(index) + "\n"
     return found

@@ -24,4 +24,4 @@ found = ns.attractors_of(pendulum, region, step=1.0, starts=magnets, cells=30, l
 basins = ns.basins_of(pendulum, {"x": (-2, 2), "y": (-2, 2)}, (120, 120), step=1.0, others={"vx": 0, "vy": 0}, attractors=found)
 figure, axes = plt.subplots(figsize=(5, 4), layout="constrained")
 ns.plots.plot_basins(basins, axes)
-figure.savefig("magnetic_pendulum.png", dpi=80)
+figure.savefig("magnetic_pendulum.png", dpi=160)

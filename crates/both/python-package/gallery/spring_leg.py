@@ -1,4 +1,4 @@
-"""A runner on a spring leg (SLIP): the map from apex to apex, its stable run, and the heights from which the runner falls."""
+"""A runner on a spring leg (SLIP): the map from apex to apex, and an orbit that comes to its stable run."""
 
 import matplotlib.pyplot as plt
 import nonsmooth as ns
@@ -18,4 +18,4 @@ runner = ns.System(
 )
 apexes = runner.returns("apex", coordinates="h", start=lambda t, q, p: [0, q[0], np.sqrt(25 + 2 * 9.81 * (1 - q[0])), 0], image=["height"], mode="flight")
 ns.plots.plot_cobweb(apexes, 0.99, (0.928, 1.1), images=30).set(xlabel="apex height, m", ylabel="next apex height, m")
-plt.savefig("spring_leg.png", dpi=80, bbox_inches="tight")
+plt.savefig("spring_leg.png", dpi=160, bbox_inches="tight")

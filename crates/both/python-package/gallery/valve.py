@@ -26,4 +26,4 @@ late = found["times"] >= 40
 figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
 axes.plot(found["times"][late], found["states"][late, 0], color="#10386e", linewidth=0.9)
 axes.set(xlabel="time", ylabel="displacement of the disc", title=f"{len(found['event_times'])} impacts up to time 60")
-figure.savefig("valve.png", dpi=80)
+figure.savefig("valve.png", dpi=160)

@@ -16,4 +16,4 @@ for k, axes in enumerate(frames):
     )
     axes.ticklabel_format(useOffset=False)
     axes.tick_params(labelsize=6)
-figure.savefig("zoom.png", dpi=80)
+figure.savefig("zoom.png", dpi=160)

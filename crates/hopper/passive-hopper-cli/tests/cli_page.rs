@@ -60,13 +60,23 @@ fn the_calls_of_the_page_of_any_model_give_its_output() {
         let file = file.unwrap();
         std::fs::copy(file.path(), folder.join(file.file_name())).unwrap();
     }
-    // The file of the page is that of the examples, but for its first line.
-    let shown = page.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
-    let ball = std::fs::read_to_string(folder.join("ball.toml")).unwrap();
-    assert_eq!(ball.split_once('\n').unwrap().1, shown);
-    check(page, 7, &folder);
-    for file in ["branch.png", "basin.png"] {
-        assert!(std::fs::metadata(folder.join(file)).unwrap().len() > 1000, "{file}");
+    // The files of the page are those of the examples, but for their first line.
+    let shown = page.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap());
+    for (file, shown) in ["ball.toml", "oscillator.toml"].iter().zip(shown) {
+        let own = std::fs::read_to_string(folder.join(file)).unwrap();
+        assert_eq!(own.split_once('\n').unwrap().1, shown);
+    }
+    check(page, 8, &folder);
+    assert!(std::fs::metadata(folder.join("branch.png")).unwrap().len() > 1000);
+    // The pictures of the page are those of its calls.
+    let figures = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../docs/figures");
+    for file in ["diagram.png", "basin.png"] {
+        let (own, shown) = (folder.join(file), figures.join(format!("nonsmooth_{file}")));
+        assert!(
+            std::fs::read(&own).unwrap() == std::fs::read(&shown).unwrap(),
+            "{}",
+            own.display()
+        );
     }
     std::fs::remove_dir_all(&folder).unwrap();
 }

@@ -52,7 +52,8 @@ pub(crate) fn totals(verdicts: &[Verdict]) -> String {
         };
         format!("{program} | {events} | {missed} | {wrong} | {right} of {} | {times}", own.len())
     };
-    let columns = "program | events: | missed: | wrong: | scenes that end right: | time, of ours:";
+    let columns =
+        "program | events: | missed: | wrong: | scenes that end right: | time per event, ours = 1:";
     markdown_table(columns, programs.iter().map(row))
 }
 

@@ -5,15 +5,30 @@
 //!                            the explorer ──► target/site/explorer        rustdoc ──► target/site/rust
 //! ```
 //!
-//! The pages are those of the repository: nothing is written twice. A link to a file that is no page leads to a copy of it, one to a folder to a list of
-//! its files.
+//! The pages are those of the repository: nothing is written twice. On the way to mdBook
+//!
+//! ```text
+//!   rust_links.rs   links to Rust items lead to the documentation of the crates
+//!   files.rs        links to files that are no pages lead to copies, those to folders to lists of their files
+//!   statements.rs   theorems that are named are links
+//!   mathematics.rs  indices and displays are set
+//!   check.rs        in the end, every link leads somewhere
+//! ```
+
+mod check;
+mod files;
+mod mathematics;
+mod rust_links;
+mod statements;
 
 use crate::error::Error;
 use crate::explorer_build::{build, target_folder, target_is_here};
 use crate::process::{cargo, print, say, skip, step, succeeds};
 use crate::repository::repository;
-use crate::tidy::links::{prose, resolve, targets};
-use std::collections::BTreeSet;
+use crate::tidy::links::{resolve, targets};
+use check::broken_links;
+use files::{copy_linked, linked};
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -79,6 +94,7 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
         step(&mut doc, "rustdoc")?;
         copy_folder(&target_folder().join("doc"), &folder.join("rust"))?;
     }
+    lead_to_rust(&folder, with_rust)?;
     let wrong = broken_links(&folder, with_rust && target_is_here())?;
     if let Some(first) = wrong.first() {
         let count = wrong.len();
@@ -130,9 +146,15 @@ fn written(work: &Path) -> Result<usize, Error> {
         pages.insert(page);
     }
     write(&source.join("SUMMARY.md"), summary.as_bytes())?;
+    let known = statements::anchors(&read(&root.join(statements::THEORY))?);
+    let title = |page: &String| Ok((page.clone(), title_of(&read(&root.join(page))?)));
+    let titles = pages.iter().map(title).collect::<Result<BTreeMap<_, _>, Error>>()?;
     for page in &pages {
         let text = read(&root.join(page))?;
-        let (text, copies) = linked(page, &text, &pages)?;
+        let text = rust_links::marked(page, &text, &pages);
+        let (text, copies) = linked(page, &text, &titles)?;
+        let text = statements::linked(page, &text, &known);
+        let text = mathematics::set(page, &colored(page, &text));
         let place = if page == FRONT { "front.md" } else { page };
         write(&source.join(place), text.as_bytes())?;
         for file in copies {
@@ -142,74 +164,37 @@ fn written(work: &Path) -> Result<usize, Error> {
     Ok(pages.len())
 }
 
-/// A page with its links as the site has them, and the files that they lead to.
-fn linked(
-    page: &str,
-    text: &str,
-    pages: &BTreeSet<String>,
-) -> Result<(String, Vec<String>), Error> {
-    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
-    let mut copies = Vec::new();
-    for (number, line) in prose(text) {
-        for target in targets(&line) {
-            if target.contains("://") || target.contains("::") || target.starts_with('#') {
-                continue;
-            }
-            let (path, heading) =
-                target.split_once('#').map_or((target, ""), |(path, h)| (path, h));
-            let Some(file) = resolve(page, path) else { continue };
-            let is_page = pages.contains(&file);
-            if !is_page {
-                if file.ends_with(".md") {
-                    let text =
-                        format!("{page}, line {number}: {file} is no page of {SUMMARY}; add it");
-                    return Err(Error::new(text));
-                }
-                copies.push(file.clone());
-            }
-            let is_folder = !is_page && repository().join(&file).is_dir();
-            // The front page is at the root of the site. mdBook calls a page README.md index.html.
-            let is_index = is_page && file.ends_with("/README.md");
-            let moved = match (page == FRONT, is_folder) {
-                (true, _) if is_index => file.replace("README.md", "index.md"),
-                (false, _) if is_index => path.replace("README.md", "index.md"),
-                (true, _) => file.clone(),
-                (false, true) => format!("{}/index.html", path.trim_end_matches('/')),
-                (false, false) => continue,
-            };
-            let anchor = if heading.is_empty() { String::new() } else { format!("#{heading}") };
-            let (old, new) = (format!("]({target})"), format!("]({moved}{anchor})"));
-            if let Some(line) = lines.get_mut(number - 1) {
-                *line = line.replace(&old, &new);
-            }
-        }
-    }
-    Ok((lines.join("\n") + "\n", copies))
+/// The heading of a page.
+fn title_of(text: &str) -> String {
+    let heading = text.lines().find_map(|line| line.strip_prefix("# "));
+    heading.unwrap_or_default().to_owned()
 }
 
-/// Copies a file, or the files of a folder with a list of them.
-fn copy_linked(root: &Path, source: &Path, file: &str) -> Result<(), Error> {
-    let (from, to) = (root.join(file), source.join(file));
-    if !from.is_dir() {
-        return write(&to, &std::fs::read(&from).map_err(Error::at(&from))?);
-    }
-    let mut names = Vec::new();
-    for entry in std::fs::read_dir(&from).map_err(Error::at(&from))?.flatten() {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
-        // mdBook leaves other pages out.
-        if is_file && !name.ends_with(".md") && !name.starts_with('.') {
-            copy_linked(root, source, &format!("{file}/{name}"))?;
-            names.push(name);
+/// A page of a crate, whose code without a language is Rust, as for rustdoc.
+fn colored(page: &str, text: &str) -> String {
+    let (is_of_crate, mut fenced) = (page.starts_with("crates/"), false);
+    let line = |line: &str| {
+        let is_fence = line.trim_start().starts_with("```");
+        let bare = is_fence && !fenced && line.trim() == "```" && is_of_crate;
+        fenced ^= is_fence;
+        if bare { format!("{line}rust") } else { line.to_owned() }
+    };
+    text.lines().map(line).collect::<Vec<_>>().join("\n") + "\n"
+}
+
+/// Leads the links to Rust items of all pages to the documentation of the crates, if it is there.
+fn lead_to_rust(folder: &Path, with_rust: bool) -> Result<(), Error> {
+    let rust = folder.join("rust");
+    for page in check::pages(folder)? {
+        let depth = page.strip_prefix(folder).unwrap_or(&page).components().count() - 1;
+        let html = read(&page)?;
+        let new = rust_links::resolved(&html, &"../".repeat(depth), with_rust.then_some(&*rust));
+        let new = new.map_err(|error| Error::new(format!("{}: {error}", page.display())))?;
+        if new != html {
+            write(&page, new.as_bytes())?;
         }
     }
-    names.sort();
-    let row = |name: &String| format!("<li><a href=\"{name}\">{name}</a></li>");
-    let list: String = names.iter().map(row).collect();
-    let page = format!(
-        "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>{file}</title><h1>{file}</h1><ul>{list}</ul></html>"
-    );
-    write(&to.join("index.html"), page.as_bytes())
+    Ok(())
 }
 
 /// Copies a folder with all that is in it.
@@ -224,44 +209,4 @@ fn copy_folder(from: &Path, to: &Path) -> Result<(), Error> {
         }
     }
     Ok(())
-}
-
-/// Links of the book's pages to files that are not there, with their pages. The documentation of the crates has its own check by rustdoc.
-fn broken_links(folder: &Path, whole: bool) -> Result<Vec<String>, Error> {
-    let (mut wrong, mut left) = (Vec::new(), vec![folder.to_owned()]);
-    while let Some(own) = left.pop() {
-        for entry in std::fs::read_dir(&own).map_err(Error::at(&own))?.flatten() {
-            let path = entry.path();
-            let name = path.strip_prefix(folder).unwrap_or(&path).to_string_lossy().into_owned();
-            if path.is_dir() && !["rust", "explorer"].contains(&name.as_str()) {
-                left.push(path);
-            } else if name.ends_with(".html") {
-                let text = read(&path)?;
-                let found = references(&text)
-                    .filter(|target| !leads_somewhere(&path, folder, target, whole));
-                wrong.extend(found.map(|target| format!("{name}: {target}")));
-            }
-        }
-    }
-    wrong.sort();
-    Ok(wrong)
-}
-
-/// What the attributes `href` and `src` of a page name.
-fn references(text: &str) -> impl Iterator<Item = &str> {
-    ["href=\"", "src=\""].into_iter().flat_map(move |mark| {
-        text.match_indices(mark)
-            .filter_map(move |(at, mark)| text[at + mark.len()..].split('"').next())
-    })
-}
-
-/// Whether a target is outside of the site, or a file of it.
-fn leads_somewhere(page: &Path, folder: &Path, target: &str, whole: bool) -> bool {
-    let path = target.split(['#', '?']).next().unwrap_or_default();
-    if path.is_empty() || path.contains(':') || path.starts_with('/') {
-        return true;
-    }
-    let file = page.parent().unwrap_or(folder).join(path.replace("%20", " "));
-    let is_left_out = path.contains("rust/") || path.contains("explorer/");
-    file.exists() || (!whole && is_left_out)
 }

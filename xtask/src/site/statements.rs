@@ -1,0 +1,102 @@
+//! Theorems: each has an anchor on the page of the theory, and where one is named is a link to it.
+
+use crate::tidy::links::resolve;
+
+/// The page that has them.
+pub(super) const THEORY: &str = "docs/theory.md";
+
+const KINDS: [&str; 4] = ["Theorem", "Lemma", "Corollary", "Proposition"];
+
+/// A page with its statements linked; `known` are the anchors of the theory.
+pub(super) fn linked(page: &str, text: &str, known: &[String]) -> String {
+    let mut fenced = false;
+    let mut lines = Vec::new();
+    for line in text.lines() {
+        let is_fence = line.trim_start().starts_with("```");
+        fenced ^= is_fence;
+        if fenced || is_fence || line.starts_with('#') || line.starts_with("    ") {
+            lines.push(line.to_owned());
+            continue;
+        }
+        let own = if page == THEORY { statement(line) } else { None };
+        match own {
+            // The statement itself is no mention.
+            Some(anchor) => lines.push(format!("<a id=\"{anchor}\"></a>{line}")),
+            None => lines.push(mentions(page, line, known)),
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+/// The anchors of all statements of the theory.
+pub(super) fn anchors(theory: &str) -> Vec<String> {
+    theory.lines().filter_map(statement).collect()
+}
+
+/// The anchor of a line that begins with a statement, such as `**Lemma 27 (…`.
+fn statement(line: &str) -> Option<String> {
+    let rest = line.strip_prefix("**")?;
+    let (kind, rest) = rest.split_once(' ')?;
+    let number: String = rest.chars().take_while(char::is_ascii_digit).collect();
+    (KINDS.contains(&kind) && !number.is_empty()).then(|| anchor(kind, &number))
+}
+
+fn anchor(kind: &str, number: &str) -> String {
+    format!("{}-{number}", kind.to_lowercase())
+}
+
+/// A line in which each statement that is named, and is in no link or code, is a link.
+fn mentions(page: &str, line: &str, known: &[String]) -> String {
+    let (mut result, mut rest) = (String::with_capacity(line.len()), line);
+    while let Some((at, kind)) =
+        KINDS.iter().filter_map(|kind| Some((rest.find(&format!("{kind} "))?, *kind))).min()
+    {
+        let (before, from) = rest.split_at(at);
+        result.push_str(before);
+        let words = &from[kind.len() + 1..];
+        let number: String = words.chars().take_while(char::is_ascii_digit).collect();
+        let (word, after) = from.split_at(kind.len() + 1 + number.len());
+        let own = anchor(kind, &number);
+        let quiet = is_inside(&result);
+        if number.is_empty() || quiet || !known.contains(&own) {
+            result.push_str(word);
+        } else {
+            result.push_str(&format!("[{word}]({}#{own})", path_to_theory(page)));
+        }
+        rest = after;
+    }
+    result + rest
+}
+
+/// Whether what follows this text is in code, or in the text or the target of a link.
+fn is_inside(text: &str) -> bool {
+    let open = |a: char, b: char| text.matches(a).count() > text.matches(b).count();
+    let target = text.rfind("](").is_some_and(|at| !text[at..].contains(')'));
+    text.matches('`').count() % 2 == 1 || open('[', ']') || target
+}
+
+/// The path of the theory from a page; empty on itself.
+fn path_to_theory(page: &str) -> String {
+    if page == THEORY {
+        return String::new();
+    }
+    let up =
+        resolve(page, ".").unwrap_or_default().split('/').filter(|part| !part.is_empty()).count();
+    format!("{}{THEORY}", "../".repeat(up))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn statements_have_anchors_and_mentions_lead_there() {
+        let theory = "**Lemma 27 (one maximum).** By Theorem 3.\n\n**Theorem 3.** Text.\n";
+        let known = anchors(theory);
+        assert_eq!(known, ["lemma-27", "theorem-3"]);
+        assert!(linked(THEORY, theory, &known).starts_with("<a id=\"lemma-27\"></a>**Lemma 27"));
+        let text = "See Theorem 3, `Theorem 3`, [Lemma 27](a.md), Lemma 99.";
+        let expected = "See [Theorem 3](../docs/theory.md#theorem-3), `Theorem 3`, [Lemma 27](a.md), Lemma 99.\n";
+        assert_eq!(linked("docs/note.md", text, &known), expected);
+    }
+}
