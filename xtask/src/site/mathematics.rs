@@ -18,7 +18,8 @@ pub(super) fn set(page: &str, text: &str) -> String {
             && line.starts_with("    ")
             && (display || before.trim().is_empty());
         if is_display != display {
-            result.push_str(if is_display { "<div class=\"formula\">\n" } else { "</div>\n" });
+            // Each line break of a display is shown.
+            result.push_str(if is_display { "<div class=\"formula\">" } else { "</div>\n" });
             display = is_display;
         }
         if fenced || is_fence || line.starts_with('#') || line.starts_with("    ") && !is_display {
@@ -146,7 +147,7 @@ mod tests {
     #[test]
     fn indented_lines_of_a_page_of_formulas_are_displays() {
         let text = "Text:\n\n    V_Y(h) < 1\n    a*b\n\nMore\n```sh\nx_1\n```\n";
-        let expected = "Text:\n\n<div class=\"formula\">\nV<sub>Y</sub>(h) &lt; 1\na*b\n</div>\n\nMore\n```sh\nx_1\n```\n";
+        let expected = "Text:\n\n<div class=\"formula\">V<sub>Y</sub>(h) &lt; 1\na*b\n</div>\n\nMore\n```sh\nx_1\n```\n";
         assert_eq!(set("docs/model.md", text), expected);
         assert!(set("docs/cli.md", text).contains("    V_Y(h) < 1"));
     }

@@ -28,10 +28,13 @@ pub(super) fn marked(page: &str, text: &str, pages: &BTreeSet<String>) -> String
                 Some(rest) => format!("{own}::{rest}"),
                 None => item.to_owned(),
             };
+            let (item, heading) =
+                item.split_once('#').map_or((&*item, ""), |(item, own)| (item, own));
             let name = item.rsplit("::").next().unwrap_or_default();
             let beside = page.rsplit_once('/').map_or("", |(folder, _)| folder);
             let new = match pages.contains(&format!("{beside}/{name}.md")) {
-                true => format!("{name}.md"),
+                true if heading.is_empty() => format!("{name}.md"),
+                true => format!("{name}.md#{heading}"),
                 false => format!("{MARK}{item}"),
             };
             *whole = whole.replace(&format!("]({target})"), &format!("]({new})"));
@@ -41,7 +44,7 @@ pub(super) fn marked(page: &str, text: &str, pages: &BTreeSet<String>) -> String
     lines.join("\n") + "\n"
 }
 
-/// Items that are named as [`path::Item`], without a target.
+/// Items that are named in brackets and backticks, without a target.
 fn with_shortcuts(line: &str) -> String {
     let (mut result, mut rest) = (String::with_capacity(line.len()), line);
     while let Some(at) = rest.find("[`") {
@@ -118,8 +121,8 @@ mod tests {
     #[test]
     fn items_are_marked_by_their_crate() {
         let pages = BTreeSet::from(["crates/any/a-b/docs/certainty.md".to_owned()]);
-        let text = "[g](crate::Guard) [f](fn@crate::many) [c](crate::certainty) [`x::Y`] `[z](crate::Z)`\n";
-        let expected = "[g](rust:a_b::Guard) [f](rust:a_b::many) [c](certainty.md) [`x::Y`](rust:x::Y) `[z](crate::Z)`\n";
+        let text = "[g](crate::Guard) [f](fn@crate::many) [c](crate::certainty#a) [`x::Y`] `[z](crate::Z)`\n";
+        let expected = "[g](rust:a_b::Guard) [f](rust:a_b::many) [c](certainty.md#a) [`x::Y`](rust:x::Y) `[z](crate::Z)`\n";
         assert_eq!(marked("crates/any/a-b/docs/guide.md", text, &pages), expected);
     }
 

@@ -61,6 +61,10 @@ fn mentions(page: &str, line: &str, known: &[String]) -> String {
         if number.is_empty() || quiet || !known.contains(&own) {
             result.push_str(word);
         } else {
+            // The link says on which page it is.
+            if let Some(before) = result.strip_suffix("theory.md, ") {
+                result.truncate(before.len());
+            }
             result.push_str(&format!("[{word}]({}#{own})", path_to_theory(page)));
         }
         rest = after;
@@ -95,7 +99,7 @@ mod tests {
         let known = anchors(theory);
         assert_eq!(known, ["lemma-27", "theorem-3"]);
         assert!(linked(THEORY, theory, &known).starts_with("<a id=\"lemma-27\"></a>**Lemma 27"));
-        let text = "See Theorem 3, `Theorem 3`, [Lemma 27](a.md), Lemma 99.";
+        let text = "See theory.md, Theorem 3, `Theorem 3`, [Lemma 27](a.md), Lemma 99.";
         let expected = "See [Theorem 3](../docs/theory.md#theorem-3), `Theorem 3`, [Lemma 27](a.md), Lemma 99.\n";
         assert_eq!(linked("docs/note.md", text, &known), expected);
     }
