@@ -1,5 +1,6 @@
 // The line M = const through the pinned point: dashed in the plane, and beside it the column of pixels at exactly this M.
 import { MARGIN } from "./axes.js";
+import { dim } from "./plane.js";
 import { state } from "./state.js";
 import { place, toX } from "./view.js";
 
@@ -67,6 +68,7 @@ export class Column {
     const bottom = place(state.view, 0, this.shown.alpha[0], box).top;
     context.imageSmoothingEnabled = false;
     context.drawImage(this.shown.bitmap, x, y + top, WIDE, bottom - top);
+    dim(context, x, y + top, WIDE, bottom - top);
     context.strokeStyle = ink;
     context.strokeRect(x - 0.5, y - 0.5, WIDE + 1, box.height + 1);
   }

@@ -2,7 +2,7 @@
 import { MARGIN, deepAxes, powerOfTen } from "./axes.js";
 import { change, say, state } from "./state.js";
 import { pretty, show } from "./numbers.js";
-import { MARK, dimmed, hatch, outlined } from "./plane.js";
+import { MARK, hatch, outlined } from "./plane.js";
 
 /** Pixels of the first frame and of the fine one, each way; behind it comes one with the pixels of the screen, up to the largest. */
 const QUICK = 48;
@@ -146,12 +146,10 @@ export class Deep {
     for (const frame of sorted) {
       const size = 10 ** (depth - frame.depth);
       if (!frame.bitmap || size < 0.02 || size > 1000) continue;
-      context.globalAlpha = dimmed();
       context.imageSmoothingEnabled = false;
       const [width, height] = [box.width * size, box.height * size];
       context.drawImage(frame.bitmap, middle.left - width / 2, middle.top - height / 2, width, height);
     }
-    context.globalAlpha = 1;
     if (this.parts.failed) hatch(context, MARGIN.left, MARGIN.top, box.width, box.height, true);
     outlined(context, MARK, () => context.arc(middle.left, middle.top, 7, 0, 2 * Math.PI));
   }

@@ -26,6 +26,8 @@ export function gestures(canvas, { zoom, move, click, twice, thrown, hover, box 
   canvas.addEventListener(
     "wheel",
     (event) => {
+      // Within another page the wheel scrolls that page, until the picture is clicked.
+      if (document.body.classList.contains("embedded") && !event.ctrlKey && document.activeElement !== canvas) return;
       event.preventDefault();
       // With Shift a wheel scrolls sideways in some browsers.
       const turned = (event.deltaY || event.deltaX) * (event.deltaMode === 1 ? 30 : 1);

@@ -10,7 +10,7 @@ export const KEYS = [
   ["Z Y", "the view before, the next one"],
   ["G", "places with names"],
   ["L", "M linear or logarithmic"],
-  ["1 2 …", "the layers, in the order of their buttons"],
+  ["1 2 … 9 0", "the layers, in the order of the list"],
   ["D", "deep zoom to the nearest edge"],
   ["Esc", "leave the deep zoom, the tour"],
   ["space", "play or pause"],

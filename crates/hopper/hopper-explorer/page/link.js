@@ -1,14 +1,14 @@
 // The address of a view. Doubles are written with all their digits, so that a link gives the same bits.
 import { DEEPEST } from "./deep.js";
-import { layers, state } from "./state.js";
+import { HOPS, layers, state } from "./state.js";
 import { isView } from "./view.js";
 
 export function write({ view, layer, pin, other, hops, depth }) {
-  const parts = [
-    `${view.logarithmic ? "log" : "lin"}=${[...view.x, ...view.alpha].join(",")}`,
-    `layer=${layers[layer].key}`,
-  ];
-  if (pin) parts.push(`pin=${pin.m},${pin.alpha}`, `hops=${hops}`);
+  const parts = [`${view.logarithmic ? "log" : "lin"}=${[...view.x, ...view.alpha].join(",")}`];
+  // What every view begins with is left out.
+  if (layers[layer].kind !== "shares") parts.push(`layer=${layers[layer].key}`);
+  if (pin) parts.push(`pin=${pin.m},${pin.alpha}`);
+  if (pin && hops !== HOPS) parts.push(`hops=${hops}`);
   if (other) parts.push(`with=${other.m},${other.alpha}`);
   if (document.body.classList.contains("embedded")) parts.push("embed");
   if (depth) parts.push(`depth=${depth.m},${depth.alpha},${depth.depth}`);

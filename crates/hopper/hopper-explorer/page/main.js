@@ -15,8 +15,8 @@ import { parse, pretty, show } from "./numbers.js";
 import { Plane } from "./plane.js";
 import { showFate, showOrbit, showPin, showProof, showSentence } from "./point_panel.js";
 import { Pool } from "./pool.js";
-import { change, layers, listen, say, state } from "./state.js";
-import { at, moved, toM, tooFine, withLogarithm, zoomed } from "./view.js";
+import { HOPS, change, layers, listen, say, state } from "./state.js";
+import { at, moved, rounded, toM, toPin, tooFine, withLogarithm, zoomed } from "./view.js";
 
 /** Hops of the orbit in the panels. */
 const ORBIT = 60;
@@ -73,6 +73,7 @@ const colorOf = (label) => colors.get(label) ?? (label < 65000 ? lastColor : col
 const byId = (id) => document.getElementById(id);
 const centre = () => ({ left: plane.box.width / 2, top: plane.box.height / 2 });
 const pointAt = (where) => at(state.view, where.left, where.top, plane.box);
+const pinAt = (where) => toPin(state.view, pointAt(where));
 
 function zoom(where, factorX, factorAlpha) {
   halt();
@@ -262,7 +263,7 @@ const goHome = () => {
 };
 const setLayer = (layer) => () => change({ layer });
 const setLogarithmic = (logarithmic) => change({ view: withLogarithm(state.view, logarithmic) });
-const pinCentre = () => { const { x, alpha } = pointAt(centre()); change({ pin: { m: toM(state.view, x), alpha } }); };
+const pinCentre = () => change({ pin: pinAt(centre()) });
 const scale = (x, alpha) => () => zoomGently(centre(), x, alpha);
 
 gestures(canvas, {
@@ -270,9 +271,8 @@ gestures(canvas, {
   move: (byLeft, byTop) => pan(-byLeft / plane.box.width, byTop / plane.box.height),
   click: (where) => {
     if (state.depth) return change({ pin: { m: state.depth.about.massRatio, alpha: state.depth.about.alpha } });
-    const { x, alpha } = pointAt(where);
-    const m = toM(state.view, x);
-    if (m > 0 && alpha > 0) change({ pin: { m, alpha } });
+    const pin = pinAt(where);
+    if (pin.m > 0 && pin.alpha > 0) change({ pin });
   },
   hover,
   twice: (where) => zoomGently(where, 0.4, 0.4),
@@ -284,7 +284,7 @@ gestures(canvas, {
     if (!large) return;
     const [a, b] = [pointAt(from), pointAt(to)];
     const sorted = (one, other) => [Math.min(one, other), Math.max(one, other)];
-    change({ view: { ...state.view, x: sorted(a.x, b.x), alpha: sorted(a.alpha, b.alpha) } });
+    change({ view: rounded({ ...state.view, x: sorted(a.x, b.x), alpha: sorted(a.alpha, b.alpha) }) });
   },
 });
 
@@ -316,7 +316,7 @@ keys({
   ArrowLeft: () => pan(-0.1, 0), ArrowRight: () => pan(0.1, 0), ArrowUp: () => pan(0, 0.1), ArrowDown: () => pan(0, -0.1),
   "+": scale(1 / 1.5, 1 / 1.5), "=": scale(1 / 1.5, 1 / 1.5), "-": scale(1.5, 1.5), "−": scale(1.5, 1.5),
   X: scale(1 / 1.5, 1), x: scale(1.5, 1), A: scale(1, 1 / 1.5), a: scale(1, 1.5),
-  Enter: pinCentre, h: goHome, l: () => setLogarithmic(!state.view.logarithmic), ...Object.fromEntries(layers.map((_, k) => [k + 1, setLayer(k)])),
+  Enter: pinCentre, h: goHome, l: () => setLogarithmic(!state.view.logarithmic), ...Object.fromEntries(layers.map((_, k) => [(k + 1) % 10, setLayer(k)])),
   d: deepHere, t: () => goTo(() => 0), n: () => touring && goTo(({ runs, at }) => (runs ? at + 1 : -1)), p: () => touring && goTo(({ at }) => (at > 0 ? at - 1 : at)),
   Escape: () => { if (state.depth) leaveDepth(); if (touring) goTo(() => -1); }, z: () => history.back(), y: () => history.forward(), g: places,
   " ": () => play(), ",": () => step(-1), ".": () => step(1), s: saveDialog, c: share, "?": help,
@@ -366,7 +366,7 @@ function follow(hash) {
   const { fields, wrong } = read(hash);
   const { depth, embedded, ...rest } = fields;
   if (embedded) embed();
-  change({ view: home, layer: usual, pin: null, other: null, depth: null, ...rest });
+  change({ view: home, layer: usual, pin: null, other: null, hops: HOPS, depth: null, ...rest });
   begin(depth !== undefined);
   if (depth) openDepth(depth.m, depth.alpha, depth.depth);
   if (wrong.length > 0) queueMicrotask(() => say(`A part of the address makes no sense and is left out: ${wrong.join(", ")}`));

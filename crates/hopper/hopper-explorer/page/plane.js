@@ -173,6 +173,7 @@ export function paint(context, plane, ratio) {
   context.clip();
   if (plane.overlay) plane.overlay.paint(context, box);
   else paintTiles(context, plane, box);
+  dim(context, MARGIN.left, MARGIN.top, box.width, box.height);
   if (!plane.overlay) {
     if (state.other) paintKept(context, box);
     if (plane.hovered) paintOrbit(context, box, plane.hovered, 0.5);
@@ -190,9 +191,15 @@ export function paint(context, plane, ratio) {
 export const axesOf = (plane) =>
   plane.overlay ? plane.overlay.axes(plane.size) : planeAxes(state.view, plane.size, plane.legend.fixedPoints);
 
-/** In the dark the colours are dimmed: a large light area would dazzle. */
+/** In the dark the colours are dimmed: a large light area would dazzle. Once for all pictures, which may lie over each other. */
 const dark = matchMedia("(prefers-color-scheme: dark)");
-export const dimmed = () => (dark.matches ? 0.7 : 1);
+export function dim(context, left, top, width, height) {
+  if (!dark.matches) return;
+  context.globalAlpha = 0.3;
+  context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--paper");
+  context.fillRect(left, top, width, height);
+  context.globalAlpha = 1;
+}
 
 function paintTiles(context, plane, box) {
   const ratio = window.devicePixelRatio || 1;
@@ -205,7 +212,6 @@ function paintTiles(context, plane, box) {
     const to = place(state.view, x[1], alpha[0], box);
     const [left, top] = [snap(MARGIN.left + from.left), snap(MARGIN.top + from.top)];
     const [right, bottom] = [snap(MARGIN.left + to.left), snap(MARGIN.top + to.top)];
-    context.globalAlpha = dimmed();
     context.imageSmoothingEnabled = (right - left) * ratio < SIZE;
     for (const picture of pictures)
       context.drawImage(
@@ -219,7 +225,6 @@ function paintTiles(context, plane, box) {
         right - left,
         bottom - top,
       );
-    context.globalAlpha = 1;
     const failed = plane.store.hasFailed(tile);
     if (failed || pictures.length === 0) hatch(context, left, top, right - left, bottom - top, failed);
   }

@@ -1,11 +1,14 @@
 // What the page shows, in one place. A change tells all who listen, once a frame.
 
+/** Hops of the motion, until the reader chooses. */
+export const HOPS = 6;
+
 export const state = {
   view: { logarithmic: false, x: [0, 1], alpha: [4.4, 20.5] },
   layer: 0,
   pin: null, // { m, alpha }
   other: null, // the same: a point kept to compare
-  hops: 6, // hops of the motion
+  hops: HOPS, // hops of the motion
   depth: null, // { m, alpha, depth, about }: the deep view
 };
 

@@ -27,11 +27,32 @@ export function at(view, left, top, { width, height }) {
 /** The view with its scales multiplied by the factors; the point stays where it is. */
 export function zoomed(view, { x, alpha }, factorX, factorAlpha) {
   const around = ([low, high], centre, factor) => [centre - (centre - low) * factor, centre + (high - centre) * factor];
-  return bounded({ ...view, x: around(view.x, x, factorX), alpha: around(view.alpha, alpha, factorAlpha) }, view);
+  return bounded(rounded({ ...view, x: around(view.x, x, factorX), alpha: around(view.alpha, alpha, factorAlpha) }), view);
 }
 
 export function moved(view, byX, byAlpha) {
-  return bounded({ ...view, x: view.x.map((end) => end + byX), alpha: view.alpha.map((end) => end + byAlpha) }, view);
+  return bounded(rounded({ ...view, x: view.x.map((end) => end + byX), alpha: view.alpha.map((end) => end + byAlpha) }), view);
+}
+
+/** A part of a window that no screen shows: what is rounded to it has a short link. */
+const UNSEEN = 1e-5;
+
+/** A number with few decimals, not farther away than a part of a window of this width that no screen shows. */
+export function short(number, width) {
+  const decimals = Math.ceil(-Math.log10(width * UNSEEN));
+  return decimals >= 0 && decimals <= 100 ? Number(number.toFixed(decimals)) : number;
+}
+
+/** The point of the plane to pin, with few decimals. */
+export function toPin(view, { x, alpha }) {
+  const [low, high] = view.x.map((end) => toM(view, end));
+  return { m: short(toM(view, x), high - low), alpha: short(alpha, view.alpha[1] - view.alpha[0]) };
+}
+
+/** The same window with ends that have few decimals. */
+export function rounded(view) {
+  const ends = ([low, high]) => [short(low, high - low), short(high, high - low)];
+  return { ...view, x: ends(view.x), alpha: ends(view.alpha) };
 }
 
 /** Whether the pixels of an axis are too fine for doubles. */

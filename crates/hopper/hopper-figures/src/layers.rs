@@ -7,7 +7,9 @@ use crate::basins::{BasinWindow, draw_basins, draw_pixels};
 use crate::error::Error;
 use crate::fate_colors;
 use crate::layer_columns::{LayerColumns, fates, hops, proofs, shares};
-use crate::number_columns::{flight_times, phases, relative_losses, slopes, sudden_lift_offs};
+use crate::number_columns::{
+    digits, flight_times, phases, relative_losses, slopes, sudden_lift_offs,
+};
 use crate::scales::{Scale, draw_numbers};
 use basin_of_attraction::{Grid, Label, LabelImage};
 use journal_figures::palette::Color;
@@ -152,6 +154,22 @@ pub static LAYERS: &[Layer] = &[
             meaning: Meaning::Reals(Scale::Logarithmic { from: 0.1, to: 100.0 }),
             together: 1,
             columns: slopes,
+        }),
+    },
+    Layer {
+        key: "digits",
+        other_key: "depth-of-proof",
+        name: "depth of proof",
+        about: "The digits that the enclosed orbit still has where its fate is proved, of 16",
+        legend: "digits left where the fate is proved",
+        file: "digits",
+        pieces: "tiles of digits",
+        cost: 25.0,
+        content: Content::Values(Values {
+            bytes: 4,
+            meaning: Meaning::Reals(Scale::Linear { from: 0.0, to: 16.0 }),
+            together: 1,
+            columns: digits,
         }),
     },
 ];

@@ -3,7 +3,9 @@
 use crate::error::Error;
 use crate::layer_columns::LayerColumns;
 use hopper_basin::Fates;
+use hopper_proof::ProvedPoints;
 use passive_hopper::{Hop, LiftOffMap};
+use std::f64::consts::LN_10;
 
 /// The bits of a real number of a layer.
 fn bits(number: Option<f64>) -> u64 {
@@ -46,6 +48,21 @@ pub(crate) fn slopes(of: &LayerColumns) -> Result<Vec<Vec<u64>>, Error> {
         let map = LiftOffMap::new(ratio);
         let slope = |&speed: &f64| Ok(bits(map.slopes(speed)?.map(|slopes| slopes.by_speed.abs())));
         speeds.iter().map(slope).collect()
+    })
+}
+
+/// The digits that enclosed orbits have where their fates are proved.
+pub(crate) fn digits(of: &LayerColumns) -> Result<Vec<Vec<u64>>, Error> {
+    let speeds = of.speeds();
+    of.each(|ratio| {
+        let mut points = ProvedPoints::new(ratio.value())?;
+        let digits = |&speed: &f64| {
+            let fate = points.fate(speed)?;
+            // The enclosure of a double has 16 digits at most.
+            let digits = -pxfm::f_log(fate.spread.max(0.5 * f64::EPSILON)) / LN_10;
+            Ok(bits((!fate.label.is_undecided()).then_some(digits.clamp(0.0, 16.0))))
+        };
+        speeds.iter().map(digits).collect()
     })
 }
 

@@ -31,7 +31,7 @@ pub use fixed_points::fixed_point;
 pub use hop::proved_images::ProvedImages;
 pub use hop::strip::Strip;
 pub use line::ProvedLine;
-pub use points::ProvedPoints;
+pub use points::{PointFate, ProvedPoints};
 pub use theorems::cells::{CellShares, ProvedCells, ProvedStrip, proved_strips};
 pub use theorems::crisis::crises;
 pub use theorems::everything_hops::everything_hops;

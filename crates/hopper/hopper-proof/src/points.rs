@@ -15,6 +15,15 @@ const MOST_HOPS: usize = 500;
 /// The label of a speed without a proof.
 const WITHOUT_PROOF: Label = HopperFate::UNDECIDED_PRECISION;
 
+/// The fate of one speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointFate {
+    /// Its label; [`HopperFate::UNDECIDED_PRECISION`] without a proof.
+    pub label: Label,
+    /// The width of the last enclosure of the orbit, as a part of its speed: 10⁻¹⁶ has all digits, and 1 has none. In the trap itself it is 0.
+    pub spread: f64,
+}
+
 /// Proves the fates of single speeds at one mass ratio: the orbit is enclosed hop by hop until a proved trap
 /// contains it.
 ///
@@ -49,6 +58,14 @@ impl ProvedPoints {
     /// # Errors
     /// [`Error::Speeds`] unless the speed is from 0 to α*_n of the largest label.
     pub fn label(&mut self, speed: f64) -> Result<Label, Error> {
+        Ok(self.fate(speed)?.label)
+    }
+
+    /// The fate of one speed, and how wide the enclosure of its orbit is in the end.
+    ///
+    /// # Errors
+    /// As [`label`](Self::label).
+    pub fn fate(&mut self, speed: f64) -> Result<PointFate, Error> {
         let largest = alpha_star(HopperFate::LARGEST_LABEL);
         let (mut low, mut high) = (speed, speed);
         if !(speed >= 0.0 && speed <= largest) {
@@ -56,8 +73,10 @@ impl ProvedPoints {
         }
         for _ in 0..MOST_HOPS {
             let n = index_below(low)?;
+            let fate =
+                |label| Ok(PointFate { label, spread: (high - low) / high.max(f64::MIN_POSITIVE) });
             if self.trap(n)?.is_some_and(|trap| trap.left <= low && high <= trap.right) {
-                return Ok(HopperFate::label_of_fixed_point(n));
+                return fate(HopperFate::label_of_fixed_point(n));
             }
             let image = if low == high {
                 self.images.of_speed(low)
@@ -66,12 +85,12 @@ impl ProvedPoints {
                 self.images.of_all_between(&end(low), &end(high))
             };
             match image {
-                SpeedImage::Grounded => return Ok(HopperFate::GROUNDED),
-                SpeedImage::Unknown => return Ok(WITHOUT_PROOF),
+                SpeedImage::Grounded => return fate(HopperFate::GROUNDED),
+                SpeedImage::Unknown => return fate(WITHOUT_PROOF),
                 SpeedImage::Within(from, to) => (low, high) = (from, to),
             }
         }
-        Ok(WITHOUT_PROOF)
+        Ok(PointFate { label: WITHOUT_PROOF, spread: f64::INFINITY })
     }
 
     /// The trap of hump n, if it is proved.

@@ -1,10 +1,10 @@
 // What a first visitor sees, and the ways through the plane: history, places, edges, for every hand and eye.
 import assert from "node:assert/strict";
 import { createRequire } from "node:module";
-import { DIGEST, READY, pages, settled, view } from "./browser.mjs";
+import { DIGEST, READY, open, pages, settled, view } from "./browser.mjs";
 
 const axe = createRequire(process.env.EXPLORER_MODULES).resolve("axe-core");
-const { onPage } = pages();
+const { browser, onPage } = pages();
 /** A first visit. */
 const FIRST = " ";
 const time = (page) => page.inputValue("#time").then(Number);
@@ -246,18 +246,30 @@ onPage("what is touched is 24 pixels large", "#pin=0.08,6", async (page) => {
 for (const options of [{}, { colorScheme: "dark" }]) {
   onPage(
     `axe finds nothing with all panels open (${options.colorScheme ?? "light"})`,
-    "#pin=0.12,7.72",
+    "#pin=0.12,7.72&with=0.08,6",
     async (page) => {
+      await page.addScriptTag({ path: axe });
+      const check = async (name) => {
+        const found = await page.evaluate(() =>
+          axe.run().then(({ violations }) => violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 90))}`)),
+        );
+        assert.deepEqual(found, [], name);
+      };
       await page.waitForSelector("#stage svg");
       for (const id of ["orbit", "circle", "intervals", "same"]) await page.click(`#${id} summary`);
       await page.waitForSelector("#circle svg", READY);
+      await page.waitForSelector("#compare table", READY);
       await page.keyboard.press("t");
       await page.waitForSelector("#stop h2");
-      await page.addScriptTag({ path: axe });
-      const found = await page.evaluate(() =>
-        axe.run().then(({ violations }) => violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 90))}`)),
-      );
-      assert.deepEqual(found, []);
+      await check("panels");
+      await page.keyboard.press("Escape");
+      for (const id of ["others", "places", "save", "share", "help"]) {
+        await page.click(`#${id}`);
+        await page.waitForSelector("#dialog[open]", READY);
+        await check(id);
+        await page.keyboard.press("Escape");
+        await page.waitForSelector("#dialog:not([open])", { state: "attached" });
+      }
     },
     options,
   );
@@ -286,6 +298,57 @@ onPage(
       return [...context.getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data].slice(0, 3);
     });
     assert.ok(middle.every((part) => part > 150 && part < 200), `${middle}`);
+  },
+  { colorScheme: "dark" },
+);
+
+onPage("a link of a view and a point that a hand has chosen is short, and gives them back", "", async (page) => {
+  await page.mouse.move(420, 310);
+  for (let k = 0; k < 4; k++) await page.mouse.wheel(0, -240);
+  await page.mouse.click(433, 287);
+  await page.waitForFunction(() => location.hash.includes("pin="), null, READY);
+  const hash = new URL(page.url()).hash.replace("&layer=label", "");
+  assert.ok(hash.length < 80, hash);
+  const other = await open(browser(), hash);
+  const [one, two] = await Promise.all([page, other].map((own) => own.evaluate(() => JSON.stringify([explorer.state.view, explorer.state.pin]))));
+  assert.equal(one, two);
+  await other.context().close();
+});
+
+onPage("within another page the wheel scrolls that page until the picture is clicked", "#embed", async (page) => {
+  const view = () => page.evaluate(() => JSON.stringify(explorer.state.view));
+  const before = await view();
+  await page.mouse.move(420, 310);
+  await page.mouse.wheel(0, -240);
+  await page.waitForTimeout(100);
+  assert.equal(await view(), before);
+  await page.mouse.click(420, 310);
+  await page.mouse.wheel(0, -240);
+  await page.waitForFunction((before) => JSON.stringify(explorer.state.view) !== before, before);
+});
+
+onPage(
+  "in the dark each fate has one colour, also where pictures lie over each other",
+  "#lin=0.2,0.5,5,7",
+  async (page) => {
+    const found = await page.evaluate(() => {
+      const { canvas, context, legend } = explorer.plane;
+      const rgb = (color) => [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16));
+      const probe = document.createElement("canvas").getContext("2d");
+      probe.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--paper");
+      const paper = rgb(probe.fillStyle);
+      const wanted = legend.fates.map(({ color }) => rgb(color).map((part, k) => 0.7 * part + 0.3 * paper[k]));
+      const ratio = devicePixelRatio;
+      const { left, top } = explorer.plane.corner;
+      const { width, height } = explorer.plane.box;
+      const { data } = context.getImageData((left + 20) * ratio, (top + 20) * ratio, (width - 40) * ratio, (height - 40) * ratio);
+      let other = 0;
+      for (let at = 0; at < data.length; at += 4)
+        if (!wanted.some((color) => color.every((part, k) => Math.abs(part - data[at + k]) <= 2))) other += 1;
+      return other / (data.length / 4);
+    });
+    // Rings of an orbit, and edges between fates where a tile is scaled.
+    assert.ok(found < 0.05, `${found} of the pixels have another colour`);
   },
   { colorScheme: "dark" },
 );

@@ -104,7 +104,7 @@ fn run_job(
     output: &OutputOptions,
     streams: &mut Streams<'_>,
 ) -> Result<(), Error> {
-    let form = output.form(tables::ALL)?;
+    let form = output.form(&tables::ALL)?;
     let share = match (options.part, options.join) {
         (Some(part), _) => Share::Part(part),
         (None, true) => Share::Join,

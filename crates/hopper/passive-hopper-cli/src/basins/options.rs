@@ -189,7 +189,7 @@ pub(crate) const PAGE: Page = Page {
              shades, from 0, dark, to 9, light; --picture has the scale.\n\
              The number of threads does not change the results.",
     is_filter: false,
-    tables: tables::ALL,
+    tables: &tables::ALL,
     examples: &[
         Example {
             about: "The basins over the paper's window, coarsely.",

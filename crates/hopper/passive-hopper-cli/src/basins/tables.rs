@@ -3,7 +3,7 @@
 use crate::basins::pieces::Finished;
 use crate::basins::status::STATUS;
 use crate::output::{Cell, Column, Table, TableKind};
-use hopper_figures::{Meaning, Values};
+use hopper_figures::{Content, LAYERS, Layer, Meaning, Values};
 use resumable_job::Part;
 use serde_json::Value;
 
@@ -14,7 +14,7 @@ pub(crate) static FILES: TableKind = TableKind {
     columns: &[Column::new("path", "", "the file"), Column::new("content", "", "what it has")],
 };
 
-pub(crate) static LABELS: TableKind = TableKind {
+const LABELS: TableKind = TableKind {
     name: "labels",
     about: "one row for each fate that occurs",
     long: false,
@@ -26,7 +26,7 @@ pub(crate) static LABELS: TableKind = TableKind {
     ],
 };
 
-pub(crate) static PROOFS: TableKind = TableKind {
+const PROOFS: TableKind = TableKind {
     name: "proofs",
     about: "one row for each fate that occurs, proved or only computed, with --layer proof",
     long: false,
@@ -39,17 +39,13 @@ pub(crate) static PROOFS: TableKind = TableKind {
     ],
 };
 
-pub(crate) static HOPS: TableKind = TableKind {
-    name: "hops",
-    about: "the numbers of hops until the fate is known",
-    long: false,
-    columns: &[
-        Column::new("pixels", "", "number of pixels"),
-        Column::new("smallest", "hops", "smallest number"),
-        Column::new("largest", "hops", "largest number"),
-        Column::new("mean", "hops", "mean over all pixels").measured(),
-    ],
-};
+/// The columns of the tables of whole numbers.
+const NUMBERS: &[Column] = &[
+    Column::new("pixels", "", "number of pixels"),
+    Column::new("smallest", "", "smallest number"),
+    Column::new("largest", "", "largest number"),
+    Column::new("mean", "", "mean over all pixels").measured(),
+];
 
 /// The columns of the tables of real numbers.
 const REALS: &[Column] = &[
@@ -64,31 +60,32 @@ const REALS: &[Column] = &[
     Column::new("mean", "", "mean over all pixels that have one").measured(),
 ];
 
-const fn reals(name: &'static str, about: &'static str) -> TableKind {
-    TableKind { name, about, long: false, columns: REALS }
+/// The table of a layer. Those of fates have names of their own, and that of shares belongs to `coverage`.
+const fn table_of(layer: &'static Layer) -> TableKind {
+    let columns = match &layer.content {
+        Content::Shares(_) => return SHARES,
+        Content::Values(values) => match values.meaning {
+            Meaning::Fates { flag: None } => return LABELS,
+            Meaning::Fates { flag: Some(_) } => return PROOFS,
+            Meaning::Numbers { .. } => NUMBERS,
+            Meaning::Reals(_) => REALS,
+        },
+    };
+    TableKind { name: layer.key, about: layer.about, long: false, columns }
 }
 
-pub(crate) static PHASE: TableKind =
-    reals("phase", "the fractions of the phase Ψ, with --layer phase");
-pub(crate) static LOSS: TableKind =
-    reals("loss", "the shares of the energy that the next hop takes, with --layer loss");
-pub(crate) static FLIGHT: TableKind =
-    reals("flight", "the times of flight in units of 1/ω, with --layer flight");
-pub(crate) static SLOPE: TableKind = reals("slope", "|∂α′/∂α|, with --layer slope");
-
-pub(crate) static SUDDEN: TableKind = TableKind {
-    name: "sudden",
-    about: "the numbers of sudden lift-offs in the next hop, with --layer sudden",
-    long: false,
-    columns: &[
-        Column::new("pixels", "", "number of pixels"),
-        Column::new("smallest", "", "smallest number"),
-        Column::new("largest", "", "largest number"),
-        Column::new("mean", "", "mean over all pixels").measured(),
-    ],
+/// The tables of the layers, in their order.
+static OF_LAYERS: [TableKind; LAYERS.len()] = {
+    let mut all = [SHARES; LAYERS.len()];
+    let mut at = 0;
+    while at < all.len() {
+        all[at] = table_of(&LAYERS[at]);
+        at += 1;
+    }
+    all
 };
 
-pub(crate) static SHARES: TableKind = TableKind {
+pub(crate) const SHARES: TableKind = TableKind {
     name: "shares",
     about: "one row for each fate that occurs, of `coverage` and `scales`",
     long: false,
@@ -127,28 +124,25 @@ pub(crate) static PARTS: TableKind = TableKind {
     ],
 };
 
-/// The table of each layer, by its key.
-const OF_LAYERS: [(&str, &TableKind); 8] = [
-    ("label", &LABELS),
-    ("hops", &HOPS),
-    ("proof", &PROOFS),
-    ("phase", &PHASE),
-    ("loss", &LOSS),
-    ("sudden", &SUDDEN),
-    ("flight", &FLIGHT),
-    ("slope", &SLOPE),
-];
-
-/// The table of a layer; `None` for a layer that has none.
+/// The table of a layer; `None` for other words.
 pub(crate) fn of_layer(key: &str) -> Option<&'static TableKind> {
-    OF_LAYERS.iter().find(|(own, _)| *own == key).map(|(_, table)| *table)
+    LAYERS.iter().zip(&OF_LAYERS).find(|(layer, _)| layer.key == key).map(|(_, table)| table)
 }
 
+/// The other tables.
+const OTHERS: [&TableKind; 4] = [&EDGE, &PARTS, &FILES, &STATUS];
+
 /// All tables, the main one first.
-pub(crate) const ALL: &[&TableKind] = &[
-    &LABELS, &HOPS, &PROOFS, &PHASE, &LOSS, &SUDDEN, &FLIGHT, &SLOPE, &SHARES, &EDGE, &PARTS,
-    &FILES, &STATUS,
-];
+pub(crate) static ALL: [&TableKind; LAYERS.len() + OTHERS.len()] = {
+    let mut all = [OTHERS[0]; LAYERS.len() + OTHERS.len()];
+    let mut at = 0;
+    while at < all.len() {
+        all[at] =
+            if at < LAYERS.len() { &OF_LAYERS[at] } else { OTHERS[at - LAYERS.len()] };
+        at += 1;
+    }
+    all
+};
 
 /// The tables of a call: those that have no meaning for it are absent.
 #[derive(Debug, Default)]
