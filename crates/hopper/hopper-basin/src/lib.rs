@@ -34,7 +34,7 @@
 //! | [`LocalFractions`], [`Ground`] | the shares of the fates next to α*_n, with bounds, and what the bounds stand on |
 //! | [`share_raster`], [`ShareRaster`], [`ShareColumn`], [`Upwards`] | the shares over mass ratio and phase, or over mass ratio and log |δ| |
 //! | [`GapCount`] | how many boundary points are seen left of α*_n at a given scale, and the law of their number |
-//! | [`EdgeChart`], [`edge_window`], [`edge_phase`] | windows of any width about a speed that comes to α*_n exactly, and their pixels |
+//! | [`EdgeChart`], [`edge_window`], [`edge_phase`], [`edge_phases`] | windows of any width about a speed that comes to α*_n exactly, and their pixels |
 //! | [`GroundingEdge`] | speeds from which a hop just uses up the energy, with the law beside them |
 //! | [`FollowedEdge`], [`edge_frame`], [`frame_slant`] | such a speed over the mass ratio, and windows of (M, α) about it |
 //! | [`first_humps`] | the lift-off speeds [α*_1, α*_{k+1}]; the paper's window has k = 5 |
@@ -85,6 +85,7 @@ pub use basins::window::{FIG_8, FIG_9, FigureWindow, first_humps};
 pub use circle::circle_limits::{CircleLimits, Ground};
 pub use circle::edge_chart::EdgeChart;
 pub use circle::edge_path::{FollowedEdge, enclosed_edge_slope};
+pub use circle::edge_phases::edge_phases;
 pub use circle::edge_window::{edge_frame, edge_label, edge_phase, edge_window, frame_slant};
 pub use circle::falls_onto::FallsOnto;
 pub use circle::gap_count::GapCount;

@@ -3,7 +3,7 @@
 //! `cargo run --example native_answers -- FILE`
 
 use hopper_explorer::{Depth, Tile, motion, numbered, point, strip};
-use hopper_figures::LAYERS;
+use hopper_figures::{LAYERS, Layer};
 use std::time::Instant;
 
 /// Ten points with fates of every kind.
@@ -80,7 +80,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         POINTS.iter().map(|&(m, alpha)| point(m, alpha, 60)).collect::<Result<Vec<_>, _>>()?;
     let heights = motion(0.2, 7.0, 6)?;
     let depth = Depth::near(0.12, 11.920553918335775)?;
-    let frame = digest(depth.frame(100.0, 64, 64)?);
+    let shares = Layer::of("coverage").ok_or("no layer of shares")?;
+    let frame = digest(depth.frame(shares, 100.0, (64, 64))?);
     let motion = digest(heights.iter().flat_map(|number| number.to_le_bytes()));
     let samples: Vec<String> = heights.iter().map(|number| format!("{number:?}")).collect();
     let names: Vec<String> = LAYERS.iter().map(|layer| format!("{:?}", layer.name)).collect();

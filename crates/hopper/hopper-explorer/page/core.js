@@ -68,9 +68,9 @@ export class Core {
     return this.#json(this.exports.depth_phase(depth));
   }
   /** The fate at a point of such a frame, in half widths and half heights from its middle. */
-  depthLabel(depth, x, y, m, alpha) {
+  depthLabel(layer, depth, x, y, m, alpha) {
     this.openDepth(m, alpha);
-    return this.#json(this.exports.depth_label(depth, x, y));
+    return this.#json(this.exports.depth_label(layer, depth, x, y));
   }
   systems() {
     return this.#json(this.exports.systems()).systems;
@@ -81,8 +81,8 @@ export class Core {
     return new Uint8ClampedArray(this.#answer(status).buffer);
   }
   /** The frame about the opened boundary point, or about the one at (m, alpha): a worker that replaces a dead one opens it again. */
-  depthFrame(depth, columns, rows, m, alpha) {
+  depthFrame(layer, depth, columns, rows, m, alpha) {
     if (m !== undefined) this.openDepth(m, alpha);
-    return new Uint8ClampedArray(this.#answer(this.exports.depth_frame(depth, columns, rows)).buffer);
+    return new Uint8ClampedArray(this.#answer(this.exports.depth_frame(layer, depth, columns, rows)).buffer);
   }
 }

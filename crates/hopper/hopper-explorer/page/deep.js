@@ -1,6 +1,6 @@
 // The deep view: the chart of a boundary point, at any scale. The boundary point may be moved to the edge of the picture.
 import { MARGIN, deepAxes, powerOfTen } from "./axes.js";
-import { change, say, state } from "./state.js";
+import { change, layers, say, state } from "./state.js";
 import { pretty, show } from "./numbers.js";
 import { MARK, hatch, outlined } from "./plane.js";
 
@@ -14,6 +14,11 @@ const SLOW = 300;
 const TWICE = Math.log10(2);
 /** Frames that are kept. */
 const KEPT = 48;
+/** The layer that the deep view shows: that of the plane, or the exact shares if that layer is nothing there. */
+export function deepLayer() {
+  if (layers[state.layer].besideEdges !== "nothing") return state.layer;
+  return layers.findIndex(({ kind }) => kind === "shares");
+}
 /** Depths at which the chart is left for the plane, and the deepest one: there a fine frame takes seconds, and at 2000 half a minute. */
 export const SHALLOWEST = 5.5;
 export const DEEPEST = 1000;
@@ -46,9 +51,11 @@ export class Deep {
   async at({ left, top }, { width, height }) {
     const { depth, about, shift } = state.depth;
     const [x, y] = [(2 * left) / width - 1 - shift[0], 1 - (2 * top) / height - shift[1]];
-    const fate = await this.desk.ask("depthLabel", depth, x, y, about.massRatio, about.alpha);
+    const layer = deepLayer();
+    const fate = await this.desk.ask("depthLabel", layer, depth, x, y, about.massRatio, about.alpha);
+    const number = fate.number === undefined ? "" : `; ${layers[layer].legend}: ${show(fate.number, 6)}`;
     const times = (place, exponent) => `${show(place, 3)}·${powerOfTen(exponent)}`;
-    return `α − p = ${times(y, -depth)}, M − M₀ = ${times(x, Math.log10(about.slant) - depth)}: ${fate.plain}`;
+    return `α − p = ${times(y, -depth)}, M − M₀ = ${times(x, Math.log10(about.slant) - depth)}: ${fate.plain}${number}`;
   }
 
   /** Pixels of the best frame each way. */
@@ -61,7 +68,8 @@ export class Deep {
   /** The next frame that is wanted: its depth and its pixels. */
   #next() {
     const { depth, shift } = state.depth;
-    const has = (own, pixels) => this.frames.some((frame) => frame.depth === own && frame.pixels >= pixels);
+    const layer = deepLayer();
+    const has = (own, pixels) => this.frames.some((frame) => frame.layer === layer && frame.depth === own && frame.pixels >= pixels);
     const most = this.#most();
     const wanted = [[depth, QUICK]];
     if (shift.some((place) => place !== 0)) wanted.push([depth - TWICE, FINE]);
@@ -87,16 +95,17 @@ export class Deep {
       return;
     }
     const [depth, pixels] = next;
+    const layer = deepLayer();
     this.busy = true;
     if (pixels === QUICK) await this.#findPhase(depth, about);
     try {
-      const data = await this.desk.ask("depthFrame", depth, pixels, pixels, about.massRatio, about.alpha);
+      const data = await this.desk.ask("depthFrame", layer, depth, pixels, pixels, about.massRatio, about.alpha);
       const bitmap = await createImageBitmap(new ImageData(data, pixels, pixels));
-      if (state.depth?.about === about) this.frames.push({ depth, pixels, bitmap });
+      if (state.depth?.about === about) this.frames.push({ layer, depth, pixels, bitmap });
       while (this.frames.length > KEPT) this.frames.shift().bitmap?.close();
     } catch (error) {
       say(`No picture at this depth: ${error.message}`);
-      if (state.depth?.about === about) this.frames.push({ depth, pixels: LARGEST, bitmap: null });
+      if (state.depth?.about === about) this.frames.push({ layer, depth, pixels: LARGEST, bitmap: null });
     }
     this.busy = false;
     this.plane.refresh();
@@ -128,7 +137,8 @@ export class Deep {
 
   /** The quick frame and the fine one of the present depth: both, those that are there, and those that failed. */
   get parts() {
-    const here = this.frames.filter(({ depth }) => depth === state.depth.depth);
+    const layer = deepLayer();
+    const here = this.frames.filter((frame) => frame.layer === layer && frame.depth === state.depth.depth);
     const failed = here.some(({ bitmap }) => !bitmap);
     const fine = here.some(({ pixels, bitmap }) => bitmap && pixels >= FINE);
     return { all: 2, there: fine ? 2 : here.filter(({ bitmap }) => bitmap).length, failed: failed ? 1 : 0 };
@@ -142,7 +152,8 @@ export class Deep {
       top: MARGIN.top + ((1 - shift[1]) * box.height) / 2,
     };
     // The wider a frame, the earlier it is drawn; a fine one after a quick one of the same depth.
-    const sorted = [...this.frames].sort((a, b) => a.depth - b.depth || a.pixels - b.pixels);
+    const layer = deepLayer();
+    const sorted = this.frames.filter((frame) => frame.layer === layer).sort((a, b) => a.depth - b.depth || a.pixels - b.pixels);
     for (const frame of sorted) {
       const size = 10 ** (depth - frame.depth);
       if (!frame.bitmap || size < 0.02 || size > 1000) continue;
@@ -160,6 +171,11 @@ export class Deep {
 
   /** The view in words. */
   words() {
+    const { name, besideEdges } = layers[state.layer];
+    return besideEdges === "nothing" ? `${this.#words()}. The layer “${name}” is nothing here: the fates are shown` : this.#words();
+  }
+
+  #words() {
     const { depth, about } = state.depth;
     if (about.kind === "grounding")
       return (

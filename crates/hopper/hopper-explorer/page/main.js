@@ -2,7 +2,7 @@
 import { MARGIN } from "./axes.js";
 import { Column } from "./column.js";
 import { Core } from "./core.js";
-import { Deep, SHALLOWEST } from "./deep.js";
+import { Deep, SHALLOWEST, deepLayer } from "./deep.js";
 import { gestures } from "./gestures.js";
 import { ZOOM, glide, halt, thrown } from "./glide.js";
 import { begin, keep } from "./history.js";
@@ -233,7 +233,7 @@ async function showKept() {
 
 const showSame = async () => (await same()).fill(byId("same").querySelector("div"));
 
-const showLegend = () => paintLegend(legend, state.depth ? layers.find((layer) => layer.kind === "shares") : layers[state.layer]);
+const showLegend = () => paintLegend(legend, layers[state.depth ? deepLayer() : state.layer]);
 
 // The tour, which is loaded when it begins.
 let touring = null;

@@ -1,5 +1,6 @@
 // Files of what is seen: PNG, SVG, CSV. Each holds its parameters and the address of the view.
 import { MARGIN, letterSize, svgAxes } from "./axes.js";
+import { deepLayer } from "./deep.js";
 import { address } from "./link.js";
 import { axesOf, paint } from "./plane.js";
 import { withTexts } from "./png_text.js";
@@ -18,7 +19,7 @@ export function parameters(deep, layer = state.layer) {
     ? deep.words()
     : `M from ${toM(view, view.x[0])} to ${toM(view, view.x[1])}${view.logarithmic ? " (logarithmic)" : ""}, alpha from ${view.alpha[0]} to ${view.alpha[1]}`;
   const point = pin ? `; pinned: M = ${pin.m}, alpha = ${pin.alpha}` : "";
-  return `Passive hopper, ${depth ? "shares about an edge" : layers[layer].name}: ${window}${point}`;
+  return `Passive hopper, ${depth ? `${layers[deepLayer()].name} about an edge` : layers[layer].name}: ${window}${point}`;
 }
 
 /** Waits for the parts of the picture, as long as `wait` says so. The texts are those of the picture that is painted next. */

@@ -4,12 +4,12 @@ use crate::json::Json;
 use crate::labels;
 use crate::refusal::Refusal;
 use crate::tile::opaque;
-use basin_of_attraction::Label;
+use basin_of_attraction::{Grid, Interval, Label};
 use hopper_basin::{
     CircleLimits, EdgeChart, Fates, FollowedEdge, GroundingEdge, HopperFate, PhaseBasins,
-    edge_frame, edge_label, edge_phase, frame_slant,
+    edge_frame, edge_label, edge_phase, edge_phases, frame_slant,
 };
-use hopper_figures::{fate_colors, share_pixels};
+use hopper_figures::{BesideEdges, Layer, LayerColumns, Values, fate_colors, share_pixels};
 use passive_hopper::MassRatio;
 
 /// An open boundary point.
@@ -113,46 +113,139 @@ impl Depth {
             .integer("more", (digits.len() - first.len()) as u64))
     }
 
-    /// The fate at a point of such a window, `x` half widths to the right of its middle and `y` half heights above it, as JSON.
+    /// The fate at a point of such a window, `x` half widths to the right of its middle and `y` half heights above it, and the number of the layer, if it
+    /// has one on each side, as JSON.
     ///
     /// # Errors
     /// The refusals of [`edge_label`].
-    pub fn label(&self, depth: f64, (x, y): (f64, f64)) -> Result<String, Refusal> {
-        Ok(self.label_json(depth, (x, y))?.finish())
+    pub fn label(&self, layer: &Layer, depth: f64, (x, y): (f64, f64)) -> Result<String, Refusal> {
+        Ok(self.label_json(layer, depth, (x, y))?.finish())
     }
 
-    pub(crate) fn label_json(&self, depth: f64, (x, y): (f64, f64)) -> Result<Json, Refusal> {
+    pub(crate) fn label_json(
+        &self,
+        layer: &Layer,
+        depth: f64,
+        (x, y): (f64, f64),
+    ) -> Result<Json, Refusal> {
         let label = match self {
             Depth::OfFixedPoint(of) => {
                 edge_label((&of.chart, &of.edge), &of.circle, depth, (x, y))?
             }
             Depth::OfGrounding(edge) => Some(side_of(edge, (x, y))),
         };
-        Ok(labels::label(label.unwrap_or(HopperFate::UNDECIDED)))
+        let own = labels::label(label.unwrap_or(HopperFate::UNDECIDED));
+        Ok(match self.number(layer, (x, y))? {
+            Some(number) => own.number("number", number),
+            None => own,
+        })
     }
 
-    /// The pixels of the window of half height 10^−`depth` about the point, the highest row first.
+    /// The pixels of the window of half height 10^−`depth` about the point, the highest row first: of a layer, or of the fates if the layer has
+    /// [nothing](BesideEdges::Nothing) there.
     ///
     /// # Errors
-    /// The refusals of [`edge_frame`], and of frames with more than 2048 pixels each way.
-    pub fn frame(&self, depth: f64, columns: usize, rows: usize) -> Result<Vec<u8>, Refusal> {
+    /// The refusals of [`edge_frame`] and [`edge_phases`], and of frames with more than 2048 pixels each way.
+    pub fn frame(
+        &self,
+        layer: &Layer,
+        depth: f64,
+        (columns, rows): (usize, usize),
+    ) -> Result<Vec<u8>, Refusal> {
         if columns > MOST_PIXELS || rows > MOST_PIXELS {
             let text =
                 format!("a frame has up to {MOST_PIXELS} pixels each way, not {columns} × {rows}");
             return Err(Refusal::new(text));
         }
-        match self {
-            Depth::OfFixedPoint(of) => {
+        let values = layer.values();
+        match (self, layer.beside_edges, values) {
+            (Depth::OfFixedPoint(of), BesideEdges::Phases, Some(values)) => {
+                of.phases(values, depth, (columns, rows))
+            }
+            (_, BesideEdges::Sides, Some(values)) => {
+                let colors = self.numbers_beside(values)?.map(|number| values.color(number));
+                Ok(opaque(&two_sides(self.slope(), colors, (columns, rows))))
+            }
+            (Depth::OfFixedPoint(of), ..) => {
                 let about = (&of.chart, &of.edge);
                 let raster = edge_frame(&of.fates, about, &of.circle, depth, (columns, rows))?;
                 Ok(opaque(&share_pixels(&raster)))
             }
-            Depth::OfGrounding(edge) => Ok(opaque(&two_sides(edge, columns, rows))),
+            (Depth::OfGrounding(edge), ..) => {
+                let fates = [side_of(edge, (0.0, -1.0)), side_of(edge, (0.0, 1.0))];
+                let colors = match (layer.beside_edges, values) {
+                    // Of neither side an orbit comes to a fixed point of which phases are shown.
+                    (BesideEdges::Phases, Some(values)) => [values.color(NO_NUMBER); 2],
+                    _ => fates.map(fate_colors::rgb),
+                };
+                Ok(opaque(&two_sides(self.slope(), colors, (columns, rows))))
+            }
+        }
+    }
+
+    /// The number of a layer on the side of a point, in half widths and half heights; `None` where there is none, and for layers that are more than two numbers.
+    fn number(&self, layer: &Layer, (x, y): (f64, f64)) -> Result<Option<f64>, Refusal> {
+        let (BesideEdges::Sides, Some(values)) = (layer.beside_edges, layer.values()) else {
+            return Ok(None);
+        };
+        let number = self.numbers_beside(values)?[usize::from(y > self.slope() * x)];
+        Ok(Some(values.number(number)).filter(|number| !number.is_nan()))
+    }
+
+    /// The slope of the edge, in half heights to half widths.
+    fn slope(&self) -> f64 {
+        match self {
+            Depth::OfFixedPoint(of) => of.edge.by_mass_ratio * frame_slant(&of.edge),
+            Depth::OfGrounding(edge) => edge.by_mass_ratio * edge.slant(),
+        }
+    }
+
+    /// The numbers of a layer below and above the point, so near that they are those at the edge.
+    fn numbers_beside(&self, values: &Values) -> Result<[u64; 2], Refusal> {
+        let (ratio, point) = match self {
+            Depth::OfFixedPoint(of) => (of.chart.mass_ratio(), of.chart.point().0),
+            Depth::OfGrounding(edge) => (edge.mass_ratio, edge.point),
+        };
+        let about =
+            |middle: f64, part: f64| Interval::new(middle * (1.0 - part), middle * (1.0 + part));
+        let grid = Grid {
+            x: about(ratio.value(), f64::EPSILON)?,
+            y: about(point, BESIDE)?,
+            columns: 1,
+            rows: 2,
+        };
+        let found = (values.columns)(&LayerColumns { grid, logarithmic: false, columns: 0..1 })?;
+        match found.first().map(Vec::as_slice) {
+            Some(&[below, above]) => Ok([below, above]),
+            _ => Ok([NO_NUMBER; 2]),
         }
     }
 }
 
+/// How far beside the edge the numbers of one hop are taken, as a part of the speed: far enough for doubles, and so near that they change by some 10⁻⁸.
+const BESIDE: f64 = 1e-9;
+
+/// A real number of a layer that is none.
+const NO_NUMBER: u64 = f32::NAN.to_bits() as u64;
+
 impl PointDepth {
+    /// The colours of the phases.
+    fn phases(
+        &self,
+        values: &Values,
+        depth: f64,
+        (columns, rows): (usize, usize),
+    ) -> Result<Vec<u8>, Refusal> {
+        let about = (&self.chart, &self.edge);
+        let found = edge_phases(&self.fates, about, &self.circle, depth, (columns, rows))?;
+        let color = |phase: &Option<f64>| {
+            let number = phase.map_or(NO_NUMBER, |phase| u64::from((phase as f32).to_bits()));
+            values.color(number)
+        };
+        let rows = found.chunks(columns.max(1)).rev();
+        Ok(opaque(&rows.flatten().flat_map(color).collect::<Vec<u8>>()))
+    }
+
     fn json(&self) -> Json {
         let (point, rest, error) = self.chart.point();
         let label = HopperFate::label_of_fixed_point(self.chart.n());
@@ -180,11 +273,11 @@ fn side_of(edge: &GroundingEdge, (x, y): (f64, f64)) -> Label {
     }
 }
 
-/// The fates of the pixels' middles on both sides of an edge of grounding, which is a straight line at any depth.
-fn two_sides(edge: &GroundingEdge, columns: usize, rows: usize) -> Vec<u8> {
+/// The colours below and above an edge, which is a straight line at any depth.
+fn two_sides(slope: f64, [below, above]: [[u8; 3]; 2], (columns, rows): (usize, usize)) -> Vec<u8> {
     let middle = |at: usize, all: usize| (2 * at + 1) as f64 / all as f64 - 1.0;
     let pixel = |row: usize, column: usize| {
-        fate_colors::rgb(side_of(edge, (middle(column, columns), -middle(row, rows))))
+        if -middle(row, rows) > slope * middle(column, columns) { above } else { below }
     };
     (0..rows).flat_map(|row| (0..columns).flat_map(move |column| pixel(row, column))).collect()
 }

@@ -132,12 +132,12 @@ pub(crate) extern "C" fn open_depth(mass_ratio: f64, alpha: f64) -> u32 {
     }))
 }
 
-/// The pixels of the window of half height 10^−`depth` about the opened boundary point.
+/// The pixels of a layer in the window of half height 10^−`depth` about the opened boundary point.
 #[cfg(feature = "deep")]
 #[unsafe(no_mangle)]
-pub(crate) extern "C" fn depth_frame(depth: f64, columns: usize, rows: usize) -> u32 {
+pub(crate) extern "C" fn depth_frame(layer: u32, depth: f64, columns: usize, rows: usize) -> u32 {
     answer::keep(DEPTH.with_borrow(|kept| match kept {
-        Some(open) => open.frame(depth, columns, rows),
+        Some(open) => numbered(layer).and_then(|layer| open.frame(layer, depth, (columns, rows))),
         None => Err(Refusal::new("no boundary point is open; open one before its frames")),
     }))
 }
@@ -152,12 +152,12 @@ pub(crate) extern "C" fn depth_phase(depth: f64) -> u32 {
     }))
 }
 
-/// The fate at a point of such a window, in half widths and half heights from its middle, as JSON.
+/// The fate at a point of such a window, and the number of a layer, in half widths and half heights from its middle, as JSON.
 #[cfg(feature = "deep")]
 #[unsafe(no_mangle)]
-pub(crate) extern "C" fn depth_label(depth: f64, x: f64, y: f64) -> u32 {
+pub(crate) extern "C" fn depth_label(layer: u32, depth: f64, x: f64, y: f64) -> u32 {
     json(DEPTH.with_borrow(|kept| match kept {
-        Some(open) => open.label_json(depth, (x, y)),
+        Some(open) => numbered(layer).and_then(|layer| open.label_json(layer, depth, (x, y))),
         None => Err(Refusal::new("no boundary point is open; open one before its fates")),
     }))
 }

@@ -4,7 +4,9 @@ use crate::json::{Json, numbers, objects};
 use crate::labels;
 use basin_of_attraction::Label;
 use hopper_basin::{FIG_8, FIG_9, FigureWindow, HopperFate, RASTER_VERSION, first_humps};
-use hopper_figures::{Content, LAYERS, Layer, Meaning, Values, WITHOUT_FLAG, fate_colors};
+use hopper_figures::{
+    BesideEdges, Content, LAYERS, Layer, Meaning, Values, WITHOUT_FLAG, fate_colors,
+};
 use passive_hopper::alpha_star;
 
 /// Colours of a scale of numbers: more are not told apart.
@@ -42,6 +44,7 @@ fn layer(of: &Layer) -> Json {
         .text("otherKey", of.other_key)
         .text("name", of.name)
         .text("legend", of.legend)
+        .text("besideEdges", beside_edges(of))
         .number("cost", of.cost);
     match &of.content {
         Content::Shares(_) => own.text("kind", "shares"),
@@ -61,6 +64,16 @@ fn layer(of: &Layer) -> Json {
                 }
             }
         }
+    }
+}
+
+/// What it is in the deep view.
+fn beside_edges(of: &Layer) -> &'static str {
+    match of.beside_edges {
+        BesideEdges::Fates => "fates",
+        BesideEdges::Phases => "phases",
+        BesideEdges::Sides => "sides",
+        BesideEdges::Nothing => "nothing",
     }
 }
 

@@ -111,7 +111,7 @@ fn panels_and_the_depth_have_answers() {
     assert!(intervals(0.2, 1, 3).unwrap().contains(r#""ground":"proved""#));
     assert!(legend().contains("#22a672"));
     let depth = Depth::near(0.12, 11.920553918335775).unwrap();
-    let frame = depth.frame(100.0, 16, 16).unwrap();
+    let frame = depth.frame(layer("coverage"), 100.0, (16, 16)).unwrap();
     // The lower half is the circle's side: its colour is a mixture. Above the edge is the basin of α*_2.
     assert_eq!(frame[4 * 8..4 * 8 + 3], fate_colors::rgb(HopperFate::label_of_fixed_point(2)));
 }
@@ -138,9 +138,9 @@ fn wrong_questions_are_refused_with_words() {
     assert!(numbered(99).is_err());
     let depth = Depth::near(0.12, 11.920553918335775).unwrap();
     assert!(
-        depth.frame(nan, 4, 4).is_err()
-            && depth.frame(1e6, 4, 4).is_err()
-            && depth.frame(9.0, 5000, 4).is_err()
+        depth.frame(layer("coverage"), nan, (4, 4)).is_err()
+            && depth.frame(layer("coverage"), 1e6, (4, 4)).is_err()
+            && depth.frame(layer("coverage"), 9.0, (5000, 4)).is_err()
     );
 }
 
@@ -160,7 +160,8 @@ fn windows_whose_phases_differ_by_a_quarter_look_different() {
     // A turn takes some 3·10⁻³ of depth here.
     let other =
         (1..400).map(|k| 10.0 + 1e-5 * f64::from(k)).find(|at| (quarter(*at) - 0.25).abs() < 5e-3);
-    let frames = [10.0, other.unwrap()].map(|at| open.frame(at, 64, 64).unwrap());
+    let frames =
+        [10.0, other.unwrap()].map(|at| open.frame(layer("coverage"), at, (64, 64)).unwrap());
     let pixels = frames[0].chunks(4).zip(frames[1].chunks(4));
     let differ = pixels.filter(|(one, other)| one != other).count();
     assert!(differ >= 64 * 64 / 5, "{differ}");
@@ -170,12 +171,13 @@ fn windows_whose_phases_differ_by_a_quarter_look_different() {
 fn an_edge_of_grounding_is_the_same_at_every_depth() {
     let open = Depth::near(1.0, 5.6).unwrap();
     assert!(open.text().contains(r#""kind":"grounding""#), "{}", open.text());
-    let frames = [1.0, 30.0, 1000.0].map(|depth| open.frame(depth, 32, 32).unwrap());
+    let frames =
+        [1.0, 30.0, 1000.0].map(|depth| open.frame(layer("coverage"), depth, (32, 32)).unwrap());
     assert!(frames[0] == frames[1] && frames[1] == frames[2]);
     assert!(frames[0].chunks(4).any(|pixel| pixel != &frames[0][..4]));
     // The middle of the upper half is grounded, that of the lower one hops ever lower.
     for (y, name) in [(0.5, "grounded"), (-0.5, "decaying")] {
-        let label = open.label(1000.0, (0.0, y)).unwrap();
+        let label = open.label(layer("coverage"), 1000.0, (0.0, y)).unwrap();
         assert!(label.contains(name), "{label}");
     }
     assert!(open.phase(1000.0).unwrap().contains("lastSpeedExponent"));
@@ -184,13 +186,44 @@ fn an_edge_of_grounding_is_the_same_at_every_depth() {
 #[test]
 fn fates_of_places_are_those_of_the_pictures() {
     let open = Depth::near(0.12, 11.920553918335775).unwrap();
-    let frame = open.frame(30.0, 8, 8).unwrap();
+    let frame = open.frame(layer("coverage"), 30.0, (8, 8)).unwrap();
     // The basin of α*_2 is a half of the window.
     let inside = (0..8).map(|row| {
         let y = 1.0 - (2 * row + 1) as f64 / 8.0;
-        let label = open.label(30.0, (0.0625, y)).unwrap();
+        let label = open.label(layer("coverage"), 30.0, (0.0625, y)).unwrap();
         (label.contains(r#""label":2"#), frame[4 * (8 * row + 4)..][..3].to_vec())
     });
     let colors: Vec<_> = inside.filter(|(is_two, _)| *is_two).map(|(_, color)| color).collect();
     assert!(colors.len() >= 3 && colors.windows(2).all(|pair| pair[0] == pair[1]), "{colors:?}");
+}
+
+#[test]
+fn layers_beside_an_edge_have_their_numbers_at_any_depth() {
+    let open = Depth::near(0.12, 11.920553918335775).unwrap();
+    // The next hop is the same on both sides, as far as a picture shows.
+    let frame = open.frame(layer("loss"), 40.0, (8, 8)).unwrap();
+    let (pixels, _) = frame.as_chunks::<4>();
+    assert!(pixels.iter().all(|pixel| *pixel == pixels[0]));
+    let hop = passive_hopper::LiftOffMap::new(MassRatio::new(0.12).unwrap());
+    let hop = hop.hop(11.920553918335775).unwrap();
+    let lost = 1.0 - (hop.next.unwrap() / hop.speed).powi(2);
+    let label = open.label(layer("loss"), 40.0, (0.0, 0.5)).unwrap();
+    let shown: f64 =
+        label.split("\"number\":").nth(1).unwrap().trim_end_matches('}').parse().unwrap();
+    assert!((shown - lost).abs() < 1e-6, "{label}");
+    // Phases turn on both sides, and differ from the fates.
+    let colors = |key: &str| {
+        let frame = open.frame(layer(key), 20.0, (16, 64)).unwrap();
+        let (pixels, _) = frame.as_chunks::<4>();
+        pixels.iter().copied().collect::<std::collections::BTreeSet<_>>().len()
+    };
+    assert!(colors("phase") > 12, "{}", colors("phase"));
+    // A layer that is nothing there shows the fates.
+    let of = |key: &str| open.frame(layer(key), 20.0, (16, 64)).unwrap();
+    assert_eq!(of("digits"), of("coverage"));
+    // At an edge of grounding the next hop has no next speed on one side, if it is the one that grounds.
+    let open = Depth::near(1.0, 5.6).unwrap();
+    let frame = open.frame(layer("loss"), 40.0, (1, 2)).unwrap();
+    let is_first = open.text().contains(r#""hops":1,"#);
+    assert_eq!(frame[..4] != frame[4..], is_first, "{}", open.text());
 }

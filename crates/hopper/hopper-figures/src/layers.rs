@@ -26,6 +26,7 @@ pub static LAYERS: &[Layer] = &[
         file: "basin",
         pieces: "tiles",
         cost: 1.0,
+        beside_edges: BesideEdges::Fates,
         content: Content::Values(Values {
             bytes: 2,
             meaning: Meaning::Fates { flag: None },
@@ -42,6 +43,7 @@ pub static LAYERS: &[Layer] = &[
         file: "hops",
         pieces: "tiles of hops",
         cost: 1.0,
+        beside_edges: BesideEdges::Nothing,
         content: Content::Values(Values {
             bytes: 8,
             meaning: Meaning::Numbers { largest: 10_000 },
@@ -58,6 +60,7 @@ pub static LAYERS: &[Layer] = &[
         file: "coverage",
         pieces: "columns",
         cost: 170.0,
+        beside_edges: BesideEdges::Fates,
         content: Content::Shares(shares),
     },
     Layer {
@@ -69,6 +72,7 @@ pub static LAYERS: &[Layer] = &[
         file: "proof",
         pieces: "tiles of proofs",
         cost: 25.0,
+        beside_edges: BesideEdges::Nothing,
         content: Content::Values(Values {
             bytes: 4,
             meaning: Meaning::Fates { flag: Some("proved") },
@@ -85,6 +89,7 @@ pub static LAYERS: &[Layer] = &[
         file: "phase",
         pieces: "tiles of phases",
         cost: 3.0,
+        beside_edges: BesideEdges::Phases,
         content: Content::Values(Values {
             bytes: 4,
             meaning: Meaning::Reals(Scale::Turn),
@@ -101,6 +106,7 @@ pub static LAYERS: &[Layer] = &[
         file: "loss",
         pieces: "tiles of losses",
         cost: 1.0,
+        beside_edges: BesideEdges::Sides,
         content: Content::Values(Values {
             bytes: 4,
             meaning: Meaning::Reals(Scale::Linear { from: 0.0, to: 1.0 }),
@@ -117,6 +123,7 @@ pub static LAYERS: &[Layer] = &[
         file: "sudden",
         pieces: "tiles of sudden lift-offs",
         cost: 1.0,
+        beside_edges: BesideEdges::Sides,
         content: Content::Values(Values {
             bytes: 4,
             meaning: Meaning::Numbers { largest: 4 },
@@ -133,6 +140,7 @@ pub static LAYERS: &[Layer] = &[
         file: "flight",
         pieces: "tiles of times",
         cost: 1.0,
+        beside_edges: BesideEdges::Sides,
         content: Content::Values(Values {
             bytes: 4,
             meaning: Meaning::Reals(Scale::Linear { from: 0.0, to: 50.0 }),
@@ -149,6 +157,7 @@ pub static LAYERS: &[Layer] = &[
         file: "slope",
         pieces: "tiles of slopes",
         cost: 2.0,
+        beside_edges: BesideEdges::Sides,
         content: Content::Values(Values {
             bytes: 4,
             meaning: Meaning::Reals(Scale::Logarithmic { from: 0.1, to: 100.0 }),
@@ -165,6 +174,7 @@ pub static LAYERS: &[Layer] = &[
         file: "digits",
         pieces: "tiles of digits",
         cost: 25.0,
+        beside_edges: BesideEdges::Nothing,
         content: Content::Values(Values {
             bytes: 4,
             meaning: Meaning::Reals(Scale::Linear { from: 0.0, to: 16.0 }),
@@ -200,8 +210,23 @@ pub struct Layer {
     pub pieces: &'static str,
     /// The time that a pixel takes, in that of a fate: measured for 64 × 64 pixels of the window of Fig. 6.
     pub cost: f64,
+    /// What it is in a window about an edge that doubles do not resolve.
+    pub beside_edges: BesideEdges,
     /// What a pixel is.
     pub content: Content,
+}
+
+/// What a layer is in a window about an edge of a basin, of a height down to 10⁻¹⁰⁰ and beyond.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BesideEdges {
+    /// The shares of the fates.
+    Fates,
+    /// The phases with which the orbits come to their fixed points.
+    Phases,
+    /// One number on each side of the edge: one hop changes no more.
+    Sides,
+    /// Nothing: it is about doubles, or has no largest number there.
+    Nothing,
 }
 
 /// What the pixels of a layer are.

@@ -54,7 +54,7 @@ pub use error::Error;
 pub use graph::{Graph, cuts, cuts_between, graph_pieces};
 pub use layer_columns::LayerColumns;
 pub use layers::{
-    Content, FLAG, LAYERS, Layer, Meaning, Values, WITHOUT_FLAG, draw_layer, label_of,
+    BesideEdges, Content, FLAG, LAYERS, Layer, Meaning, Values, WITHOUT_FLAG, draw_layer, label_of,
 };
 pub use machine::{draw_block, draw_ground, draw_spring};
 pub use map_plot::MapPlot;

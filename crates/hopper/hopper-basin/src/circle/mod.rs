@@ -15,6 +15,7 @@
 //!   edge_derivatives.rs     the derivatives of many hops there, from differences in longer arithmetic
 //!   edge_path.rs            such a speed over the mass ratio, by continuation
 //!   edge_pixels.rs          the shares between pairs of speeds near it
+//!   edge_phases.rs          the phases of their pixels
 //!   edge_window.rs          the pixels of windows about it, at one mass ratio and in the (M, α) plane
 //!   edge_search.rs          the speeds near a given one that come to a fixed point
 //!   nearest_edge.rs         the one nearest to a speed, at any distance
@@ -32,6 +33,7 @@ pub(crate) mod circle_limits;
 pub(crate) mod edge_chart;
 pub(crate) mod edge_derivatives;
 pub(crate) mod edge_path;
+pub(crate) mod edge_phases;
 pub(crate) mod edge_pixels;
 pub(crate) mod edge_search;
 pub(crate) mod edge_window;

@@ -185,6 +185,25 @@ impl PhaseBasins {
         inside.then(|| turns - turns.floor())
     }
 
+    /// The speed of the [domain](Self::domain) with this phase, to an ulp.
+    pub(crate) fn speed_at(&self, phase: f64) -> f64 {
+        let (mut low, mut high) = self.domain();
+        // Ψ grows with the speed, from one turn below that of the top.
+        let end = self.domain.turns(high).value;
+        let wanted = if phase <= end { phase } else { phase - 1.0 };
+        loop {
+            let middle = low.midpoint(high);
+            if !(low < middle && middle < high) {
+                return low;
+            }
+            if self.domain.turns(middle).value < wanted {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+    }
+
     /// Ψ at any offset between the lowest speed of the [domain](Self::domain) and α*_n, also where the
     /// [coordinate](Self::coordinate) has no value any more.
     ///

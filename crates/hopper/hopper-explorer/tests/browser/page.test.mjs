@@ -288,7 +288,7 @@ onPage("deep zoom to 10⁻¹⁰⁰ and on", "#depth=0.12,11.920553918335775,100"
   assert.match(await said(page), /10⁻¹⁰⁰ about p = 11\.92055391/);
   const hash = await page.evaluate(async (digest) => {
     const about = explorer.state.depth.about;
-    const data = await explorer.deep.desk.ask("depthFrame", 100, 64, 64);
+    const data = await explorer.deep.desk.ask("depthFrame", 2, 100, 64, 64);
     return [eval(digest)(data), about];
   }, DIGEST);
   assert.deepEqual(hash, [native.frame, native.depth]);

@@ -137,8 +137,7 @@ pub(crate) static ALL: [&TableKind; LAYERS.len() + OTHERS.len()] = {
     let mut all = [OTHERS[0]; LAYERS.len() + OTHERS.len()];
     let mut at = 0;
     while at < all.len() {
-        all[at] =
-            if at < LAYERS.len() { &OF_LAYERS[at] } else { OTHERS[at - LAYERS.len()] };
+        all[at] = if at < LAYERS.len() { &OF_LAYERS[at] } else { OTHERS[at - LAYERS.len()] };
         at += 1;
     }
     all
