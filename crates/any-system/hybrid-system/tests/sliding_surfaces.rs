@@ -292,3 +292,47 @@ fn a_stop_beside_an_exit_changes_nothing() {
         }
     }
 }
+
+/// A relay that slides along x = 0, with y growing by 1. `more` adds guards to each of its modes.
+fn sliding_relay(more: impl Fn(Equations, bool) -> Equations) -> EquationsModel<State<2>> {
+    let below = Equations::new(&["x", "y"], &[])
+        .mode_text("below", &["1", "1"])
+        .rising_text("line", "x")
+        .to("above");
+    let above =
+        more(below, false).mode_text("above", &["-1", "1"]).falling_text("line", "x").to("below");
+    more(above, true).model().unwrap()
+}
+
+fn end_of(relay: EquationsModel<State<2>>) -> End<FilippovSurface<Label, Label>> {
+    let relay = Filippov::new(relay, Tolerances::both(1e-10));
+    let below = FilippovMode::Free(Label::new("below").unwrap());
+    Execution::new(&relay, below, State::from([-0.5, 0.0]), Limits::new(4.0, 50)).fate().end
+}
+
+#[test]
+fn a_clock_of_one_side_alone_is_no_stop_while_sliding() {
+    let clock = |own: Equations, is_above: bool| {
+        if is_above { own } else { own.clock_text("tick", "1", "1").resets_text(&["x", "0"]) }
+    };
+    let end = end_of(sliding_relay(clock));
+    assert!(matches!(end, End::Failed(Error::SlidingNotUnique { .. })), "{end:?}");
+    let both = |own: Equations, _| own.clock_text("tick", "1", "1").resets_text(&["x", "0"]);
+    assert_eq!(end_of(sliding_relay(both)), End::Stopped(Stop::TimeLimit));
+}
+
+#[test]
+fn conditions_of_both_sides_count_while_sliding() {
+    let gate = |conditions: [&'static str; 2]| {
+        end_of(sliding_relay(move |own, is_above| {
+            own.rising_text("gate", "y - 1")
+                .only_where_text(conditions[usize::from(is_above)])
+                .stops()
+        }))
+    };
+    assert!(matches!(gate(["1", "1"]), End::Terminal(_)));
+    assert_eq!(gate(["-1", "-1"]), End::Stopped(Stop::TimeLimit));
+    for one in [["1", "-1"], ["-1", "1"]] {
+        assert!(matches!(gate(one), End::Failed(Error::Condition(_))), "{:?}", gate(one));
+    }
+}

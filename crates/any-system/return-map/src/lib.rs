@@ -21,7 +21,7 @@
 //! | [`doubled_branch`], [`cascade`], [`bifurcation_curve`] | the branch behind a doubling, cascades, curves in two parameters |
 //! | [`follow_behind`] | the branch on the other side of a border |
 //! | [`continue_branch`] | goes on with a branch that was stopped, or read from a file (feature `serde`) |
-//! | [`bifurcation_diagram`], [`lyapunov_exponents`], [`rotation_number`] | where orbits end over a parameter; how fast neighbours part; how fast orbits turn |
+//! | [`bifurcation_diagram`], [`periods`], [`lyapunov_exponents`], [`rotation_number`] | where orbits end over a parameter; how fast neighbours part; how fast orbits turn |
 //! | [`orbit_fate`], [`orbit_fates`], [`OrbitEnd`] | how orbits end: on an attractor, at a surface, at a Zeno limit |
 //! | [`FormulaSteps`], [`FlowSteps`], [`FamilySteps`], [`ExecutionSteps`] | maps of states for `basin-of-attraction`: of formulas, of a field over some time, of a section, of any hybrid system |
 //! | [`PeriodicAttractor`], [`periodic_attractors`] | attracting orbits, each with a neighbourhood that leads to it |
@@ -145,7 +145,7 @@ pub use manifolds::{
 pub use orbits::{
     DiagramColumn, LyapunovExponents, OrbitEnd, OrbitFate, OrbitLength, OrbitMean,
     PeriodicAttractor, RotationNumber, Seeds, bifurcation_diagram, lyapunov_exponents, orbit_fate,
-    orbit_fates, periodic_attractors, rotation_number,
+    orbit_fates, periodic_attractors, periods, rotation_number,
 };
 pub use periodic_point::{PeriodicPoint, periodic_point, periodic_point_with_derivative};
 pub use return_map::{Return, ReturnMap, SmoothReturn};

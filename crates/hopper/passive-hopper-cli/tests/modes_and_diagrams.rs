@@ -188,3 +188,120 @@ fn an_orbit_that_fails_has_its_reason_and_is_counted() {
     assert!(messages.contains("1 of 2 orbits have no points"), "{messages}");
     assert!(!cells(&csv)[1][4].is_empty(), "{csv}");
 }
+
+/// Two rates towards ±1, on both sides of an edge, and a clock.
+fn two_sides() -> File {
+    let text = "states = ['x', 'v']\nparameters = { edge = 0 }\n\
+         [[mode]]\nname = 'right'\nwhere = 'x - edge'\nrates = { x = '1 - x', v = '-v' }\n\
+         [[mode.surface]]\nname = 'later'\nguard = 't - 2'\ndirection = 'rising'\n\
+         [[mode]]\nname = 'left'\nrates = { x = '-1 - x', v = '-v' }\n\
+         [[mode.surface]]\nname = 'later'\nguard = 't - 2'\ndirection = 'rising'\n";
+    File::new("two_sides.toml", text)
+}
+
+#[test]
+fn a_mode_by_place_is_that_of_all_starts_and_of_the_present_parameters() {
+    let sides = two_sides();
+    let ask = |near: &str, window: &str, more: &[&str]| {
+        let own = ["prove-basin", sides.path(), "--surface", "later", "--near", near];
+        call(&[&own[..], &["--window", window, "--halvings", "2", "3", "--csv"], more].concat())
+    };
+    let (code, _, message) = ask("x=1,v=0", "x=-1.5:1.5,v=-1:1", &[]);
+    assert!(
+        code == 2 && message.contains("not all of these starts are in the mode right"),
+        "{message}"
+    );
+    let (code, csv, message) = ask("x=1,v=0", "x=0.01:1.5,v=-1:1", &[]);
+    assert!(code == 0 && csv.contains("to x = 1, v = 0"), "{message}");
+    let (code, csv, message) = ask("x=1,v=0", "x=-1.5:1.5,v=-1:1", &["--mode", "right"]);
+    assert!(code == 0 && csv.contains("to x = 1, v = 0"), "{message}");
+    // A parameter that is given moves the edge.
+    let run = ["run", sides.path(), "--start", "x=1", "--time", "1", "--table", "end", "--csv"];
+    for (more, mode) in [(&[][..], "right"), (&["--set", "edge=2"], "left")] {
+        let (_, csv, _) = call(&[&run[..], more].concat());
+        assert_eq!(cells(&csv)[0][1], mode);
+    }
+}
+
+/// What an attack found: each call was answered by orbits that are none.
+#[test]
+fn a_diagram_of_what_is_no_orbit_is_refused() {
+    // Each return ends in the other mode.
+    let toggle = "states = ['x']\nparameters = { k = 1 }\n\
+         [[mode]]\nname = 'a'\nrates = { x = 'k - x' }\n\
+         [[mode.surface]]\nname = 'tick'\nperiod = 1\nto = 'b'\n\
+         [[mode]]\nname = 'b'\nrates = { x = '-k - x' }\n\
+         [[mode.surface]]\nname = 'tick'\nperiod = 1\nto = 'a'\n";
+    // The clock has a period of the force at one frequency alone.
+    let forced = "states = ['x', 'v']\nparameters = { w = 1 }\n\
+         [[mode]]\nname = 'm'\nrates = { x = 'v', v = 'cos(w*t) - v - x' }\n\
+         [[mode.surface]]\nname = 'tick'\nperiod = '2*pi'\n";
+    // The other state comes back to 0 at the first value alone, and from the first start alone.
+    let open = "states = ['x', 'y']\nparameters = { eps = 1 }\n\
+         [[mode]]\nname = 'm'\nrates = { x = '-x', y = '0' }\n\
+         [[mode.surface]]\nname = 'tick'\nperiod = 1\nresets = { y = 'eps*x' }\n";
+    let [toggle, forced, open] =
+        [toggle, forced, open].map(|text| File::new("attacked.toml", text));
+    let tick = ["--surface", "tick", "--returns", "4", "--columns", "3", "--csv"];
+    for (model, parameter, window, near, why) in [
+        (&toggle, "k", ["0.5", "1.5"], &["x=0.2"][..], "ends in the mode b"),
+        (&forced, "w", ["0.75", "2.25"], &["x=0,v=0"], "is no period"),
+        (&open, "eps", ["-0.5", "2.5"], &["x=1"], "name it in --near"),
+        (&open, "eps", ["0.5", "1.5"], &["x=0", "x=1"], "name it in --near"),
+        (&open, "eps", ["0.5", "1.5"], &["z=0"], "there is no such state"),
+    ] {
+        let near: Vec<&str> = near.iter().flat_map(|near| ["--near", near]).collect();
+        let own = ["diagram", model.path(), "--parameter", parameter];
+        let ends = ["--from", window[0], "--to", window[1]];
+        let (code, _, message) = call(&[&own[..], &ends, &tick, &near].concat());
+        assert!(code == 2 && message.contains(why), "{near:?}: {message}");
+    }
+    let own = ["branch", forced.path(), "--parameter", "w", "--from", "0.8", "--to", "1.2"];
+    let near = ["--at", "1", "--surface", "tick", "--near", "x=0,v=1"];
+    let (code, _, message) = call(&[&own[..], &near].concat());
+    assert!(code == 2 && message.contains("is no period"), "{message}");
+}
+
+#[test]
+fn a_surface_that_cannot_be_slid_along_says_so() {
+    let relay = |direction: &str, more: &str| {
+        let text = format!(
+            "states = ['x']\nslides = true\n[[mode]]\nname = 'a'\nrates = {{ x = '1' }}\n\
+             [[mode.surface]]\nname = 's'\nguard = 'x'\n{direction}to = 'b'\n{more}\
+             [[mode]]\nname = 'b'\nrates = {{ x = '-1' }}\n\
+             [[mode.surface]]\nname = 's'\nguard = 'x'\ndirection = 'falling'\nto = 'a'\n"
+        );
+        let file = File::new("relay.toml", &text);
+        call(&["run", file.path(), "--start", "x=-1", "--time", "3"])
+    };
+    assert_eq!(relay("direction = 'rising'\n", "").0, 0);
+    let (code, _, message) = relay("", "");
+    assert!(code == 2 && message.contains("has no direction; give rising or falling"), "{message}");
+    let (code, _, message) = relay("direction = 'rising'\n", "only_where = '2'\n");
+    assert!(code == 2 && message.contains("has a condition"), "{message}");
+}
+
+#[test]
+fn a_run_that_ends_early_says_so_and_names_stand_once() {
+    let ball = "states = ['h', 'v']\n[[mode]]\nname = 'm'\nrates = { h = 'v', v = -2 }\n\
+         [[mode.surface]]\nname = 'floor'\nguard = 'h'\ndirection = 'falling'\nresets = { h = 0, v = '-v/2' }\n";
+    let ball = File::new("early.toml", ball);
+    let (code, _, message) = call(&["run", ball.path(), "--start", "h=1", "--time", "9", "--csv"]);
+    assert!(code == 0 && message.contains("the run ended at the time 3"), "{message}");
+    let (code, _, message) = call(&["run", ball.path(), "--start", "h=1,h=2", "--time", "9"]);
+    assert!(code == 2 && message.contains("stands twice"), "{message}");
+    // Of a motion that ends, the samples before it are shown.
+    let blow = File::new(
+        "blow.toml",
+        "states = ['x']\n[[mode]]\nname = 'm'\nrates = { x = 'x^2' }\n\
+         [[mode.surface]]\nname = 'two'\nguard = 'x - 2'\n",
+    );
+    let run = ["run", blow.path(), "--start", "x=1", "--time", "2", "--samples", "8"];
+    let (code, csv, message) = call(&[&run[..], &["--table", "samples", "--csv"]].concat());
+    assert!(
+        code == 1 && message.contains("the last event, or the start, was at the time 0.5"),
+        "{message}"
+    );
+    let times: Vec<&str> = cells(&csv).iter().map(|row| row[0]).collect();
+    assert_eq!(times, ["0", "0.25", "0.5"], "{csv}");
+}

@@ -10,6 +10,7 @@ use crate::crossing::{Crossing, Leaving, NextEvent, QuasiPolynomial, Search};
 use crate::error::Error;
 use crate::guard::{Guard, Touch};
 use crate::ode::{integrated_flow, integrated_states};
+use crate::state::StateVector;
 use crate::system::{HybridSystem, Reset};
 use interval_arithmetic::Enclosure;
 
@@ -118,8 +119,13 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
             ) => {
                 let sides = Sides { surface, below, above };
                 let after = after_crossing(self, (&sides, partner), other, before);
-                // A search has returned this as an error already.
-                after.unwrap_or(Reset::Stop)
+                // A search has returned this as an error already, but for clocks, which are not searched: `reset_error` says why
+                // there is no state.
+                after.unwrap_or_else(|_| {
+                    let mut none = before.clone();
+                    none.add_scaled(f64::NAN, before);
+                    free(below, none)
+                })
             }
         }
     }
@@ -196,7 +202,14 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
         let of = |mode| self.system.condition(mode, surface, before);
         match mode {
             FilippovMode::Free(mode) => of(mode),
-            FilippovMode::Sliding { below, above, .. } => of(below).or_else(|| of(above)),
+            FilippovMode::Sliding { below, above, .. } => {
+                let watches = |mode: &T::Mode| {
+                    self.system.guards(*mode).iter().any(|guard| guard.surface == surface)
+                };
+                // Without a condition the event of a side always counts.
+                let sides = [below, above].into_iter().filter(watches).map(of);
+                sides.reduce(both).flatten()
+            }
         }
     }
 
@@ -211,7 +224,16 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
         before: &T::State,
         time: f64,
     ) -> Option<Error> {
-        let FilippovMode::Free(mode) = mode else { return None };
+        let mode = match mode {
+            FilippovMode::Free(mode) => mode,
+            FilippovMode::Sliding { surface: on, partner, below, above } => {
+                let Some(FilippovSurface::Model(other)) = surface else { return None };
+                let sides = Sides { surface: on, below, above };
+                let reason = after_crossing(self, (&sides, partner), other, before).err()?.0;
+                let surface = format!("{on:?}");
+                return Some(Error::SlidingNotUnique { surface, time, reason });
+            }
+        };
         let surface = match surface {
             Some(FilippovSurface::Model(surface)) => Some(surface),
             Some(FilippovSurface::Tangent { .. }) => return None,
@@ -297,6 +319,20 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
                 self.first_crossing_while_sliding(mode, (&sides, partner), start, search)
             }
         }
+    }
+}
+
+/// The condition of an event of both sides, of which the larger one is below zero and the smaller one above; NaN, which decides
+/// nothing, if it counts on one side alone.
+fn both(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+    let counts = |condition: Option<f64>| condition.is_none_or(|condition| condition > 0.0);
+    match (counts(one), counts(other)) {
+        (true, true) => match (one, other) {
+            (Some(one), Some(other)) => Some(one.min(other)),
+            (one, other) => one.or(other),
+        },
+        (false, false) => Some(one.unwrap_or(f64::NAN).max(other.unwrap_or(f64::NAN))),
+        _ => Some(f64::NAN),
     }
 }
 

@@ -14,21 +14,43 @@ pub struct DiagramColumn {
     pub orbits: Vec<Result<Vec<Vec<f64>>, Error>>,
 }
 
-impl DiagramColumn {
-    /// After how many images each orbit comes back to its points, each within `tolerance` · (1 + |x|); `None` for an orbit that does not do so
-    /// twice within its points, and for one that has none.
-    ///
-    /// It is as sure as its points: a long transient, and an orbit that is periodic only to this tolerance, have a period here.
-    pub fn periods(&self, tolerance: f64) -> Vec<Option<usize>> {
-        let near = |(x, y): (&f64, &f64)| (x - y).abs() <= tolerance * (1.0 + x.abs());
-        let is_period = |points: &[Vec<f64>], period: usize| {
-            points.iter().zip(&points[period..]).all(|(a, b)| a.iter().zip(b).all(near))
-        };
-        let period =
-            |points: &Vec<Vec<f64>>| (1..=points.len() / 2).find(|p| is_period(points, *p));
-        self.orbits.iter().map(|orbit| orbit.as_ref().ok().and_then(period)).collect()
-    }
+/// For each column of a diagram, and each of its seeds: after how many images the orbit comes back to its points. `None` for an orbit that does not do so twice
+/// within its points, and for one that has none.
+///
+/// Points count as one if each coordinate differs by at most `tolerance` times its range, over all points of the diagram and the seeds, and by rounding. So a
+/// period is as sure as the points: a long transient, and an orbit that is periodic only to this tolerance, have one here.
+pub fn periods(
+    columns: &[DiagramColumn],
+    seeds: &[Vec<f64>],
+    tolerance: f64,
+) -> Vec<Vec<Option<usize>>> {
+    let points = || columns.iter().flat_map(|column| column.orbits.iter().flatten().flatten());
+    let dimension = seeds.first().map_or(0, Vec::len);
+    let apart: Vec<f64> = (0..dimension)
+        .map(|at| {
+            let values = || points().chain(seeds).filter_map(|point| point.get(at).copied());
+            let (low, high) = values()
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                    (low.min(x), high.max(x))
+                });
+            tolerance * (high - low) + ROUNDING * low.abs().max(high.abs())
+        })
+        .collect();
+    let near = |a: &[f64], b: &[f64]| {
+        a.iter().zip(b).zip(&apart).all(|((x, y), apart)| (x - y).abs() <= *apart)
+    };
+    let is_period = |points: &[Vec<f64>], period: usize| {
+        points.iter().zip(&points[period..]).all(|(a, b)| near(a, b))
+    };
+    let period = |points: &Vec<Vec<f64>>| (1..=points.len() / 2).find(|p| is_period(points, *p));
+    let of_column = |column: &DiagramColumn| {
+        column.orbits.iter().map(|orbit| orbit.as_ref().ok().and_then(period)).collect()
+    };
+    columns.iter().map(of_column).collect()
 }
+
+/// The error of an image, as a part of the largest point: that of a return at the tolerance of the motion.
+const ROUNDING: f64 = 1e-12;
 
 /// Where the orbits of a column begin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -56,7 +78,7 @@ pub struct OrbitLength {
 /// finished columns. If it breaks, the columns that are not finished are left out. Of carried seeds those of one column run side by side.
 ///
 /// ```
-/// use return_map::{OrbitLength, Seeds, bifurcation_diagram, scalar_family};
+/// use return_map::{OrbitLength, Seeds, bifurcation_diagram, periods, scalar_family};
 /// use std::ops::ControlFlow::Continue;
 /// let logistic = scalar_family(|x, r| r * x * (1.0 - x));
 /// let length = OrbitLength { transient: 1000, keep: 4 };
@@ -65,7 +87,7 @@ pub struct OrbitLength {
 /// let orbit = columns[1].orbits[0].as_ref().expect("an orbit");
 /// // A cycle of period two.
 /// assert!((orbit[0][0] - orbit[2][0]).abs() < 1e-12 && (orbit[0][0] - orbit[1][0]).abs() > 0.1);
-/// assert_eq!(columns[1].periods(1e-9), [Some(2)]);
+/// assert_eq!(periods(&columns, &seeds, 1e-9), [[Some(1)], [Some(2)]]);
 /// ```
 pub fn bifurcation_diagram<M: MapFamily + ?Sized>(
     map: &M,

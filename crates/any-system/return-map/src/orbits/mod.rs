@@ -10,7 +10,7 @@ mod lyapunov;
 mod rotation;
 
 pub use attractor::{PeriodicAttractor, periodic_attractors};
-pub use diagram::{DiagramColumn, OrbitLength, Seeds, bifurcation_diagram};
+pub use diagram::{DiagramColumn, OrbitLength, Seeds, bifurcation_diagram, periods};
 pub(crate) use fate::end_of;
 pub use fate::{OrbitEnd, OrbitFate, orbit_fate, orbit_fates};
 pub use lyapunov::{LyapunovExponents, OrbitMean, lyapunov_exponents};

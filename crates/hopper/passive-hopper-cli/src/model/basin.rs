@@ -6,8 +6,9 @@ use crate::error::Error;
 use crate::model::columns::table;
 use crate::model::file::Model;
 use crate::model::period::check_period;
+use crate::model::places::Places;
 use crate::model::question::{
-    ModelOptions, Named, StartOptions, failed, named, named_mode, numbers, place_in, place_of,
+    ModelOptions, Named, StartOptions, failed, named, named_mode, numbers, place_of,
 };
 use crate::options::form::OutputOptions;
 use crate::options::output_file::{OutputFile, check, figure};
@@ -96,10 +97,11 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         ),
         Column::new("starts", "", "starts of the search that came to it"),
     ];
-    let mode_column = (model.modes.len() > 1).then(|| ("mode".to_owned(), "its mode"));
-    let names = states.iter().map(|name| (name.clone(), "a point of it")).chain(mode_column);
+    let names = states.iter().map(|name| (name.clone(), "a point of it"));
+    let mode_column = [Column::new("mode", "", "its mode")];
+    let after = if model.modes.len() > 1 { &mode_column[..] } else { &[] };
     let attractors =
-        table(("attractors", "one row for each attractor that was found"), &before, names, &[]);
+        table(("attractors", "one row for each attractor that was found"), &before, names, after);
     let form = options.output.form(&[&BASINS, attractors])?;
     let taken = check(&[("--figure", options.figure.as_ref())])?;
     let axes = [&window[0].0, &window[1].0];
@@ -209,11 +211,12 @@ impl Question {
     /// Refuses a window with starts in no mode.
     fn check_modes(&self) -> Result<(), Error> {
         let grid = self.grid(self.pixels);
-        let wanted = self.mode.is_none() && self.model.places.iter().any(Option::is_some);
+        let places = Places::new(&self.model)?;
+        let wanted = self.mode.is_none() && places.are_given();
         let count = if wanted { grid.columns * grid.rows } else { 0 };
         for pixel in 0..count {
             let (x, y) = (grid.x_at(pixel % grid.columns), grid.y_at(pixel / grid.columns));
-            place_in(&self.model, &self.state_at(x, y))?;
+            places.of(&self.state_at(x, y))?;
         }
         Ok(())
     }
@@ -252,12 +255,11 @@ impl Question {
     }
 
     /// The start in the map's coordinates: of several modes the number of the mode is the last one.
-    fn start_at(&self, x: f64, y: f64) -> Vec<f64> {
+    fn start_at(&self, places: &Places<'_>, x: f64, y: f64) -> Vec<f64> {
         let mut state = self.state_at(x, y);
         if self.model.modes.len() > 1 {
             let named = |mode: &String| self.model.modes.iter().position(|own| own == mode);
-            let place =
-                self.mode.as_ref().map_or_else(|| place_in(&self.model, &state).ok(), named);
+            let place = self.mode.as_ref().map_or_else(|| places.of(&state).ok(), named);
             // A start in no mode has no image.
             state.push(place.unwrap_or(self.model.modes.len()) as f64);
         }
@@ -271,15 +273,16 @@ impl Question {
             sides.push(Interval::new(-0.5, self.model.modes.len() as f64 - 0.5)?);
         }
         let grid = StateGrid::uniform(Hyperrectangle::new(sides)?, self.cells as usize)?;
+        let places = Places::new(&self.model)?;
         let coarse = self.grid((self.starts as usize, self.starts as usize));
         let starts: Vec<Vec<f64>> = (0..coarse.columns)
             .flat_map(|column| (0..coarse.rows).map(move |row| (column, row)))
-            .map(|(column, row)| self.start_at(coarse.x_at(column), coarse.y_at(row)))
+            .map(|(column, row)| self.start_at(&places, coarse.x_at(column), coarse.y_at(row)))
             .collect();
         let attractors = Attractors::search(map, grid, &starts, self.limits)?;
         let image = attractors.raster(map, self.grid(self.pixels), |x, y, state| {
             count.fetch_add(1, Ordering::Relaxed);
-            state.copy_from_slice(&self.start_at(x, y));
+            state.copy_from_slice(&self.start_at(&places, x, y));
         })?;
         Ok(Found { attractors, image })
     }

@@ -67,11 +67,17 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         let (from, to) = window;
         return Err(Error::misuse("--at", at, &format!("give a value from {from} to {to}")));
     }
-    let map = options.returns.map(&model, &names, (&start, at))?;
+    let returns = options.returns.returns(&model, &names, (&[start.clone()], &[at]))?;
+    let (map, checks) = returns.into_parts();
+    checks.check(&start, at)?;
     let branch = search::run(&options.output, &mut streams, move || {
         let go_on = |_: &_| ControlFlow::Continue(());
-        follow_branch(&map, period, (&start, at), window, BranchSteps::default(), go_on)
-            .map_err(failed)
+        let branch =
+            follow_branch(&map, period, (&start, at), window, BranchSteps::default(), go_on)
+                .map_err(failed)?;
+        // What is right at one point may be wrong along the way.
+        branch.points.iter().try_for_each(|own| checks.check(&own.point, own.parameter))?;
+        Ok(branch)
     })?;
     if let Some(file) = &options.figure {
         let svg = diagram(&branch, window, (&options.returns.parameter, &names[0]))?;

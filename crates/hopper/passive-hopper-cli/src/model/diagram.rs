@@ -11,7 +11,7 @@ use crate::options::output_file::{OutputFile, check, figure};
 use crate::output::{Cell, Column, Table};
 use crate::streams::Streams;
 use journal_figures::Svg;
-use return_map::{DiagramColumn, OrbitLength, Seeds, bifurcation_diagram};
+use return_map::{DiagramColumn, OrbitLength, Seeds, bifurcation_diagram, periods};
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
 
@@ -20,7 +20,7 @@ use std::sync::atomic::Ordering;
 pub(crate) struct Options {
     #[command(flatten)]
     returns: ReturnsOptions,
-    /// A start on the section, such as x=0,v=0; once for each. The other states are 0 there
+    /// A start on the section, with commas, such as x=0,v=0; once for each. The other states are 0 there
     #[arg(long, value_name = "NAME=VALUE,…", value_parser = named, required = true)]
     near: Vec<Named>,
     /// Values of the parameter, equally far apart
@@ -42,7 +42,7 @@ pub(crate) struct Options {
     pub(crate) output: OutputOptions,
 }
 
-/// How far points of an orbit may be apart that count as one, as a part of their size: far above the error of a return.
+/// How far points of an orbit may be apart that count as one, as a part of the range of the diagram: far above the error of a return.
 const SAME: f64 = 1e-6;
 
 pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Error> {
@@ -62,7 +62,7 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         Column::new(
             "period",
             "",
-            "returns until it comes back to its points, to 10⁻⁶; empty if it does not twice within those shown",
+            "returns until it comes back to its points, to 10⁻⁶ of the range of the diagram; empty if it does not twice within those shown",
         ),
         Column::new("failed", "", "why the orbit has no points"),
     ];
@@ -74,19 +74,40 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     let part = (to - from) / f64::from(options.columns);
     let parameters: Vec<f64> =
         (0..options.columns).map(|column| from + part * (f64::from(column) + 0.5)).collect();
-    let map = options.returns.map(&model, &names, (&starts[0], parameters[0]))?;
+    let returns = options.returns.returns(&model, &names, (&starts, &parameters))?;
+    let (map, checks) = returns.into_parts();
     let seeds = if options.carried { Seeds::Carried } else { Seeds::Fresh };
     let length = OrbitLength { transient: options.skip as usize, keep: options.shown as usize };
     let columns = ("columns", parameters.len());
-    let columns = search::run_counted(&options.output, &mut streams, columns, move |count| {
-        let progress = |finished| {
-            count.store(finished, Ordering::Relaxed);
-            ControlFlow::Continue(())
-        };
-        Ok(bifurcation_diagram(&map, &parameters, (&starts, seeds), length, progress))
-    })?;
+    let (columns, periods) =
+        search::run_counted(&options.output, &mut streams, columns, move |count| {
+            let progress = |finished| {
+                count.store(finished, Ordering::Relaxed);
+                ControlFlow::Continue(())
+            };
+            // What is right at one value, or at one start, may be wrong at another one.
+            for &parameter in &parameters {
+                starts.iter().try_for_each(|start| checks.check(start, parameter))?;
+            }
+            let columns =
+                bifurcation_diagram(&map, &parameters, (&starts, seeds), length, progress);
+            // So may what is right at a start be at a later point.
+            for column in &columns {
+                for point in column.orbits.iter().flatten().filter_map(|points| points.last()) {
+                    checks.check(point, column.parameter)?;
+                }
+            }
+            let periods = periods(&columns, &starts, SAME);
+            Ok((columns, periods))
+        })?;
     let failed = columns.iter().flat_map(|column| &column.orbits).filter(|orbit| orbit.is_err());
     let (failed, all) = (failed.count(), columns.len() * options.near.len());
+    if failed == all {
+        let first =
+            columns.iter().flat_map(|column| &column.orbits).find_map(|orbit| orbit.as_ref().err());
+        let first = first.map_or_else(String::new, ToString::to_string);
+        return Err(Error::Model(format!("no orbit has points; the first one: {first}")));
+    }
     if failed > 0 {
         let text = format_args!("{failed} of {all} orbits have no points; --table orbits says why");
         options.output.note(&mut streams, text);
@@ -99,8 +120,7 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         return Ok(());
     }
     let (mut of_orbits, mut of_points) = (Table::new(orbits), Table::new(points));
-    for column in &columns {
-        let periods = column.periods(SAME);
+    for (column, periods) in columns.iter().zip(periods) {
         for (number, (orbit, period)) in column.orbits.iter().zip(periods).enumerate() {
             let begin: [Cell; 2] = [column.parameter.into(), (number as u64 + 1).into()];
             let row = |point: &[f64]| {

@@ -1,6 +1,7 @@
 //! A model in a file: TOML or JSON with texts of formulas, or what `Equations::to_json` writes.
 
 use crate::error::Error;
+use crate::model::places::Places;
 use equations::{Formulas, Names};
 use hybrid_system::Equations;
 use serde::Deserialize;
@@ -124,7 +125,7 @@ pub(crate) struct Model {
     /// The surfaces that are times.
     pub(crate) clocks: Vec<String>,
     /// For each mode a formula that is not negative at its states, if the file has one.
-    pub(crate) places: Vec<Option<Formulas>>,
+    pub(crate) places: Vec<Option<String>>,
     /// Whether a run goes on along a surface at which the fields of both sides point.
     pub(crate) slides: bool,
 }
@@ -166,13 +167,11 @@ pub(crate) fn read(path: &Path) -> Result<Model, Error> {
     let modes = file.mode.iter().map(|mode| mode.name.clone()).collect();
     let surfaces = file.mode.iter().flat_map(|mode| &mode.surface);
     let clocks = surfaces.filter(|own| own.guard.is_none()).map(|own| own.name.clone()).collect();
-    let place = |mode: &Mode| {
-        let formula = |text: &String| Formulas::from_text(equations.names().clone(), &[text]);
-        let formula = mode.place.as_ref().map(formula).transpose();
-        formula.map_err(|error| refused(format!("the mode {}: where: {error}", mode.name)))
-    };
-    let places = file.mode.iter().map(place).collect::<Result<_, Error>>()?;
-    Ok(Model { equations, start: file.start, modes, clocks, places, slides: file.slides })
+    let places = file.mode.iter().map(|mode| mode.place.clone()).collect();
+    let model = Model { equations, start: file.start, modes, clocks, places, slides: file.slides };
+    // A formula that is none is refused with the file.
+    Places::new(&model).map_err(|error| refused(error.to_string()))?;
+    Ok(model)
 }
 
 /// The surfaces of equations as JSON that are times.
@@ -239,6 +238,9 @@ fn equations_of(file: &ModelFile) -> Result<Equations, String> {
         })?;
         equations = equations.mode_text(&mode.name, &texts(&rates));
         for surface in &mode.surface {
+            if file.slides {
+                check_sliding(surface)?;
+            }
             equations = with_surface(equations, &file.states, surface)?;
         }
         if let Some(rest) = &mode.rests {
@@ -287,6 +289,23 @@ fn in_order(
     }
     let own = |state: &String| named.get(state).map_or_else(|| absent(state), |own| Ok(own.text()));
     states.iter().map(own).collect()
+}
+
+/// Refuses a surface to another mode along which no run can go on, unless it says that runs cross it.
+fn check_sliding(surface: &Surface) -> Result<(), String> {
+    let crosses = matches!(surface.beyond, Some(Beyond::Crossing));
+    if surface.to.is_none() || surface.guard.is_none() || crosses {
+        return Ok(());
+    }
+    let what = match (surface.direction, &surface.only_where) {
+        (Direction::Either, _) => "has no direction; give rising or falling",
+        (_, Some(_)) => "has a condition",
+        _ => return Ok(()),
+    };
+    let name = &surface.name;
+    Err(format!(
+        "slides = true: the surface {name} leads to another mode and {what}, or beyond = \"crossing\": then no run slides along it"
+    ))
 }
 
 fn with_surface(

@@ -4,6 +4,7 @@
 //!   file.rs      a model as TOML or JSON, and its equations
 //!   cli.rs       the commands
 //!   question.rs  what all commands ask: the model, its parameters, a start
+//!   places.rs    in which mode a state is
 //!   period.rs    whether a time is a period of a model
 //!   columns.rs   tables whose columns are the states of a model
 //!   run.rs       a trajectory with its events
@@ -26,6 +27,7 @@ mod columns;
 mod diagram;
 mod file;
 mod period;
+mod places;
 mod prove;
 mod prove_basin;
 mod question;

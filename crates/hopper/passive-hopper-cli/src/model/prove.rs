@@ -77,6 +77,10 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         let half: Vec<f64> = middle.iter().map(|x| BESIDE * (1.0 + x.abs())).collect();
         words.check_closing(&model, &system, (&middle, &half))?;
         let trap = orbit.is_attracting().then(|| Trap::new(&map, &orbit, own.boxes).ok()).flatten();
+        words.check_mode(&model, &orbit.point)?;
+        if let Some(trap) = &trap {
+            words.check_mode(&model, &cube(trap, reach(trap).unwrap_or(0.0)))?;
+        }
         let mut text = None;
         if own.certificate.is_some() {
             let mut certificate = Certificate::new("nonsmooth");
@@ -145,13 +149,15 @@ fn kind(orbit: &ProvedFixedPoint, trap: Option<&Trap>) -> Table {
 /// Halvings until a cube is in a trap: some are enough unless its directions are nearly one.
 const HALVINGS: usize = 60;
 
+/// A cube about the trap's centre.
+fn cube(trap: &Trap, half: f64) -> Vec<Enclosure> {
+    let side = |x: &f64| Enclosure::new((x - half).next_down(), (x + half).next_up());
+    trap.centre().iter().map(side).collect()
+}
+
 /// Half of the side of a cube about the trap's centre that is in the trap, for certain.
 pub(crate) fn reach(trap: &Trap) -> Option<f64> {
-    let cube = |half: f64| {
-        let side = |x: &f64| Enclosure::new((x - half).next_down(), (x + half).next_up());
-        trap.centre().iter().map(side).collect::<Vec<Enclosure>>()
-    };
     // Directions have the length 1, so that no cube is much larger than the trap.
     let mut halves = (0..HALVINGS).map(|k| trap.size() * 0.5f64.powi(k as i32));
-    halves.find(|half| trap.contains(&cube(*half)))
+    halves.find(|half| trap.contains(&cube(trap, *half)))
 }

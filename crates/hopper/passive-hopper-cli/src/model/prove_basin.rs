@@ -114,12 +114,13 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         );
         return Err(Error::misuse("--images", options.images, &reason));
     }
+    let window: Vec<Enclosure> =
+        sides.iter().map(|side| Enclosure::new(side.left, side.right)).collect();
+    words.check_mode(&model, &window)?;
     if let Some(file) = &options.certificate {
         drop(AtomicFile::create(file)?);
     }
     let own = options.clone();
-    let window: Vec<Enclosure> =
-        sides.iter().map(|side| Enclosure::new(side.left, side.right)).collect();
     let images = ("images", options.images);
     let found = search::run_counted(&options.output, &mut streams, images, move |count| {
         let system = ValidatedSystem::new(&model.equations).map_err(failed)?;

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::model::file::{self, Model};
+use crate::model::places::Places;
 use crate::refusal::shortened;
 use equations::{Formulas, Names};
 use std::collections::BTreeSet;
@@ -76,6 +77,7 @@ impl ModelOptions {
             let value = file::decimal(value, name);
             Ok((name.clone(), value.map_err(|reason| Error::Misuse(format!("--set: {reason}")))?))
         };
+        check_once(&self.set.concat(), "--set")?;
         let set = self.set.iter().flatten().map(decimal).collect::<Result<Vec<_>, Error>>()?;
         let set: Vec<(&str, &str)> =
             set.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
@@ -107,6 +109,7 @@ impl StartOptions {
         for (name, value) in &model.start.state {
             texts[place_of(states, name, "[start] of the file:")?] = value.text();
         }
+        check_once(&self.start.concat(), "--start")?;
         for (name, value) in self.start.iter().flatten() {
             texts[place_of(states, name, "--start")?].clone_from(value);
         }
@@ -130,33 +133,23 @@ pub(crate) fn named_mode(given: Option<&str>, model: &Model) -> Result<Option<St
 /// The mode that is given, that of the file's start, or the one in which this state is.
 ///
 /// # Errors
-/// As [`named_mode`] and [`place_in`].
+/// As [`named_mode`] and [`Places::of`].
 pub(crate) fn mode_at(given: Option<&str>, model: &Model, state: &[f64]) -> Result<String, Error> {
     match named_mode(given, model)? {
         Some(mode) => Ok(mode),
-        None => Ok(model.modes[place_in(model, state)?].clone()),
+        None => Ok(model.modes[Places::new(model)?.of(state)?].clone()),
     }
 }
 
-/// The number of the first mode in which a state is: its formula `where` is not negative there, or it has none.
-///
-/// # Errors
-/// [`Error::Misuse`] for a state in no mode, and for a formula without a value.
-pub(crate) fn place_in(model: &Model, state: &[f64]) -> Result<usize, Error> {
-    for (number, formula) in model.places.iter().enumerate() {
-        let Some(formula) = formula else { return Ok(number) };
-        let value = formula.values(0.0, state).map_err(|error| {
-            Error::Misuse(format!("the mode {}: where: {error}", model.modes[number]))
-        })?;
-        if value.first().is_some_and(|value| *value >= 0.0) {
-            return Ok(number);
-        }
+/// Refuses a name that stands twice: one of the values would not count.
+pub(crate) fn check_once(given: &[(String, String)], option: &str) -> Result<(), Error> {
+    let twice = |(at, (name, _)): (usize, &(String, String))| {
+        given[..at].iter().any(|(own, _)| own == name).then(|| name.clone())
+    };
+    match given.iter().enumerate().find_map(twice) {
+        Some(name) => Err(Error::misuse(option, shortened(&name), "it stands twice")),
+        None => Ok(()),
     }
-    let states = model.equations.names().states.iter().zip(state);
-    let values: Vec<String> = states.map(|(name, x)| format!("{name} = {x}")).collect();
-    let (values, reason) =
-        (values.join(", "), "the formulas `where` of all modes are negative there");
-    Err(Error::Misuse(format!("the start {values} is in no mode: {reason}; give --mode")))
 }
 
 /// Refuses a surface that the model has not.
@@ -203,6 +196,7 @@ pub(crate) fn point(
     given: &[(String, String)],
     option: &str,
 ) -> Result<Vec<f64>, Error> {
+    check_once(given, option)?;
     let value = |name: &String| {
         let found = given.iter().find(|(own, _)| own == name);
         let reason = || format!("{name} is missing; give {name}=NUMBER");
@@ -211,9 +205,6 @@ pub(crate) fn point(
             .ok_or_else(|| Error::Misuse(format!("{option}: {}", reason())))
     };
     let texts = names.iter().map(value).collect::<Result<Vec<String>, Error>>()?;
-    if let Some(name) = names.iter().enumerate().find(|(at, name)| names[..*at].contains(name)) {
-        return Err(Error::misuse(option, shortened(name.1), "it stands twice"));
-    }
     if let Some((unknown, _)) = given.iter().find(|(own, _)| !names.contains(own)) {
         let reason = format!("this is none of {}", names.join(", "));
         return Err(Error::misuse(option, shortened(unknown), &reason));

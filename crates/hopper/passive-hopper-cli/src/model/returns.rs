@@ -3,8 +3,9 @@
 use crate::error::Error;
 use crate::model::file::{Model, texts};
 use crate::model::period::check_period;
-use crate::model::question::{ModelOptions, check_surface, failed, mode_at};
-use hybrid_system::EquationsModel;
+use crate::model::places::Places;
+use crate::model::question::{ModelOptions, check_surface, failed, mode_at, place_of};
+use hybrid_system::{EquationsModel, Event, Execution, Label, Limits};
 use journal_figures::{Frame, Svg, ticks};
 use nalgebra::DVector;
 use return_map::EquationReturns;
@@ -37,6 +38,26 @@ const LONGEST: f64 = 1e3;
 /// How far a state that is not named may be from its start behind the surface: a section has it to rounding.
 const NAMED: f64 = 1e-6;
 
+/// The most events until a return, as in the library.
+const EVENTS: usize = 10_000;
+
+/// A return map along a parameter, with what its orbits must fulfil.
+pub(crate) struct Returns {
+    pub(crate) map: EquationReturns,
+    checks: Checks,
+}
+
+/// What a return must fulfil so that the map is what the flow does.
+#[derive(Debug, Clone)]
+pub(crate) struct Checks {
+    model: Model,
+    parameter: String,
+    surface: String,
+    mode: String,
+    /// The coordinates.
+    names: Vec<String>,
+}
+
 impl ReturnsOptions {
     pub(crate) fn model(&self) -> Result<Model, Error> {
         let model = self.model.model()?;
@@ -58,66 +79,138 @@ impl ReturnsOptions {
         }
     }
 
-    /// The map of a section with these coordinates, which begins in the mode of a point of it.
+    /// The map of a section with these coordinates, which begins in the mode of these points of it, each at the parameters.
     ///
     /// # Errors
-    /// [`Error::Misuse`] for names that the model does not have, and for a return that does not come back to all states of its start,
-    /// or at no period of the model: an orbit would be periodic in the named coordinates alone then.
-    pub(crate) fn map(
+    /// [`Error::Misuse`] for names that the model does not have, for starts in several modes, and for a forced model whose surface is no clock.
+    pub(crate) fn returns(
         &self,
         model: &Model,
         names: &[String],
-        (start, parameter): (&[f64], f64),
-    ) -> Result<EquationReturns, Error> {
-        let states = &model.equations.names().states;
-        let value = |state| names.iter().position(|name| name == state).map_or(0.0, |at| start[at]);
-        let whole: Vec<f64> = states.iter().map(value).collect();
-        let mode = mode_at(self.mode.as_deref(), model, &whole)?;
-        let ends = (mode.as_str(), self.surface.as_str());
-        let map = EquationReturns::new(&model.equations, &self.parameter, ends, &texts(names));
-        let map = map.map_err(|error| Error::Misuse(error.to_string()))?;
-        let value = parameter.to_string();
-        let mut model = model.clone();
-        model.equations = model.equations.with_parameters(&[(&self.parameter, &value)]);
-        self.check_closing(&model, &mode, (names, whole))?;
-        Ok(map)
-    }
-
-    fn check_closing(
-        &self,
-        model: &Model,
-        mode: &str,
-        (names, start): (&[String], Vec<f64>),
-    ) -> Result<(), Error> {
-        let surface = self.surface.as_str();
-        let is_guard = !model.clocks.iter().any(|clock| clock == surface);
+        (starts, parameters): (&[Vec<f64>], &[f64]),
+    ) -> Result<Returns, Error> {
+        for name in names {
+            place_of(&model.equations.names().states, name, "--near")?;
+        }
+        let is_guard = !model.clocks.contains(&self.surface);
         if is_guard && !model.equations.is_autonomous() {
             let text = "--surface: the equations use the time, and each return begins at t = 0; give a surface with a period, or make \
                         the phase a state";
             return Err(Error::Misuse(text.to_owned()));
         }
-        let own: EquationsModel<DVector<f64>> = model.equations.model().map_err(failed)?;
-        let run = own.start_at(mode, start.clone(), (0.0, LONGEST)).map_err(failed)?;
-        for arc in run {
-            let arc = arc.map_err(failed)?;
-            let Some(event) = arc.event().filter(|event| event.surface == *surface) else {
-                continue;
-            };
-            let Some((_, after)) = &event.after else { return Ok(()) };
-            let states = &model.equations.names().states;
-            for (state, (from, to)) in states.iter().zip(start.iter().zip(after.iter())) {
-                let apart = (from - to).abs() > NAMED * (1.0 + from.abs());
-                if !names.contains(state) && apart {
+        let mut mode: Option<String> = None;
+        for &parameter in parameters {
+            let model = with_parameter(model, &self.parameter, parameter);
+            for start in starts {
+                let own = mode_at(self.mode.as_deref(), &model, &whole(&model, names, start))?;
+                if let Some(other) = mode.as_ref().filter(|mode| **mode != own) {
                     let text = format!(
-                        "--near: {state} is {from} at the start and {to} behind {surface}; name it in --near"
+                        "--near: by `where` the starts are in the modes {other} and {own}; give --mode, or one call for each mode"
                     );
                     return Err(Error::Misuse(text));
                 }
+                mode = Some(own);
             }
-            return check_period(model, event.time, &start, Some(surface), "--surface");
+            // Only a formula `where` can give another mode at another parameter.
+            if !Places::new(&model)?.are_given() {
+                break;
+            }
+        }
+        let mode = mode.unwrap_or_default();
+        let ends = (mode.as_str(), self.surface.as_str());
+        let map = EquationReturns::new(&model.equations, &self.parameter, ends, &texts(names));
+        let map = map.map_err(|error| Error::Misuse(error.to_string()))?;
+        let checks = Checks {
+            model: model.clone(),
+            parameter: self.parameter.clone(),
+            surface: self.surface.clone(),
+            mode,
+            names: names.to_vec(),
+        };
+        Ok(Returns { map, checks })
+    }
+}
+
+impl Returns {
+    pub(crate) fn into_parts(self) -> (EquationReturns, Checks) {
+        (self.map, self.checks)
+    }
+}
+
+/// The model at another value of a parameter.
+fn with_parameter(model: &Model, parameter: &str, value: f64) -> Model {
+    let mut model = model.clone();
+    let value = value.to_string();
+    model.equations = model.equations.with_parameters(&[(parameter, &value)]);
+    model
+}
+
+/// The whole state at a point of the section: what is not named is 0.
+fn whole(model: &Model, names: &[String], point: &[f64]) -> Vec<f64> {
+    let place = |state| names.iter().position(|name| name == state);
+    let states = model.equations.names().states.iter();
+    states.map(|state| place(state).map_or(0.0, |at| point[at])).collect()
+}
+
+impl Checks {
+    /// Refuses a return that does not come back to the mode and to all states of its start, or that takes no period of the model: what is
+    /// periodic in the named coordinates would be no orbit. A point without a return is not refused here.
+    ///
+    /// # Errors
+    /// [`Error::Misuse`] with what does not come back, and where.
+    pub(crate) fn check(&self, point: &[f64], parameter: f64) -> Result<(), Error> {
+        let model = with_parameter(&self.model, &self.parameter, parameter);
+        let start = whole(&model, &self.names, point);
+        let own: EquationsModel<DVector<f64>> = model.equations.model().map_err(failed)?;
+        let Ok(run) = own.start_at(&self.mode, start.clone(), (0.0, LONGEST)) else {
+            return Ok(());
+        };
+        let limits = Limits::new(LONGEST, EVENTS);
+        for arc in Execution::restore(&own, run.checkpoint(), limits) {
+            let Ok(arc) = arc else { return Ok(()) };
+            // An event at the start itself is no return.
+            let is_return =
+                |event: &&_| return_event(event, &self.surface) && arc.time + arc.duration > 0.0;
+            let Some(event) = arc.event().filter(is_return) else { continue };
+            let Some((mode, after)) = &event.after else { return Ok(()) };
+            self.check_end(parameter, &start, (mode.as_str(), after.as_slice()))?;
+            return check_period(&model, event.time, &start, Some(&self.surface), "--surface");
         }
         Ok(())
     }
+
+    fn check_end(
+        &self,
+        parameter: f64,
+        start: &[f64],
+        (mode, after): (&str, &[f64]),
+    ) -> Result<(), Error> {
+        let Checks { surface, names, .. } = self;
+        let at = format!("at {} = {parameter}", self.parameter);
+        if mode != self.mode {
+            let own = &self.mode;
+            let text = format!(
+                "--surface: {at} a return ends in the mode {mode}, and the next one is to begin in {own}; give a surface that leads back to \
+                 {own}"
+            );
+            return Err(Error::Misuse(text));
+        }
+        let states = &self.model.equations.names().states;
+        for (state, (from, to)) in states.iter().zip(start.iter().zip(after)) {
+            let apart = (from - to).abs() > NAMED * (1.0 + from.abs());
+            if !names.contains(state) && apart {
+                let text = format!(
+                    "--near: {state} is {from} where a return begins and {to} behind {surface}, {at}; name it in --near"
+                );
+                return Err(Error::Misuse(text));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn return_event(event: &Event<Label, Label, DVector<f64>>, surface: &str) -> bool {
+    event.surface == *surface
 }
 
 /// Pixels of the frame up.

@@ -64,15 +64,19 @@ pub(crate) fn reason(stop: Option<Stop>) -> &'static str {
         Some(Stop::EventLimit) => "the most events; raise --events",
         Some(Stop::Terminal) => "a surface that stops",
         Some(Stop::NoFurtherEvent) => "no event follows",
-        Some(Stop::Zeno) => "the events have a limit (Zeno); give the mode behind it",
-        Some(Stop::Sliding) => {
-            "the fields on both sides point at a surface; slides = true in the file goes on along it"
+        Some(Stop::Zeno) => {
+            "the events have a limit (Zeno); `rests` in all modes of these events gives the mode behind it"
         }
-        Some(_) => "a budget of the search",
+        Some(Stop::Sliding) => {
+            "the fields on both sides point at a surface, or two such surfaces meet; slides = true in the file goes on along one"
+        }
+        Some(_) => {
+            "a budget of the search for the next event; look at the rates near this state, or give a shorter --time"
+        }
     }
 }
 
-pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> {
+pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Error> {
     let model = options.model.sliding_model()?;
     let (mode, start) = options.start.start_in(&model)?;
     let of_file = model
@@ -100,18 +104,21 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
 
     let own: EquationsModel<DVector<f64>> = model.equations.model().map_err(failed)?;
     let at = own.start_at(&mode, start, (0.0, time)).map_err(failed)?.checkpoint();
-    let limits = Limits::new(time, options.events);
+    let limits = |time| Limits::new(time, options.events);
     let (steps, tables) = (options.samples, [events, samples, end]);
-    let (shown, wrong) = if model.slides {
+    let Followed { shown, wrong, early } = if model.slides {
         let relay = Filippov::new(own.clone(), SLIDING);
         let (mode, state) = (FilippovMode::Free(at.mode()), at.state());
-        let begun = || Execution::new(&relay, mode, state.clone(), limits);
+        let begun = |time| Execution::new(&relay, mode, state.clone(), limits(time));
         follow(begun, tables, count, (time, steps))?
     } else {
-        let begun = || Execution::restore(&own, at.clone(), limits);
+        let begun = |time| Execution::restore(&own, at.clone(), limits(time));
         follow(begun, tables, count, (time, steps))?
     };
     form.print(&shown, streams.output)?;
+    if let Some((time, why)) = early {
+        options.output.note(&mut streams, format_args!("the run ended at the time {time}: {why}"));
+    }
     wrong.map_or(Ok(()), Err)
 }
 
@@ -150,18 +157,27 @@ impl Word for FilippovSurface<Label, Label> {
 /// What stands in place of a surface where infinitely many events in finite time have their limit.
 const LIMIT: &str = "(limit)";
 
-/// Follows a run: its events, samples and end, and the error that has ended it. States have `count` components, and may have the time behind them.
+/// What a run gave.
+struct Followed {
+    shown: Vec<Table>,
+    /// The error that has ended it.
+    wrong: Option<Error>,
+    /// When and why it ended, if that was neither its time nor a surface that stops.
+    early: Option<(f64, &'static str)>,
+}
+
+/// Follows a run. States have `count` components, and may have the time behind them.
 fn follow<'m, T>(
-    begun: impl Fn() -> Execution<'m, T>,
+    begun: impl Fn(f64) -> Execution<'m, T>,
     [events, samples, end]: [&'static TableKind; 3],
     count: usize,
     (time, steps): (f64, Option<u32>),
-) -> Result<(Vec<Table>, Option<Error>), Error>
+) -> Result<Followed, Error>
 where
     T: HybridSystem<State = DVector<f64>, Mode: Word, Surface: Word> + 'm,
 {
     let (mut found, mut wrong) = (Table::new(events), None);
-    let mut execution = begun();
+    let mut execution = begun(time);
     let states = |state: &DVector<f64>| {
         state.iter().take(count).map(|x| Cell::from(*x)).collect::<Vec<Cell>>()
     };
@@ -170,7 +186,7 @@ where
             Ok(arc) => arc,
             // What was found before is shown.
             Err(error) => {
-                wrong = Some(failed(error));
+                wrong = Some(error.to_string());
                 break;
             }
         };
@@ -204,16 +220,21 @@ where
         found.rows.push(row);
     }
     let at = execution.checkpoint();
+    // Errors of a motion count their times from its beginning.
+    let since = format!("the last event, or the start, was at the time {}", at.time());
+    let wrong = wrong.map(|error| Error::Model(format!("{error}; {since}")));
     let mut last = Table::new(end);
     let mut row: Vec<Cell> = vec![at.time().into(), at.mode().word().into()];
     row.extend(states(at.state()));
     row.push(if wrong.is_some() { "an error" } else { reason(execution.stop()) }.into());
     last.rows.push(row);
     let mut shown = vec![found];
-    if let Some(steps) = steps.filter(|_| wrong.is_none()) {
-        let grid: Vec<f64> =
-            (0..=steps).map(|k| time * f64::from(k) / f64::from(steps.max(1))).collect();
-        let trajectory = begun().trajectory(&grid).map_err(failed)?;
+    if let Some(steps) = steps {
+        let grid = (0..=steps).map(|k| time * f64::from(k) / f64::from(steps.max(1)));
+        // Behind the last event of a run that ended in an error nothing is known.
+        let grid: Vec<f64> = grid.filter(|x| wrong.is_none() || *x <= at.time()).collect();
+        let until = if wrong.is_none() { time } else { at.time() };
+        let trajectory = begun(until).trajectory(&grid).map_err(failed)?;
         let mut found = Table::new(samples);
         for row in (0..trajectory.times.len()).filter(|row| trajectory.on_grid[*row]) {
             let mut cells: Vec<Cell> =
@@ -224,5 +245,7 @@ where
         shown.push(found);
     }
     shown.push(last);
-    Ok((shown, wrong))
+    let expected = matches!(execution.stop(), Some(Stop::TimeLimit | Stop::Terminal));
+    let early = (!expected && wrong.is_none()).then(|| (at.time(), reason(execution.stop())));
+    Ok(Followed { shown, wrong, early })
 }

@@ -3,8 +3,11 @@
 use crate::error::Error;
 use crate::model::file::{Model, texts};
 use crate::model::period::{check_period, spread};
+use crate::model::places::Places;
 use crate::model::prove::middle_of;
-use crate::model::question::{Named, check_surface, failed, mode_at, named};
+use crate::model::question::{
+    Named, check_once, check_surface, failed, mode_at, named, named_mode,
+};
 use equations::{Formulas, Names};
 use validated_dynamics::{EnclosedMap, Enclosure, SectionMap, StartSet, ValidatedSystem};
 
@@ -17,7 +20,7 @@ pub(crate) struct MapOptions {
     /// Events there until it ends
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..))]
     count: u16,
-    /// The mode in which it begins [default: that of the file, or the first one]
+    /// The mode in which it begins [default: that of the file, or the first one whose `where` the point of --near fulfils]
     #[arg(long)]
     mode: Option<String>,
     /// The other states at the start, and the time t, as formulas of the coordinates, such as x=0; those that are not given are 0
@@ -34,6 +37,8 @@ pub(crate) struct MapWords {
     surface: String,
     count: usize,
     pub(crate) mode: String,
+    /// Whether the mode follows from a point, by `where`: then it must be that of all starts.
+    is_of_place: bool,
     /// The coordinates of the section.
     pub(crate) variables: Vec<String>,
     /// The states at the start, and the time if the model uses it, as formulas of the coordinates.
@@ -54,6 +59,7 @@ impl MapOptions {
         check_surface(model, &self.surface)?;
         let uses_time = !model.equations.is_autonomous();
         let own_states = &model.equations.names().states;
+        check_once(&self.on.concat(), "--on")?;
         for (name, _) in self.on.iter().flatten() {
             let known = own_states.contains(name) || (uses_time && name == "t");
             if !known || variables.contains(name) {
@@ -74,11 +80,13 @@ impl MapOptions {
         let own = &states[..own_states.len()];
         let start = formulas_of(model, variables, own)?.values(0.0, near).map_err(failed)?;
         let mode = mode_at(self.mode.as_deref(), model, &start)?;
+        let is_of_place = named_mode(self.mode.as_deref(), model)?.is_none();
         let read = if self.read.is_empty() { variables } else { &self.read[..] };
         Ok(MapWords {
             surface: self.surface.clone(),
             count: usize::from(self.count),
             mode,
+            is_of_place,
             variables: variables.to_vec(),
             states,
             read: read.to_vec(),
@@ -112,6 +120,33 @@ impl MapWords {
         let start = system.chart(&self.mode, &texts(&self.variables), &texts(&self.states));
         let start = start.map_err(failed)?;
         SectionMap::new(system, start, &self.surface, self.count, read).map_err(failed)
+    }
+}
+
+impl MapWords {
+    /// Refuses starts that `where` puts into other modes than that in which the map begins.
+    ///
+    /// # Errors
+    /// [`Error::Misuse`] if the starts of a box are not in the mode for certain.
+    pub(crate) fn check_mode(&self, model: &Model, starts: &[Enclosure]) -> Result<(), Error> {
+        let places = Places::new(model)?;
+        let number = model.modes.iter().position(|mode| *mode == self.mode);
+        let Some(number) = number.filter(|_| self.is_of_place && places.are_given()) else {
+            return Ok(());
+        };
+        // Without the time.
+        let states = &self.states[..model.equations.names().states.len()];
+        let states = formulas_of(model, &self.variables, states)?;
+        let states = states.enclosures(Enclosure::ZERO, starts).map_err(failed)?;
+        if places.hold(number, &states)? {
+            return Ok(());
+        }
+        let text = format!(
+            "by `where` not all of these starts are in the mode {}, or that is not certain; give a smaller window, or --mode for starts \
+             that are all in it",
+            self.mode
+        );
+        Err(Error::Misuse(text))
     }
 }
 
