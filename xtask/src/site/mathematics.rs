@@ -102,7 +102,9 @@ fn index_from(letters: &[char], at: usize) -> Option<(&'static str, (usize, usiz
     let base = at.checked_sub(1).map(|before| letters[before]);
     let before = at.checked_sub(2).map(|before| letters[before]);
     let of_letter = base.is_some_and(char::is_alphanumeric)
-        && (tag == "sup" || !before.is_some_and(|c| c.is_ascii_alphanumeric() || c == '_'));
+        && (tag == "sup"
+            || base.is_some_and(|c| !c.is_ascii())
+            || !before.is_some_and(|c| c.is_ascii_alphanumeric() || c == '_'));
     let of_sign = base.is_some_and(|c| "*)]'}̃̇".contains(c));
     let is_index = count > 0 && follows != Some(&'_') && (of_letter || of_sign);
     is_index.then_some((tag, (sign + 1, sign + 1 + count), sign + 1 + count))
@@ -135,6 +137,7 @@ mod tests {
             ("α\\*\\_n and α\\*_12", "α\\*<sub>n</sub> and α\\*<sub>12</sub>"),
             ("δ^{4/3} and 10^{−3}", "δ<sup>4/3</sup> and 10<sup>−3</sup>"),
             ("(−1)^m sin V_Y(h)", "(−1)<sup>m</sup> sin V<sub>Y</sub>(h)"),
+            ("3cθ_j", "3cθ<sub>j</sub>"),
             ("M_{c_1}", "M<sub>c<sub>1</sub></sub>"),
             ("`x_1` and [a](b_1.md) <a id=\"b_2\">", "`x_1` and [a](b_1.md) <a id=\"b_2\">"),
             ("one_word and a_b_c", "one_word and a_b_c"),

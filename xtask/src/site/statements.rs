@@ -95,12 +95,12 @@ mod tests {
 
     #[test]
     fn statements_have_anchors_and_mentions_lead_there() {
-        let theory = "**Lemma 27 (one maximum).** By Theorem 3.\n\n**Theorem 3.** Text.\n";
+        let theory = "**Lemma 27 (one maximum).** By Theorem 45.\n\n**Theorem 45.** Text.\n";
         let known = anchors(theory);
-        assert_eq!(known, ["lemma-27", "theorem-3"]);
+        assert_eq!(known, ["lemma-27", "theorem-45"]);
         assert!(linked(THEORY, theory, &known).starts_with("<a id=\"lemma-27\"></a>**Lemma 27"));
-        let text = "See theory.md, Theorem 3, `Theorem 3`, [Lemma 27](a.md), Lemma 99.";
-        let expected = "See [Theorem 3](../docs/theory.md#theorem-3), `Theorem 3`, [Lemma 27](a.md), Lemma 99.\n";
+        let text = "See theory.md, Theorem 45, `Theorem 45`, [Lemma 27](a.md), Lemma 99.";
+        let expected = "See [Theorem 45](../docs/theory.md#theorem-45), `Theorem 45`, [Lemma 27](a.md), Lemma 99.\n";
         assert_eq!(linked("docs/note.md", text, &known), expected);
     }
 }

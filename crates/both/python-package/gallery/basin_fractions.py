@@ -1,4 +1,4 @@
-"""The share of each basin along the mass ratio, between bounds."""
+"""The share of each basin among the starts between α*₁ and α*₄, along the mass ratio, between bounds."""
 
 import matplotlib.pyplot as plt
 import numpy as np

@@ -35,6 +35,7 @@ mod error;
 pub mod fate_colors;
 mod graph;
 mod layer_columns;
+mod layer_drawing;
 mod layers;
 mod machine;
 mod map_plot;
@@ -53,8 +54,9 @@ pub use coverage::{coverage_png, draw_coverage};
 pub use error::Error;
 pub use graph::{Graph, cuts, cuts_between, graph_pieces};
 pub use layer_columns::LayerColumns;
+pub use layer_drawing::draw_layer;
 pub use layers::{
-    BesideEdges, Content, FLAG, LAYERS, Layer, Meaning, Values, WITHOUT_FLAG, draw_layer, label_of,
+    BesideEdges, Content, FLAG, LAYERS, Layer, Meaning, Values, WITHOUT_FLAG, label_of,
 };
 pub use machine::{draw_block, draw_ground, draw_spring};
 pub use map_plot::MapPlot;
