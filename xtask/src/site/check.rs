@@ -28,8 +28,9 @@ pub(super) fn broken_links(folder: &Path, whole: bool) -> Result<Vec<String>, Er
     for path in pages(folder)? {
         let name = path.strip_prefix(folder).unwrap_or(&path).display().to_string();
         let text = read(&path)?;
-        let found =
-            references(&text).filter(|target| !leads_somewhere(&path, folder, target, whole));
+        let found = references(&text).filter(|target| {
+            !leads_somewhere(&path, folder, target, whole) || !has_anchor(&path, &text, target)
+        });
         wrong.extend(found.map(|target| format!("{name}: {target}")));
     }
     Ok(wrong)
@@ -55,4 +56,16 @@ fn leads_somewhere(page: &Path, folder: &Path, target: &str, whole: bool) -> boo
     let file = page.parent().unwrap_or(folder).join(path.replace("%20", " "));
     let is_left_out = path.contains("rust/") || path.contains("explorer/");
     file.exists() || (!whole && is_left_out)
+}
+
+/// Whether the page of a target has its anchor; pages outside of the book have their own checks.
+fn has_anchor(page: &Path, text: &str, target: &str) -> bool {
+    let Some((path, anchor)) = target.split_once('#') else { return true };
+    let is_here = |text: &str| anchor.is_empty() || text.contains(&format!("id=\"{anchor}\""));
+    if path.is_empty() {
+        return is_here(text);
+    }
+    let other = page.parent().unwrap_or(page).join(path);
+    let is_outside = path.contains(':') || path.contains("explorer/") || path.starts_with('/');
+    is_outside || read(&other).is_ok_and(|text| is_here(&text))
 }

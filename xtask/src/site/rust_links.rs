@@ -73,8 +73,14 @@ pub(super) fn resolved(html: &str, up: &str, rust: Option<&Path>) -> Result<Stri
         let (before, from) = rest.split_at(at);
         result.push_str(before);
         let from = &from[start.len()..];
-        let Some((item, after)) = from.split_once("\">") else { break };
-        let Some((text, after)) = after.split_once("</a>") else { break };
+        let parts =
+            from.split_once("\">").and_then(|(item, rest)| Some((item, rest.split_once("</a>")?)));
+        let Some((item, (text, after))) = parts else {
+            return Err(Error::new(format!(
+                "a link to {} does not end",
+                from.get(..60).unwrap_or(from)
+            )));
+        };
         match rust {
             Some(rust) => {
                 let found = address(item, rust)?;
@@ -111,7 +117,7 @@ fn address(item: &str, rust: &Path) -> Result<String, Error> {
     let text = read(&PathBuf::from(rust).join(&page))?;
     let part = PARTS.iter().map(|kind| format!("{kind}.{name}"));
     let part = part.into_iter().find(|part| text.contains(&format!("id=\"{part}\"")));
-    Ok(part.map_or(page.clone(), |part| format!("{page}#{part}")))
+    part.map(|part| format!("{page}#{part}")).ok_or_else(not_found)
 }
 
 #[cfg(test)]

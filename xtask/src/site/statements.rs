@@ -5,7 +5,7 @@ use crate::tidy::links::resolve;
 /// The page that has them.
 pub(super) const THEORY: &str = "docs/theory.md";
 
-const KINDS: [&str; 4] = ["Theorem", "Lemma", "Corollary", "Proposition"];
+const KINDS: [&str; 5] = ["Theorem", "Lemma", "Corollary", "Proposition", "Conjecture"];
 
 /// A page with its statements linked; `known` are the anchors of the theory.
 pub(super) fn linked(page: &str, text: &str, known: &[String]) -> String {
@@ -57,7 +57,7 @@ fn mentions(page: &str, line: &str, known: &[String]) -> String {
         let number: String = words.chars().take_while(char::is_ascii_digit).collect();
         let (word, after) = from.split_at(kind.len() + 1 + number.len());
         let own = anchor(kind, &number);
-        let quiet = is_inside(&result);
+        let quiet = is_inside(&result, after);
         if number.is_empty() || quiet || !known.contains(&own) {
             result.push_str(word);
         } else {
@@ -72,11 +72,12 @@ fn mentions(page: &str, line: &str, known: &[String]) -> String {
     result + rest
 }
 
-/// Whether what follows this text is in code, or in the text or the target of a link.
-fn is_inside(text: &str) -> bool {
-    let open = |a: char, b: char| text.matches(a).count() > text.matches(b).count();
+/// Whether a place between two parts of a line is in code, or in the text or the target of a link. A bracket alone, as that of an interval, is no link.
+fn is_inside(text: &str, after: &str) -> bool {
+    let is_open = text.rfind('[') > text.rfind(']');
+    let is_text = is_open && after.find("](").is_some_and(|at| !after[..at].contains('['));
     let target = text.rfind("](").is_some_and(|at| !text[at..].contains(')'));
-    text.matches('`').count() % 2 == 1 || open('[', ']') || target
+    text.matches('`').count() % 2 == 1 || is_text || target
 }
 
 /// The path of the theory from a page; empty on itself.
@@ -99,8 +100,8 @@ mod tests {
         let known = anchors(theory);
         assert_eq!(known, ["lemma-27", "theorem-45"]);
         assert!(linked(THEORY, theory, &known).starts_with("<a id=\"lemma-27\"></a>**Lemma 27"));
-        let text = "See theory.md, Theorem 45, `Theorem 45`, [Lemma 27](a.md), Lemma 99.";
-        let expected = "See [Theorem 45](../docs/theory.md#theorem-45), `Theorem 45`, [Lemma 27](a.md), Lemma 99.\n";
+        let text = "See theory.md, Theorem 45, `Theorem 45`, [Lemma 27](a.md), Lemma 99; [0, 1) by Lemma 27.";
+        let expected = "See [Theorem 45](../docs/theory.md#theorem-45), `Theorem 45`, [Lemma 27](a.md), Lemma 99; [0, 1) by [Lemma 27](../docs/theory.md#lemma-27).\n";
         assert_eq!(linked("docs/note.md", text, &known), expected);
     }
 }

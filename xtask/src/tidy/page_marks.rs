@@ -43,7 +43,10 @@ fn has_bare_star(line: &str) -> bool {
 
 /// The cells of a row of a table: parts between bars that are not escaped.
 fn cells(line: &str) -> usize {
-    line.replace("\\|", "  ").trim().trim_matches('|').split('|').count()
+    let line = line.replace("\\|", "  ");
+    let line = line.trim();
+    let line = line.strip_prefix('|').unwrap_or(line);
+    line.strip_suffix('|').unwrap_or(line).split('|').count()
 }
 
 fn check_titles(summary: &Source, pages: &[Source], breaches: &mut Vec<Breach>) {
@@ -86,6 +89,7 @@ mod tests {
             ("2α* − sin 2α*", 1),
             ("| a | b |\n|---|---|\n| x | \\|y\\| |\n", 0),
             ("| a | b |\n|---|---|\n| x | |y| |\n| x | y |\n", 1),
+            ("| a | b |\n|---|---|\n| a ||\n", 0),
             ("| a | b |\n|---|---|\n\n| a |\n|---|\n", 0),
         ] {
             assert_eq!(rules(&[("docs/x.md", text)]), count, "{text}");

@@ -15,6 +15,7 @@
 //! | [`one_sided_stability`] | attracting or repelling from the left or right, with its power law |
 //! | [`MapFamily`], [`FormulaMap`], [`EquationReturns`] | maps that depend on a parameter: by formulas, as returns of `hybrid_system::Equations` |
 //! | [`returns`], [`smooth_returns`], [`family`](fn@family), [`scalar_family`], [`pieces`] | the same as returns of any hybrid system, and by closures of numbers |
+//! | [`ReturnEnds`] | the mode and the whole state behind a return: whether a map goes on as the flow does |
 //! | [`watched`] | a map that counts its images and can be stopped: progress and interruption of everything below |
 //! | [`follow_branch`], [`follow_equilibria`], [`Branch`] | how fixed points, periodic points and equilibria change with the parameter |
 //! | [`Bifurcation`], [`BifurcationKind`] | where they are born, change and end, located on the branch, with normal forms |
@@ -135,8 +136,8 @@ pub use branches::{
 pub use error::Error;
 pub use families::{
     Border, BorderSite, Clearance, Closure, EquationReturns, FormulaMap, Image, Linearized,
-    MapFamily, Pushed, SmoothReturns, SystemReturns, family, pieces, returns, scalar_family,
-    smooth_returns, watched,
+    MapFamily, Pushed, ReturnEnds, SmoothReturns, SystemReturns, family, pieces, returns,
+    scalar_family, smooth_returns, watched,
 };
 pub use manifolds::{
     ManifoldCrossing, ManifoldCurve, ManifoldCut, ManifoldEnd, ManifoldSteps, ManifoldTangency,

@@ -73,7 +73,7 @@ const colorOf = (label) => colors.get(label) ?? (label < 65000 ? lastColor : col
 const byId = (id) => document.getElementById(id);
 const centre = () => ({ left: plane.box.width / 2, top: plane.box.height / 2 });
 const pointAt = (where) => at(state.view, where.left, where.top, plane.box);
-const pinAt = (where) => toPin(state.view, pointAt(where));
+const pinHere = (where) => { const pin = toPin(state.view, pointAt(where)); if (pin.m > 0 && pin.alpha > 0) change({ pin }); };
 
 function zoom(where, factorX, factorAlpha) {
   halt();
@@ -263,7 +263,7 @@ const goHome = () => {
 };
 const setLayer = (layer) => () => change({ layer });
 const setLogarithmic = (logarithmic) => change({ view: withLogarithm(state.view, logarithmic) });
-const pinCentre = () => change({ pin: pinAt(centre()) });
+const pinCentre = () => pinHere(centre());
 const scale = (x, alpha) => () => zoomGently(centre(), x, alpha);
 
 gestures(canvas, {
@@ -271,8 +271,7 @@ gestures(canvas, {
   move: (byLeft, byTop) => pan(-byLeft / plane.box.width, byTop / plane.box.height),
   click: (where) => {
     if (state.depth) return change({ pin: { m: state.depth.about.massRatio, alpha: state.depth.about.alpha } });
-    const pin = pinAt(where);
-    if (pin.m > 0 && pin.alpha > 0) change({ pin });
+    pinHere(where);
   },
   hover,
   twice: (where) => zoomGently(where, 0.4, 0.4),
@@ -316,7 +315,7 @@ keys({
   ArrowLeft: () => pan(-0.1, 0), ArrowRight: () => pan(0.1, 0), ArrowUp: () => pan(0, 0.1), ArrowDown: () => pan(0, -0.1),
   "+": scale(1 / 1.5, 1 / 1.5), "=": scale(1 / 1.5, 1 / 1.5), "-": scale(1.5, 1.5), "−": scale(1.5, 1.5),
   X: scale(1 / 1.5, 1), x: scale(1.5, 1), A: scale(1, 1 / 1.5), a: scale(1, 1.5),
-  Enter: pinCentre, h: goHome, l: () => setLogarithmic(!state.view.logarithmic), ...Object.fromEntries(layers.map((_, k) => [(k + 1) % 10, setLayer(k)])),
+  Enter: pinCentre, h: goHome, l: () => setLogarithmic(!state.view.logarithmic), ...Object.fromEntries(layers.slice(0, 10).map((_, k) => [(k + 1) % 10, setLayer(k)])),
   d: deepHere, t: () => goTo(() => 0), n: () => touring && goTo(({ runs, at }) => (runs ? at + 1 : -1)), p: () => touring && goTo(({ at }) => (at > 0 ? at - 1 : at)),
   Escape: () => { if (state.depth) leaveDepth(); if (touring) goTo(() => -1); }, z: () => history.back(), y: () => history.forward(), g: places,
   " ": () => play(), ",": () => step(-1), ".": () => step(1), s: saveDialog, c: share, "?": help,

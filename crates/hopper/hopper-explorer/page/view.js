@@ -45,8 +45,9 @@ export function short(number, width) {
 
 /** The point of the plane to pin, with few decimals. */
 export function toPin(view, { x, alpha }) {
-  const [low, high] = view.x.map((end) => toM(view, end));
-  return { m: short(toM(view, x), high - low), alpha: short(alpha, view.alpha[1] - view.alpha[0]) };
+  const [m, width] = [toM(view, x), view.x[1] - view.x[0]];
+  // On the logarithmic axis a step has another width at each M.
+  return { m: short(m, view.logarithmic ? m * Math.LN2 * width : width), alpha: short(alpha, view.alpha[1] - view.alpha[0]) };
 }
 
 /** The same window with ends that have few decimals. */

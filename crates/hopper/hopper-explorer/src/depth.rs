@@ -157,8 +157,14 @@ impl Depth {
                 format!("a frame has up to {MOST_PIXELS} pixels each way, not {columns} × {rows}");
             return Err(Refusal::new(text));
         }
+        if !(depth >= 0.0 && depth.is_finite()) {
+            return Err(Refusal::new(format!("a depth is a finite number from 0 on, not {depth}")));
+        }
         let values = layer.values();
         match (self, layer.beside_edges, values) {
+            (_, BesideEdges::Sides, Some(values)) if depth < SAMPLED => {
+                self.sampled(values, depth, (columns, rows))
+            }
             (Depth::OfFixedPoint(of), BesideEdges::Phases, Some(values)) => {
                 of.phases(values, depth, (columns, rows))
             }
@@ -200,30 +206,73 @@ impl Depth {
         }
     }
 
-    /// The numbers of a layer below and above the point, so near that they are those at the edge.
+    /// The numbers of a layer below and above the point, so near that they are those at the edge. None where they still change there: the slope at an edge of
+    /// grounding has no limit.
     fn numbers_beside(&self, values: &Values) -> Result<[u64; 2], Refusal> {
-        let (ratio, point) = match self {
-            Depth::OfFixedPoint(of) => (of.chart.mass_ratio(), of.chart.point().0),
-            Depth::OfGrounding(edge) => (edge.mass_ratio, edge.point),
+        let (ratio, point) = self.place();
+        let at = |part: f64| {
+            let (x, y) = ((ratio, f64::EPSILON * ratio), (point, part * point));
+            let found = numbers_about(values, (x, y), (1, 2))?;
+            Ok::<_, Refusal>([found[0], found[1]])
         };
-        let about =
-            |middle: f64, part: f64| Interval::new(middle * (1.0 - part), middle * (1.0 + part));
-        let grid = Grid {
-            x: about(ratio.value(), f64::EPSILON)?,
-            y: about(point, BESIDE)?,
-            columns: 1,
-            rows: 2,
+        let (near, nearer) = (at(BESIDE)?, at(BESIDE / 16.0)?);
+        let is_limit = |side: usize| {
+            let [one, other] = [near[side], nearer[side]].map(|number| values.number(number));
+            one == other || (one - other).abs() <= CHANGE * (one.abs() + other.abs())
         };
-        let found = (values.columns)(&LayerColumns { grid, logarithmic: false, columns: 0..1 })?;
-        match found.first().map(Vec::as_slice) {
-            Some(&[below, above]) => Ok([below, above]),
-            _ => Ok([NO_NUMBER; 2]),
+        Ok([0, 1].map(|side| if is_limit(side) { nearer[side] } else { NO_NUMBER }))
+    }
+
+    /// M and α of the point.
+    fn place(&self) -> (f64, f64) {
+        match self {
+            Depth::OfFixedPoint(of) => (of.chart.mass_ratio().value(), of.chart.point().0),
+            Depth::OfGrounding(edge) => (edge.mass_ratio.value(), edge.point),
         }
+    }
+
+    /// The colours of a layer in a window that doubles resolve.
+    fn sampled(
+        &self,
+        values: &Values,
+        depth: f64,
+        (columns, rows): (usize, usize),
+    ) -> Result<Vec<u8>, Refusal> {
+        let (ratio, point) = self.place();
+        let half = pxfm::f_exp10(-depth);
+        let slant = match self {
+            Depth::OfFixedPoint(of) => frame_slant(&of.edge),
+            Depth::OfGrounding(edge) => edge.slant(),
+        };
+        let sides = ((ratio, half * slant), (point, half));
+        let numbers = numbers_about(values, sides, (columns, rows))?;
+        let row = |row: usize| (0..columns).map(move |column| column * rows + row);
+        let colors = (0..rows).rev().flat_map(row).flat_map(|at| values.color(numbers[at]));
+        Ok(opaque(&colors.collect::<Vec<u8>>()))
     }
 }
 
-/// How far beside the edge the numbers of one hop are taken, as a part of the speed: far enough for doubles, and so near that they change by some 10⁻⁸.
+/// The numbers of a layer in a window, column after column, each from below: each side has a middle and a half.
+fn numbers_about(
+    values: &Values,
+    ((x, half_x), (y, half_y)): ((f64, f64), (f64, f64)),
+    (columns, rows): (usize, usize),
+) -> Result<Vec<u64>, Refusal> {
+    let (x, y) = (Interval::new(x - half_x, x + half_x)?, Interval::new(y - half_y, y + half_y)?);
+    let grid = Grid { x, y, columns, rows };
+    let of = LayerColumns { grid, logarithmic: false, columns: 0..columns };
+    Ok((values.columns)(&of)?.concat())
+}
+
+/// Depths up to which the numbers of one hop are those of pixels.
+const SAMPLED: f64 = 5.0;
+
+/// Half of the height of the window in which the numbers at the edge are taken, as a part of the speed: far enough for doubles, and so near that they change by
+/// some 10⁻⁸.
 const BESIDE: f64 = 1e-9;
+
+/// A number that changes more on a sixteenth of the distance has no limit at the edge.
+const CHANGE: f64 = 1e-3;
 
 /// A real number of a layer that is none.
 const NO_NUMBER: u64 = f32::NAN.to_bits() as u64;

@@ -226,4 +226,14 @@ fn layers_beside_an_edge_have_their_numbers_at_any_depth() {
     let frame = open.frame(layer("loss"), 40.0, (1, 2)).unwrap();
     let is_first = open.text().contains(r#""hops":1,"#);
     assert_eq!(frame[..4] != frame[4..], is_first, "{}", open.text());
+    // Its slope has no limit there.
+    let slopes = [0.5, -0.5].map(|y| open.label(layer("slope"), 40.0, (0.0, y)).unwrap());
+    assert!(!is_first || slopes.iter().all(|label| !label.contains("number")), "{slopes:?}");
+    // A window that doubles resolve has many numbers.
+    let frame = open.frame(layer("flight"), 0.5, (8, 8)).unwrap();
+    let (pixels, _) = frame.as_chunks::<4>();
+    assert!(pixels.iter().collect::<std::collections::BTreeSet<_>>().len() > 4);
+    for wrong in [f64::NAN, -1.0, f64::INFINITY] {
+        assert!(open.frame(layer("flight"), wrong, (8, 8)).is_err());
+    }
 }

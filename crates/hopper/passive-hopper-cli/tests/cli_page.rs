@@ -62,6 +62,8 @@ fn the_calls_of_the_page_of_any_model_give_its_output() {
     }
     // The files of the page are those of the examples, but for their first line.
     let shown = page.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap());
+    let shown: Vec<&str> = shown.collect();
+    assert_eq!(shown.len(), 2);
     for (file, shown) in ["ball.toml", "oscillator.toml"].iter().zip(shown) {
         let own = std::fs::read_to_string(folder.join(file)).unwrap();
         assert_eq!(own.split_once('\n').unwrap().1, shown);

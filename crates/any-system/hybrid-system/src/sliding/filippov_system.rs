@@ -322,9 +322,13 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
     }
 }
 
-/// The condition of an event of both sides, of which the larger one is below zero and the smaller one above; NaN, which decides
-/// nothing, if it counts on one side alone.
+/// The condition of an event of both sides: the smaller one where both count, the larger one where neither does. NaN, which decides nothing, if it counts on one
+/// side alone, or if one has no value.
 fn both(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+    let has_no_value = |condition: Option<f64>| condition.is_some_and(f64::is_nan);
+    if has_no_value(one) || has_no_value(other) {
+        return Some(f64::NAN);
+    }
     let counts = |condition: Option<f64>| condition.is_none_or(|condition| condition > 0.0);
     match (counts(one), counts(other)) {
         (true, true) => match (one, other) {

@@ -20,6 +20,7 @@ mod formula_map;
 mod formula_values;
 mod iterated;
 mod return_arcs;
+mod return_ends;
 mod system_returns;
 mod watched;
 
@@ -34,5 +35,6 @@ pub(crate) use formula_map::check_without_time;
 pub(crate) use iterated::{
     curve_after, first_difference, image_of, orbit_after, orbit_end, point_after,
 };
+pub use return_ends::ReturnEnds;
 pub use system_returns::{SmoothReturns, SystemReturns, returns, smooth_returns};
 pub use watched::watched;

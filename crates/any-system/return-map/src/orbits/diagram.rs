@@ -17,22 +17,27 @@ pub struct DiagramColumn {
 /// For each column of a diagram, and each of its seeds: after how many images the orbit comes back to its points. `None` for an orbit that does not do so twice
 /// within its points, and for one that has none.
 ///
-/// Points count as one if each coordinate differs by at most `tolerance` times its range, over all points of the diagram and the seeds, and by rounding. So a
-/// period is as sure as the points: a long transient, and an orbit that is periodic only to this tolerance, have one here.
+/// Points count as one if each coordinate differs by at most `tolerance` times its range in the diagram, and by rounding: by what a picture of the diagram does
+/// not show. The range is that of nine tenths of all points and seeds, so that some orbits that escape do not make it wide. So a period is as sure as the
+/// points: a long transient, and an orbit that is periodic only to this tolerance, have one here.
 pub fn periods(
     columns: &[DiagramColumn],
     seeds: &[Vec<f64>],
     tolerance: f64,
 ) -> Vec<Vec<Option<usize>>> {
-    let points = || columns.iter().flat_map(|column| column.orbits.iter().flatten().flatten());
-    let dimension = seeds.first().map_or(0, Vec::len);
+    let points = || {
+        let orbits = columns.iter().flat_map(|column| column.orbits.iter().flatten().flatten());
+        orbits.chain(seeds)
+    };
+    let dimension = points().map(Vec::len).max().unwrap_or(0);
     let apart: Vec<f64> = (0..dimension)
         .map(|at| {
-            let values = || points().chain(seeds).filter_map(|point| point.get(at).copied());
-            let (low, high) = values()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                    (low.min(x), high.max(x))
-                });
+            let mut values: Vec<f64> =
+                points().filter_map(|point| point.get(at).copied()).collect();
+            values.sort_by(f64::total_cmp);
+            let left_out = values.len() / 20;
+            let inner = &values[left_out..values.len() - left_out];
+            let (Some(low), Some(high)) = (inner.first(), inner.last()) else { return 0.0 };
             tolerance * (high - low) + ROUNDING * low.abs().max(high.abs())
         })
         .collect();
@@ -159,4 +164,47 @@ fn orbit<M: MapFamily + ?Sized>(
         ControlFlow::Continue(())
     })?;
     Ok((kept, last))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::families::scalar_family;
+    use std::ops::ControlFlow::Continue;
+
+    #[test]
+    fn periods_are_those_of_the_range_of_the_diagram() {
+        let length = OrbitLength { transient: 2000, keep: 16 };
+        // In small units, far from 0, and with an orbit that grows in one of 40 columns.
+        for (unit, shift) in [(1.0, 0.0), (1e-7, 0.0), (1e-4, 300.0)] {
+            let logistic = scalar_family(move |x, r| {
+                let y = (x - shift) / unit;
+                shift + unit * if r > 4.0 { 2.0 * y } else { r * y * (1.0 - y) }
+            });
+            let mut at = vec![2.9, 3.2, 3.5, 3.9];
+            at.extend([3.3; 35]);
+            at.push(5.0);
+            let seeds = [vec![shift + 0.3 * unit]];
+            let short = OrbitLength { transient: if unit < 1.0 { 2000 } else { 500 }, ..length };
+            let found =
+                bifurcation_diagram(
+                    &logistic,
+                    &at,
+                    (&seeds, Seeds::Fresh),
+                    short,
+                    |_| Continue(()),
+                );
+            let found = periods(&found, &seeds, 1e-6);
+            let first: Vec<Option<usize>> = found.iter().take(4).map(|own| own[0]).collect();
+            assert_eq!(first, [Some(1), Some(2), Some(4), None], "{unit} {shift}");
+        }
+        // Without points there is no period, and without seeds they are found.
+        let empty = DiagramColumn { parameter: 0.0, orbits: vec![Ok(Vec::new())] };
+        assert_eq!(periods(&[empty], &[], 1e-6), [[None]]);
+        let cycle = DiagramColumn {
+            parameter: 0.0,
+            orbits: vec![Ok([1.0, 2.0, 1.0, 2.0].map(|x| vec![x]).to_vec())],
+        };
+        assert_eq!(periods(&[cycle], &[], 1e-6), [[Some(2)]]);
+    }
 }

@@ -361,6 +361,6 @@ pub(crate) fn turns_to_leave(coordinate: &FatouCoordinate, delta: Offset) -> f64
 }
 
 /// The error of Ψ for a relative error of δ: |δ dΨ/dδ| = (1 + O(x))/(3 A x), with a factor 2 for the next orders.
-fn phase_error(coordinate: &FatouCoordinate, delta: Offset, relative: f64) -> f64 {
+pub(crate) fn phase_error(coordinate: &FatouCoordinate, delta: Offset, relative: f64) -> f64 {
     2.0 / 3.0 * relative * turns_to_leave(coordinate, delta)
 }

@@ -1,9 +1,9 @@
 //! The phases of orbits in windows of any height about an edge of a basin.
 
-use crate::circle::edge_chart::EdgeChart;
+use crate::circle::edge_chart::{EdgeChart, phase_error};
 use crate::circle::edge_path::FollowedEdge;
 use crate::circle::edge_pixels::CHART;
-use crate::circle::edge_window::frame_slant;
+use crate::circle::edge_window::{MOST_PIXELS, frame_slant};
 use crate::circle::phase_basins::PhaseBasins;
 use crate::circle::share_column::power_of_ten;
 use crate::error::Error;
@@ -22,7 +22,7 @@ const LARGEST_ERROR: f64 = 1e-3;
 /// [domain](PhaseBasins::domain), whose orbit has the same phase.
 ///
 /// # Errors
-/// Those of [`EdgeChart::offset`], [`Fates::phases`] and [`MassRatio::new`].
+/// [`Error::EdgeFrame`] as for [`edge_frame`](crate::edge_frame); those of [`EdgeChart::offset`], [`Fates::phases`] and [`MassRatio::new`].
 pub fn edge_phases(
     fates: &Fates,
     (chart, edge): (&EdgeChart, &FollowedEdge),
@@ -30,9 +30,12 @@ pub fn edge_phases(
     depth: f64,
     (columns, rows): (usize, usize),
 ) -> Result<Vec<Option<f64>>, Error> {
+    let good = |pixels: usize| (1..=MOST_PIXELS).contains(&pixels);
+    if !(depth >= 0.0 && depth.is_finite() && good(columns) && good(rows)) {
+        return Err(Error::EdgeFrame { depth, columns, rows, most: MOST_PIXELS });
+    }
     let (mantissa, exponent) = power_of_ten(depth);
     let half = Offset::new(mantissa, exponent)?.nearest();
-    let middle = |at: usize, all: usize| (2 * at + 1) as f64 / all as f64 - 1.0;
     if 1.5 * half > chart.radius().min(CHART) {
         return sampled((chart, edge), half, (columns, rows));
     }
@@ -63,6 +66,11 @@ pub fn edge_phases(
     Ok(all)
 }
 
+/// The middle of a pixel, from −1 to 1.
+fn middle(at: usize, all: usize) -> f64 {
+    (2 * at + 1) as f64 / all as f64 - 1.0
+}
+
 /// What gives the phase of an offset from the edge.
 struct Cells<'a> {
     fates: &'a Fates,
@@ -80,21 +88,31 @@ impl<'a> Cells<'a> {
     }
 
     fn phase(&self, y: Offset) -> Result<Option<f64>, Error> {
-        let (delta, _) = self.chart.offset(y)?;
+        let (delta, relative) = self.chart.offset(y)?;
         if delta.mantissa() > 0.0 {
-            let found = self.right.as_ref().map(|right| right.phase(delta));
-            let Some(Ok(phase)) = found else { return Ok(None) };
-            return Ok((phase.error() <= LARGEST_ERROR).then_some(phase.fraction()));
+            let Some(right) = &self.right else { return Ok(None) };
+            let Ok(phase) = right.phase(delta) else { return Ok(None) };
+            let error = phase.error() + phase_error(right, delta, relative);
+            return Ok((error <= LARGEST_ERROR).then_some(phase.fraction()));
         }
         if delta.mantissa() == 0.0 {
             return Ok(None);
         }
         let turn = self.chart.phase(self.circle, y)?;
-        if turn.error() > LARGEST_ERROR {
+        let error = turn.error() + self.circle.phase_error();
+        if error > LARGEST_ERROR {
             return Ok(None);
         }
-        let speed = self.circle.speed_at(turn.fraction());
-        Ok(self.fates.phases(&[speed])?.pop().flatten())
+        // Near the ends of a basin the phase in the end turns without bound within a turn here: it is known if it is the same on both sides of the error.
+        let at = |place: f64| self.circle.speed_at(place - place.floor());
+        let places = [-error, 0.0, error].map(|shift| at(turn.fraction() + shift));
+        let phases = self.fates.phases(&places)?;
+        let &[Some(low), Some(phase), Some(high)] = &phases[..] else { return Ok(None) };
+        let apart = |one: f64| {
+            let apart = (one - phase).abs();
+            apart.min(1.0 - apart)
+        };
+        Ok((apart(low).max(apart(high)) <= LARGEST_ERROR).then_some(phase))
     }
 }
 
@@ -104,7 +122,6 @@ fn sampled(
     half: f64,
     (columns, rows): (usize, usize),
 ) -> Result<Vec<Option<f64>>, Error> {
-    let middle = |at: usize, all: usize| (2 * at + 1) as f64 / all as f64 - 1.0;
     let speeds: Vec<f64> =
         (0..rows).map(|row| chart.point().0 + half * middle(row, rows)).collect();
     let mut all = vec![None; columns * rows];
@@ -157,5 +174,13 @@ mod tests {
         let deep = edge_phases(&fates, about, &circle, 30.0, (1, 32)).unwrap();
         let known = |rows: &[Option<f64>]| rows.iter().flatten().count();
         assert!(known(&deep[..16]) > 0 && known(&deep[16..]) > 8);
+        assert!(deep[16..].windows(2).filter(|pair| pair[0] != pair[1]).count() > 8);
+        // Beyond 10⁻⁴⁵ nothing is known of them.
+        let deepest = edge_phases(&fates, about, &circle, 100.0, (1, 32)).unwrap();
+        assert_eq!(known(&deepest), 0);
+        for wrong in [(0, 4), (4, 1 << 30)] {
+            assert!(edge_phases(&fates, about, &circle, 30.0, wrong).is_err());
+        }
+        assert!(edge_phases(&fates, about, &circle, f64::NAN, (4, 4)).is_err());
     }
 }

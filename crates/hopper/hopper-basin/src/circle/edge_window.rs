@@ -15,7 +15,7 @@ use basin_of_attraction::{Grid, Interval, Label};
 use hopper_asymptotics::{Offset, Phase};
 
 /// Most pixels of a frame each way: its shares then take a gigabyte.
-const MOST_PIXELS: usize = 1 << 13;
+pub(crate) const MOST_PIXELS: usize = 1 << 13;
 
 /// Below the scale of the chart a pixel is the mean of so many strips, each cut into so many cells: 16 levels at an
 /// oblique edge.

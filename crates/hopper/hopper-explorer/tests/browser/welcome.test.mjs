@@ -352,3 +352,16 @@ onPage(
   },
   { colorScheme: "dark" },
 );
+
+onPage("a point is pinned where it is clicked on the logarithmic axis, too", "#log=-30,14,4.4,8", async (page) => {
+  await page.mouse.click(420, 310);
+  await page.waitForFunction(() => explorer.state.pin !== null);
+  const [pin, there] = await page.evaluate(() => {
+    const { view, pin } = explorer.state;
+    const { left } = explorer.plane.corner;
+    const { left: from } = explorer.plane.canvas.getBoundingClientRect();
+    const part = (420 - from - left) / explorer.plane.box.width;
+    return [pin.m, 2 ** (view.x[0] + part * (view.x[1] - view.x[0]))];
+  });
+  assert.ok(Math.abs(pin / there - 1) < 1e-3, `${pin} ${there}`);
+});

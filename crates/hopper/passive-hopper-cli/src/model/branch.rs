@@ -11,7 +11,8 @@ use crate::options::output_file::{OutputFile, check, figure};
 use crate::output::{Cell, Column, Table, TableKind};
 use crate::streams::Streams;
 use journal_figures::{LabelledBranch, Svg};
-use return_map::{Branch, BranchEnd, BranchSteps, follow_branch};
+use rayon::prelude::*;
+use return_map::{Branch, BranchEnd, BranchPoint, BranchSteps, follow_branch};
 use std::ops::ControlFlow;
 
 /// Follow the periodic orbits of a return map along a parameter, with their bifurcations
@@ -67,16 +68,17 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         let (from, to) = window;
         return Err(Error::misuse("--at", at, &format!("give a value from {from} to {to}")));
     }
-    let returns = options.returns.returns(&model, &names, (&[start.clone()], &[at]))?;
+    let returns = options.returns.returns(&model, &names, (std::slice::from_ref(&start), &[at]))?;
     let (map, checks) = returns.into_parts();
-    checks.check(&start, at)?;
+    checks.check(&map, (&start, at), period)?;
     let branch = search::run(&options.output, &mut streams, move || {
         let go_on = |_: &_| ControlFlow::Continue(());
         let branch =
             follow_branch(&map, period, (&start, at), window, BranchSteps::default(), go_on)
                 .map_err(failed)?;
         // What is right at one point may be wrong along the way.
-        branch.points.iter().try_for_each(|own| checks.check(&own.point, own.parameter))?;
+        let check = |own: &BranchPoint| checks.check(&map, (&own.point, own.parameter), period);
+        branch.points.par_iter().try_for_each(check)?;
         Ok(branch)
     })?;
     if let Some(file) = &options.figure {

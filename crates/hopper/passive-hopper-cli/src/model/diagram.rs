@@ -11,6 +11,7 @@ use crate::options::output_file::{OutputFile, check, figure};
 use crate::output::{Cell, Column, Table};
 use crate::streams::Streams;
 use journal_figures::Svg;
+use rayon::prelude::*;
 use return_map::{DiagramColumn, OrbitLength, Seeds, bifurcation_diagram, periods};
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
@@ -85,18 +86,23 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
                 count.store(finished, Ordering::Relaxed);
                 ControlFlow::Continue(())
             };
-            // What is right at one value, or at one start, may be wrong at another one.
-            for &parameter in &parameters {
-                starts.iter().try_for_each(|start| checks.check(start, parameter))?;
-            }
             let columns =
                 bifurcation_diagram(&map, &parameters, (&starts, seeds), length, progress);
-            // So may what is right at a start be at a later point.
-            for column in &columns {
-                for point in column.orbits.iter().flatten().filter_map(|points| points.last()) {
-                    checks.check(point, column.parameter)?;
-                }
-            }
+            // What is right at one value of the parameter, or at one point, may be wrong at another one: where each orbit begins, and behind its last point.
+            let carried = seeds == Seeds::Carried;
+            let begins = |at: usize, own: usize| {
+                let before = at.checked_sub(1).filter(|_| carried).and_then(|at| columns.get(at));
+                let last = before.and_then(|column| column.orbits.get(own)?.as_ref().ok()?.last());
+                last.unwrap_or(&starts[own])
+            };
+            columns.par_iter().enumerate().try_for_each(|(at, column)| {
+                column.orbits.iter().enumerate().try_for_each(|(own, orbit)| {
+                    let last = orbit.as_ref().ok().and_then(|points| points.last());
+                    std::iter::once(begins(at, own))
+                        .chain(last)
+                        .try_for_each(|point| checks.check(&map, (point, column.parameter), 1))
+                })
+            })?;
             let periods = periods(&columns, &starts, SAME);
             Ok((columns, periods))
         })?;

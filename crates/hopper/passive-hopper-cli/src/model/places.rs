@@ -21,7 +21,13 @@ impl<'a> Places<'a> {
         let formula = |(number, text): (usize, &Option<String>)| {
             let names = model.equations.names().clone();
             let formula = text.as_ref().map(|text| Formulas::from_text(names, &[text]));
-            formula.transpose().map_err(|error| wrong(model, number, &error))
+            let formula = formula.transpose().map_err(|error| wrong(model, number, &error))?;
+            if formula.as_ref().is_some_and(Formulas::uses_time) {
+                let mode = &model.modes[number];
+                let text = "it has the time t; a state alone must say whether it is in the mode";
+                return Err(Error::Misuse(format!("the mode {mode}: where: {text}")));
+            }
+            Ok(formula)
         };
         let formulas =
             model.places.iter().enumerate().map(formula).collect::<Result<_, Error>>()?;

@@ -2,8 +2,9 @@
 
 use crate::commands::search;
 use crate::error::Error;
+use crate::model::file::Model;
 use crate::model::question::{ModelOptions, Named, failed, named, names_of, point};
-use crate::model::section_map::MapOptions;
+use crate::model::section_map::{MapOptions, MapWords};
 use crate::options::form::OutputOptions;
 use crate::output::{Column, Table, TableKind};
 use crate::streams::Streams;
@@ -78,9 +79,7 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         words.check_closing(&model, &system, (&middle, &half))?;
         let trap = orbit.is_attracting().then(|| Trap::new(&map, &orbit, own.boxes).ok()).flatten();
         words.check_mode(&model, &orbit.point)?;
-        if let Some(trap) = &trap {
-            words.check_mode(&model, &cube(trap, reach(trap).unwrap_or(0.0)))?;
-        }
+        let reach = trap.as_ref().map(|trap| reach(trap, (&words, &model))).transpose()?.flatten();
         let mut text = None;
         if own.certificate.is_some() {
             let mut certificate = Certificate::new("nonsmooth");
@@ -90,14 +89,14 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
             }
             text = Some(certificate.text());
         }
-        Ok((orbit, trap, text))
+        Ok((orbit, reach, text))
     })?;
-    let (orbit, trap, text) = found;
+    let (orbit, reach, text) = found;
     if let (Some(file), Some(text)) = (&options.certificate, text) {
         write_atomically(file, text.as_bytes())?;
         options.output.note(&mut streams, format_args!("wrote {}", file.display()));
     }
-    form.print(&[proved(&names, &orbit), kind(&orbit, trap.as_ref())], streams.output)
+    form.print(&[proved(&names, &orbit), kind(&orbit, reach)], streams.output)
 }
 
 /// How far beside the orbit it is looked whether the map goes on as the flow does, as a part of its size: far enough that
@@ -134,14 +133,13 @@ fn proved(names: &[String], orbit: &ProvedFixedPoint) -> Table {
     found
 }
 
-fn kind(orbit: &ProvedFixedPoint, trap: Option<&Trap>) -> Table {
+fn kind(orbit: &ProvedFixedPoint, reach: Option<f64>) -> Table {
     let word = match (orbit.is_attracting(), orbit.is_saddle()) {
         (true, _) => "attracting",
         (_, true) => "a saddle",
         _ => "repelling, or not decided",
     };
     let mut found = Table::new(&ORBIT);
-    let reach = trap.and_then(reach);
     found.push([word.into(), reach.into()]);
     found
 }
@@ -149,15 +147,24 @@ fn kind(orbit: &ProvedFixedPoint, trap: Option<&Trap>) -> Table {
 /// Halvings until a cube is in a trap: some are enough unless its directions are nearly one.
 const HALVINGS: usize = 60;
 
-/// A cube about the trap's centre.
-fn cube(trap: &Trap, half: f64) -> Vec<Enclosure> {
-    let side = |x: &f64| Enclosure::new((x - half).next_down(), (x + half).next_up());
-    trap.centre().iter().map(side).collect()
-}
-
-/// Half of the side of a cube about the trap's centre that is in the trap, for certain.
-pub(crate) fn reach(trap: &Trap) -> Option<f64> {
+/// Half of the side of a cube about the trap's centre that is in the trap, and of which all points are starts in the mode of the map, for certain.
+///
+/// # Errors
+/// As [`MapWords::are_in_mode`].
+pub(crate) fn reach(
+    trap: &Trap,
+    (words, model): (&MapWords, &Model),
+) -> Result<Option<f64>, Error> {
+    let cube = |half: f64| {
+        let side = |x: &f64| Enclosure::new((x - half).next_down(), (x + half).next_up());
+        trap.centre().iter().map(side).collect::<Vec<Enclosure>>()
+    };
     // Directions have the length 1, so that no cube is much larger than the trap.
-    let mut halves = (0..HALVINGS).map(|k| trap.size() * 0.5f64.powi(k as i32));
-    halves.find(|half| trap.contains(&cube(trap, *half)))
+    for half in (0..HALVINGS).map(|k| trap.size() * 0.5f64.powi(k as i32)) {
+        let cube = cube(half);
+        if trap.contains(&cube) && words.are_in_mode(model, &cube)? {
+            return Ok(Some(half));
+        }
+    }
+    Ok(None)
 }

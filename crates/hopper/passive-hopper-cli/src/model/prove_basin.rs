@@ -76,6 +76,8 @@ static FATES: TableKind = TableKind {
 /// What is proved.
 struct Found {
     basins: ProvedBasins,
+    /// For each trap half of the side of a cube of starts in it.
+    reaches: Vec<Option<f64>>,
     certificate: Option<String>,
 }
 
@@ -130,6 +132,7 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         let half: Vec<f64> = window.iter().map(|x| 0.5 * (x.high() - x.low())).collect();
         words.check_closing(&model, &system, (&middle, &half))?;
         let (mut traps, mut numbers): (Vec<Trap>, Vec<_>) = (Vec::new(), Vec::new());
+        let mut reaches = Vec::new();
         for guess in &guesses {
             let orbit = fixed_point(&map, guess, &[]).map_err(failed)?;
             if !orbit.is_attracting() {
@@ -151,6 +154,8 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
                 return Err(Error::Misuse(text));
             }
             let trap = Trap::new(&map, &orbit, own.boxes).map_err(failed)?;
+            words.check_mode(&model, &orbit.point)?;
+            reaches.push(reach(&trap, (&words, &model))?);
             if own.certificate.is_some() {
                 numbers.push(certificate.trap(&map, &trap).map_err(failed)?);
             }
@@ -170,7 +175,7 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
             }
             false => None,
         };
-        Ok(Found { basins, certificate })
+        Ok(Found { basins, reaches, certificate })
     })?;
     if let Some(file) = &options.figure {
         let svg = picture(&found.basins, &sides, &names)?;
@@ -183,7 +188,7 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     if taken {
         return Ok(());
     }
-    form.print(&[shares(&found.basins, &names)], streams.output)
+    form.print(&[shares(&found, &names)], streams.output)
 }
 
 /// The fates that occur, in their order.
@@ -206,13 +211,14 @@ fn shown(names: &[String], point: impl Iterator<Item = f64>) -> String {
     texts.join(", ")
 }
 
-fn shares(basins: &ProvedBasins, names: &[String]) -> Table {
+fn shares(found: &Found, names: &[String]) -> Table {
+    let basins = &found.basins;
     let mut table = Table::new(&FATES);
     for fate in fates(basins) {
         let (name, size) = match fate {
             ProvedFate::Trap(at) => {
                 let trap = &basins.traps()[at];
-                (format!("to {}", shown(names, trap.centre().iter().copied())), reach(trap))
+                (format!("to {}", shown(names, trap.centre().iter().copied())), found.reaches[at])
             }
             ProvedFate::Stopped(surface) => (format!("ends at {surface}"), None),
         };

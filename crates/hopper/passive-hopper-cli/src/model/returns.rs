@@ -4,11 +4,9 @@ use crate::error::Error;
 use crate::model::file::{Model, texts};
 use crate::model::period::check_period;
 use crate::model::places::Places;
-use crate::model::question::{ModelOptions, check_surface, failed, mode_at, place_of};
-use hybrid_system::{EquationsModel, Event, Execution, Label, Limits};
+use crate::model::question::{ModelOptions, check_surface, mode_at, place_of};
 use journal_figures::{Frame, Svg, ticks};
-use nalgebra::DVector;
-use return_map::EquationReturns;
+use return_map::{EquationReturns, ReturnEnds};
 
 /// A return map along a parameter.
 #[derive(Debug, Clone, clap::Args)]
@@ -32,14 +30,8 @@ pub(crate) struct ReturnsOptions {
     mode: Option<String>,
 }
 
-/// The longest return that is tried, as in the library.
-const LONGEST: f64 = 1e3;
-
 /// How far a state that is not named may be from its start behind the surface: a section has it to rounding.
 const NAMED: f64 = 1e-6;
-
-/// The most events until a return, as in the library.
-const EVENTS: usize = 10_000;
 
 /// A return map along a parameter, with what its orbits must fulfil.
 pub(crate) struct Returns {
@@ -153,41 +145,33 @@ fn whole(model: &Model, names: &[String], point: &[f64]) -> Vec<f64> {
 }
 
 impl Checks {
-    /// Refuses a return that does not come back to the mode and to all states of its start, or that takes no period of the model: what is
+    /// Refuses returns, one after the other, that do not come back to the mode and to all states of their start, or that take no period of the model: what is
     /// periodic in the named coordinates would be no orbit. A point without a return is not refused here.
     ///
     /// # Errors
     /// [`Error::Misuse`] with what does not come back, and where.
-    pub(crate) fn check(&self, point: &[f64], parameter: f64) -> Result<(), Error> {
-        let model = with_parameter(&self.model, &self.parameter, parameter);
-        let start = whole(&model, &self.names, point);
-        let own: EquationsModel<DVector<f64>> = model.equations.model().map_err(failed)?;
-        let Ok(run) = own.start_at(&self.mode, start.clone(), (0.0, LONGEST)) else {
-            return Ok(());
-        };
-        let limits = Limits::new(LONGEST, EVENTS);
-        for arc in Execution::restore(&own, run.checkpoint(), limits) {
-            let Ok(arc) = arc else { return Ok(()) };
-            // An event at the start itself is no return.
-            let is_return =
-                |event: &&_| return_event(event, &self.surface) && arc.time + arc.duration > 0.0;
-            let Some(event) = arc.event().filter(is_return) else { continue };
-            let Some((mode, after)) = &event.after else { return Ok(()) };
-            self.check_end(parameter, &start, (mode.as_str(), after.as_slice()))?;
-            return check_period(&model, event.time, &start, Some(&self.surface), "--surface");
+    pub(crate) fn check(
+        &self,
+        map: &EquationReturns,
+        (point, parameter): (&[f64], f64),
+        returns: usize,
+    ) -> Result<(), Error> {
+        let mut point = point.to_vec();
+        for _ in 0..returns {
+            let Ok(ends) = map.return_ends(&point, parameter) else { return Ok(()) };
+            self.check_end(parameter, &ends)?;
+            let model = with_parameter(&self.model, &self.parameter, parameter);
+            check_period(&model, ends.time, &ends.start, Some(&self.surface), "--surface")?;
+            point = ends.image;
         }
         Ok(())
     }
 
-    fn check_end(
-        &self,
-        parameter: f64,
-        start: &[f64],
-        (mode, after): (&str, &[f64]),
-    ) -> Result<(), Error> {
+    fn check_end(&self, parameter: f64, ends: &ReturnEnds) -> Result<(), Error> {
         let Checks { surface, names, .. } = self;
         let at = format!("at {} = {parameter}", self.parameter);
-        if mode != self.mode {
+        let ReturnEnds { start, mode, state: after, .. } = ends;
+        if *mode != self.mode {
             let own = &self.mode;
             let text = format!(
                 "--surface: {at} a return ends in the mode {mode}, and the next one is to begin in {own}; give a surface that leads back to \
@@ -207,10 +191,6 @@ impl Checks {
         }
         Ok(())
     }
-}
-
-fn return_event(event: &Event<Label, Label, DVector<f64>>, surface: &str) -> bool {
-    event.surface == *surface
 }
 
 /// Pixels of the frame up.

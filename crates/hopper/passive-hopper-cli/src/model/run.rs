@@ -8,7 +8,7 @@ use crate::output::{Cell, Column, Table, TableKind};
 use crate::streams::Streams;
 use hybrid_system::{
     ArcEnd, Certainty, EquationsModel, Execution, Filippov, FilippovMode, FilippovSurface,
-    HybridSystem, Label, Limits, Stop, Tolerances,
+    HybridSystem, Label, Limits, Stop, Tolerances, Trajectory,
 };
 use nalgebra::DVector;
 
@@ -222,7 +222,7 @@ where
     let at = execution.checkpoint();
     // Errors of a motion count their times from its beginning.
     let since = format!("the last event, or the start, was at the time {}", at.time());
-    let wrong = wrong.map(|error| Error::Model(format!("{error}; {since}")));
+    let mut wrong = wrong.map(|error| Error::Model(format!("{error}; {since}")));
     let mut last = Table::new(end);
     let mut row: Vec<Cell> = vec![at.time().into(), at.mode().word().into()];
     row.extend(states(at.state()));
@@ -234,18 +234,30 @@ where
         // Behind the last event of a run that ended in an error nothing is known.
         let grid: Vec<f64> = grid.filter(|x| wrong.is_none() || *x <= at.time()).collect();
         let until = if wrong.is_none() { time } else { at.time() };
-        let trajectory = begun(until).trajectory(&grid).map_err(failed)?;
-        let mut found = Table::new(samples);
-        for row in (0..trajectory.times.len()).filter(|row| trajectory.on_grid[*row]) {
-            let mut cells: Vec<Cell> =
-                vec![trajectory.times[row].into(), trajectory.modes[row].word().into()];
-            cells.extend(trajectory.states.row(row).iter().take(count).map(|x| Cell::from(*x)));
-            found.rows.push(cells);
+        match begun(until).trajectory(&grid) {
+            Ok(trajectory) => shown.push(samples_of(samples, &trajectory, count)),
+            // The events stay.
+            Err(error) => wrong = wrong.or_else(|| Some(failed(error))),
         }
-        shown.push(found);
     }
     shown.push(last);
     let expected = matches!(execution.stop(), Some(Stop::TimeLimit | Stop::Terminal));
     let early = (!expected && wrong.is_none()).then(|| (at.time(), reason(execution.stop())));
     Ok(Followed { shown, wrong, early })
+}
+
+/// The table of states at equal times.
+fn samples_of<M: Word, S>(
+    kind: &'static TableKind,
+    trajectory: &Trajectory<M, S>,
+    count: usize,
+) -> Table {
+    let mut found = Table::new(kind);
+    for row in (0..trajectory.times.len()).filter(|row| trajectory.on_grid[*row]) {
+        let mut cells: Vec<Cell> =
+            vec![trajectory.times[row].into(), trajectory.modes[row].word().into()];
+        cells.extend(trajectory.states.row(row).iter().take(count).map(|x| Cell::from(*x)));
+        found.rows.push(cells);
+    }
+    found
 }

@@ -129,16 +129,7 @@ impl MapWords {
     /// # Errors
     /// [`Error::Misuse`] if the starts of a box are not in the mode for certain.
     pub(crate) fn check_mode(&self, model: &Model, starts: &[Enclosure]) -> Result<(), Error> {
-        let places = Places::new(model)?;
-        let number = model.modes.iter().position(|mode| *mode == self.mode);
-        let Some(number) = number.filter(|_| self.is_of_place && places.are_given()) else {
-            return Ok(());
-        };
-        // Without the time.
-        let states = &self.states[..model.equations.names().states.len()];
-        let states = formulas_of(model, &self.variables, states)?;
-        let states = states.enclosures(Enclosure::ZERO, starts).map_err(failed)?;
-        if places.hold(number, &states)? {
+        if self.are_in_mode(model, starts)? {
             return Ok(());
         }
         let text = format!(
@@ -147,6 +138,22 @@ impl MapWords {
             self.mode
         );
         Err(Error::Misuse(text))
+    }
+
+    /// Whether `where` puts all starts of a box into the mode in which the map begins, for certain; true for a mode that is named.
+    ///
+    /// # Errors
+    /// [`Error::Misuse`] for a formula without a value.
+    pub(crate) fn are_in_mode(&self, model: &Model, starts: &[Enclosure]) -> Result<bool, Error> {
+        let places = Places::new(model)?;
+        let number = model.modes.iter().position(|mode| *mode == self.mode);
+        let Some(number) = number.filter(|_| self.is_of_place && places.are_given()) else {
+            return Ok(true);
+        };
+        // Without the time.
+        let states = &self.states[..model.equations.names().states.len()];
+        let states = formulas_of(model, &self.variables, states)?;
+        places.hold(number, &states.enclosures(Enclosure::ZERO, starts).map_err(failed)?)
     }
 }
 
