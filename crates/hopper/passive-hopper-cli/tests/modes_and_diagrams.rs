@@ -305,3 +305,34 @@ fn a_run_that_ends_early_says_so_and_names_stand_once() {
     let times: Vec<&str> = cells(&csv).iter().map(|row| row[0]).collect();
     assert_eq!(times, ["0", "0.25", "0.5"], "{csv}");
 }
+
+#[test]
+fn a_basin_in_a_folder_goes_on_where_it_was_stopped() {
+    let wells = "states = ['x', 'v']\nparameters = { edge = 0 }\n[[mode]]\nname = 'm'\n\
+         rates = { x = 'x + edge - x^3', v = '-v' }\n";
+    let wells = File::new("wells.toml", wells);
+    let folder = std::env::temp_dir().join(format!("nonsmooth_basin_{}", std::process::id()));
+    let place = folder.to_str().unwrap().to_owned();
+    let ask = |more: &[&str]| {
+        let own = ["basin", wells.path(), "--window", "x=-1.5:1.5,v=-1:1", "--step", "1", "--csv"];
+        let small = ["--cells", "20", "--starts", "2", "--tests", "50", "--pixels", "5000", "2"];
+        call(&[&own[..], &small, more].concat())
+    };
+    let (code, whole, message) = ask(&["--out", &place]);
+    assert_eq!(code, 0, "{message}");
+    let array = std::fs::read(folder.join("basin.npy")).unwrap();
+    assert_eq!(array.len(), 128 + 2 * 10_000);
+    // As after a kill: a band and the array are not there.
+    let bands: Vec<_> = std::fs::read_dir(folder.join("bands")).unwrap().flatten().collect();
+    assert_eq!(bands.len(), 2);
+    std::fs::remove_file(bands[0].path()).unwrap();
+    std::fs::remove_file(folder.join("basin.npy")).unwrap();
+    let (code, again, message) = ask(&["--out", &place]);
+    assert_eq!((code, again), (0, whole.clone()), "{message}");
+    assert_eq!(std::fs::read(folder.join("basin.npy")).unwrap(), array);
+    // Without a folder the labels are the same, and another question is refused there.
+    assert_eq!(ask(&[]).1, whole);
+    let (code, _, message) = ask(&["--out", &place, "--set", "edge=0.1"]);
+    assert!(code != 0 && message.contains("job"), "{message}");
+    std::fs::remove_dir_all(&folder).unwrap();
+}

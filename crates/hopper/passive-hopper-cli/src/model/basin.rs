@@ -3,6 +3,7 @@
 use crate::commands::orbit::drawing;
 use crate::commands::search;
 use crate::error::Error;
+use crate::model::basin_store::BasinStore;
 use crate::model::columns::table;
 use crate::model::file::Model;
 use crate::model::period::check_period;
@@ -22,6 +23,8 @@ use hybrid_system::{EquationsModel, Label as Name};
 use nalgebra::DVector;
 use return_map::{ExecutionSteps, FlowSteps};
 use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Find the attractors of a window of states, and the basin of each of its points
@@ -55,6 +58,9 @@ pub(crate) struct Options {
     /// The picture: .svg or .png
     #[arg(long, value_parser = figure)]
     figure: Option<OutputFile>,
+    /// A folder for the labels, basin.npy: the same call goes on there after it was stopped or killed
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) output: OutputOptions,
 }
@@ -107,7 +113,8 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     let axes = [&window[0].0, &window[1].0];
     let [x, y] = axes.map(|name| place_of(&states, name, "--window"));
     let (modes, plane) = (model.modes.clone(), (x?, y?));
-    let question = Question {
+    let mut question = Question {
+        store: None,
         mode: named_mode(options.start.mode.as_deref(), &model)?,
         start: options.start.state(&model)?,
         model,
@@ -124,6 +131,10 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         pixels: (options.pixels[0] as usize, options.pixels[1] as usize),
     };
     question.check_modes()?;
+    if let Some(folder) = &options.out {
+        let store = BasinStore::open(folder, &question.words(&options.model)?, question.pixels)?;
+        question.store = Some(store);
+    }
     let pixels = ("pixels", question.pixels.0 * question.pixels.1);
     let found = search::run_counted(&options.output, &mut streams, pixels, move |count| {
         question.answer(count)
@@ -205,6 +216,8 @@ struct Question {
     starts: u32,
     limits: RecurrenceLimits,
     pixels: (usize, usize),
+    /// Where the labels are kept.
+    store: Option<BasinStore>,
 }
 
 impl Question {
@@ -241,6 +254,18 @@ impl Question {
             .collect::<Result<_, _>>()
             .map_err(failed)?;
         self.search(&ExecutionSteps::new(self.sides.len(), &modes, run), count)
+    }
+
+    /// All that the labels depend on.
+    fn words(&self, options: &ModelOptions) -> Result<String, Error> {
+        let Question { mode, start, sides, step, plane, cells, starts, limits, .. } = self;
+        let hash = self.model.equations.content_hash().map_err(failed)?;
+        let set = options.set_in_words();
+        let places = &self.model.places;
+        Ok(format!(
+            "model {hash} {set}; where {places:?}; mode {mode:?}; start {start:?}; window {sides:?}; step {step:?}; plane {plane:?}; \
+             cells {cells}; starts {starts}; {limits:?}"
+        ))
     }
 
     fn grid(&self, (columns, rows): (usize, usize)) -> Grid {
@@ -280,11 +305,26 @@ impl Question {
             .map(|(column, row)| self.start_at(&places, coarse.x_at(column), coarse.y_at(row)))
             .collect();
         let attractors = Attractors::search(map, grid, &starts, self.limits)?;
-        let image = attractors.raster(map, self.grid(self.pixels), |x, y, state| {
-            count.fetch_add(1, Ordering::Relaxed);
-            state.copy_from_slice(&self.start_at(&places, x, y));
-        })?;
-        Ok(Found { attractors, image })
+        let grid = self.grid(self.pixels);
+        let labels_of = |rows: Range<usize>| {
+            let first = rows.start * grid.columns;
+            let begin = |k: usize, state: &mut [f64]| {
+                count.fetch_add(1, Ordering::Relaxed);
+                let pixel = first + k;
+                let (x, y) = (grid.x_at(pixel % grid.columns), grid.y_at(pixel / grid.columns));
+                state.copy_from_slice(&self.start_at(&places, x, y));
+            };
+            let ends = attractors.convergences(map, rows.len() * grid.columns, begin)?;
+            Ok(ends.into_iter().map(|(label, _)| label).collect::<Vec<Label>>())
+        };
+        let found = |pixels| {
+            count.fetch_add(pixels, Ordering::Relaxed);
+        };
+        let labels = match &self.store {
+            Some(store) => store.labels(found, labels_of)?,
+            None => labels_of(0..grid.rows)?,
+        };
+        Ok(Found { attractors, image: LabelImage { grid, labels } })
     }
 }
 

@@ -13,6 +13,7 @@
 //!   branch.rs    periodic orbits along a parameter, with their bifurcations
 //!   diagram.rs   where orbits are after a transient, along a parameter
 //!   basin.rs     attractors and the basins of a window
+//!   basin_store.rs  its labels in a folder, from which a stopped call goes on
 //!   section_map.rs  the return map of a proof
 //!   prove.rs     a periodic orbit that exists, with a certificate
 //!   prove_basin.rs  which starts come to which orbit, as a theorem
@@ -21,6 +22,7 @@
 //! As `hopper` it holds no mathematics: the crates for any system answer.
 
 mod basin;
+mod basin_store;
 mod branch;
 pub(crate) mod cli;
 mod columns;
