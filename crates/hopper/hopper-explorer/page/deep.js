@@ -2,7 +2,7 @@
 import { MARGIN, deepAxes, powerOfTen } from "./axes.js";
 import { change, layers, say, state } from "./state.js";
 import { pretty, show } from "./numbers.js";
-import { MARK, hatch, outlined } from "./plane.js";
+import { MARK, dim, hatch, outlined } from "./plane.js";
 
 /** Pixels of the first frame and of the fine one, each way; behind it comes one with the pixels of the screen, up to the largest. */
 const QUICK = 48;
@@ -161,6 +161,7 @@ export class Deep {
       const [width, height] = [box.width * size, box.height * size];
       context.drawImage(frame.bitmap, middle.left - width / 2, middle.top - height / 2, width, height);
     }
+    dim(context, MARGIN.left, MARGIN.top, box.width, box.height);
     if (this.parts.failed) hatch(context, MARGIN.left, MARGIN.top, box.width, box.height, true);
     outlined(context, MARK, () => context.arc(middle.left, middle.top, 7, 0, 2 * Math.PI));
   }

@@ -173,7 +173,6 @@ export function paint(context, plane, ratio) {
   context.clip();
   if (plane.overlay) plane.overlay.paint(context, box);
   else paintTiles(context, plane, box);
-  dim(context, MARGIN.left, MARGIN.top, box.width, box.height);
   if (!plane.overlay) {
     if (state.other) paintKept(context, box);
     if (plane.hovered) paintOrbit(context, box, plane.hovered, 0.5);
@@ -205,6 +204,7 @@ function paintTiles(context, plane, box) {
   const ratio = window.devicePixelRatio || 1;
   const pixels = { width: box.width * ratio, height: box.height * ratio };
   const snap = (value) => Math.round(value * ratio) / ratio;
+  const hatched = [];
   for (const tile of needed(state.view, state.layer, pixels, { x: 0, alpha: 0 })) {
     const pictures = plane.store.best(tile);
     const { x, alpha } = windowOf({ ...tile, part: 1 });
@@ -226,8 +226,11 @@ function paintTiles(context, plane, box) {
         bottom - top,
       );
     const failed = plane.store.hasFailed(tile);
-    if (failed || pictures.length === 0) hatch(context, left, top, right - left, bottom - top, failed);
+    if (failed || pictures.length === 0) hatched.push([left, top, right - left, bottom - top, failed]);
   }
+  dim(context, MARGIN.left, MARGIN.top, box.width, box.height);
+  // What is missing is marked as brightly as in the light.
+  hatched.forEach((part) => hatch(context, ...part));
 }
 
 /** Draws a path in black with a white border, which is seen on every colour: lines of these two widths. */

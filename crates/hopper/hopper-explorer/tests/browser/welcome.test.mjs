@@ -353,7 +353,7 @@ onPage(
   { colorScheme: "dark" },
 );
 
-onPage("a point is pinned where it is clicked on the logarithmic axis, too", "#log=-30,14,4.4,8", async (page) => {
+onPage("a point is pinned where it is clicked on the logarithmic axis, too", "#log=-6,0,4.4,8", async (page) => {
   await page.mouse.click(420, 310);
   await page.waitForFunction(() => explorer.state.pin !== null);
   const [pin, there] = await page.evaluate(() => {
