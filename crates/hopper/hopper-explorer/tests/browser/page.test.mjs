@@ -932,7 +932,7 @@ test("one file works without a server", { timeout: 180_000 }, async () => {
   const page = await context.newPage();
   const problems = [];
   page.on("pageerror", (error) => problems.push(error.message));
-  await page.goto(`${pathToFileURL(process.env.EXPLORER_FILE)}#pin=0.2,7`);
+  await page.goto(`${pathToFileURL(process.env.EXPLORER_FILE)}#layer=label&pin=0.2,7`);
   await page.waitForFunction(ready);
   await page.waitForSelector("#map svg");
   assert.ok((await page.textContent("#verdict")).toLowerCase().includes(native.points[0].fate.plain));
