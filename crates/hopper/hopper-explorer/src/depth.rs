@@ -198,12 +198,18 @@ impl Depth {
         Ok(Some(values.number(number)).filter(|number| !number.is_nan()))
     }
 
+    /// The half width of the window in M over its half height, and the slope of the edge over M.
+    fn slant(&self) -> (f64, f64) {
+        match self {
+            Depth::OfFixedPoint(of) => (frame_slant(&of.edge), of.edge.by_mass_ratio),
+            Depth::OfGrounding(edge) => (edge.slant(), edge.by_mass_ratio),
+        }
+    }
+
     /// The slope of the edge, in half heights to half widths.
     fn slope(&self) -> f64 {
-        match self {
-            Depth::OfFixedPoint(of) => of.edge.by_mass_ratio * frame_slant(&of.edge),
-            Depth::OfGrounding(edge) => edge.by_mass_ratio * edge.slant(),
-        }
+        let (slant, by_mass_ratio) = self.slant();
+        by_mass_ratio * slant
     }
 
     /// The numbers of a layer below and above the point, so near that they are those at the edge. None where they still change there: the slope at an edge of
@@ -240,10 +246,7 @@ impl Depth {
     ) -> Result<Vec<u8>, Refusal> {
         let (ratio, point) = self.place();
         let half = pxfm::f_exp10(-depth);
-        let slant = match self {
-            Depth::OfFixedPoint(of) => frame_slant(&of.edge),
-            Depth::OfGrounding(edge) => edge.slant(),
-        };
+        let (slant, _) = self.slant();
         let sides = ((ratio, half * slant), (point, half));
         let numbers = numbers_about(values, sides, (columns, rows))?;
         let row = |row: usize| (0..columns).map(move |column| column * rows + row);

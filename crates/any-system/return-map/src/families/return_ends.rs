@@ -1,7 +1,6 @@
 //! Where a return of equations ends: the mode and the whole state, which a section may not show.
 
 use super::equation_returns::EquationReturns;
-use super::family::MapFamily;
 use super::return_arcs::elapsed;
 use crate::error::Error;
 
@@ -38,10 +37,10 @@ impl EquationReturns {
     /// ```
     ///
     /// # Errors
-    /// Those of [`image`](MapFamily::image).
+    /// Those of [`image`](crate::MapFamily::image).
     pub fn return_ends(&self, point: &[f64], parameter: f64) -> Result<ReturnEnds, Error> {
         let way = self.way(point, parameter)?;
-        let image = self.image(point, parameter)?.point;
+        let image = self.image_after(&way, parameter)?.point;
         let names = self.equations.names().states.len();
         let without_time = |state: &[f64]| state[..names.min(state.len())].to_vec();
         let start =

@@ -3,7 +3,7 @@
 use crate::circle::edge_chart::{EdgeChart, phase_error};
 use crate::circle::edge_path::FollowedEdge;
 use crate::circle::edge_pixels::CHART;
-use crate::circle::edge_window::{MOST_PIXELS, frame_slant};
+use crate::circle::edge_window::{check_frame, frame_slant};
 use crate::circle::phase_basins::PhaseBasins;
 use crate::circle::share_column::power_of_ten;
 use crate::error::Error;
@@ -30,10 +30,7 @@ pub fn edge_phases(
     depth: f64,
     (columns, rows): (usize, usize),
 ) -> Result<Vec<Option<f64>>, Error> {
-    let good = |pixels: usize| (1..=MOST_PIXELS).contains(&pixels);
-    if !(depth >= 0.0 && depth.is_finite() && good(columns) && good(rows)) {
-        return Err(Error::EdgeFrame { depth, columns, rows, most: MOST_PIXELS });
-    }
+    check_frame(depth, (columns, rows))?;
     let (mantissa, exponent) = power_of_ten(depth);
     let half = Offset::new(mantissa, exponent)?.nearest();
     if 1.5 * half > chart.radius().min(CHART) {

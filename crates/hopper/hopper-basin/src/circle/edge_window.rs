@@ -15,7 +15,7 @@ use basin_of_attraction::{Grid, Interval, Label};
 use hopper_asymptotics::{Offset, Phase};
 
 /// Most pixels of a frame each way: its shares then take a gigabyte.
-pub(crate) const MOST_PIXELS: usize = 1 << 13;
+const MOST_PIXELS: usize = 1 << 13;
 
 /// Below the scale of the chart a pixel is the mean of so many strips, each cut into so many cells: 16 levels at an
 /// oblique edge.
@@ -121,10 +121,7 @@ pub fn edge_frame(
     depth: f64,
     (columns, rows): (usize, usize),
 ) -> Result<ShareRaster, Error> {
-    let good = |pixels: usize| (1..=MOST_PIXELS).contains(&pixels);
-    if !(depth >= 0.0 && depth.is_finite() && good(columns) && good(rows)) {
-        return Err(Error::EdgeFrame { depth, columns, rows, most: MOST_PIXELS });
-    }
+    check_frame(depth, (columns, rows))?;
     let unit = Interval::new(-1.0, 1.0)?;
     let grid = Grid { x: unit, y: unit, columns, rows };
     let (mantissa, exponent) = power_of_ten(depth);
@@ -136,6 +133,15 @@ pub fn edge_frame(
         sampled((chart, edge), half.nearest(), &grid)?
     };
     ShareRaster::from_columns(grid, Upwards::Speed, columns.into_iter().map(Some).collect())
+}
+
+/// Refuses a window without pixels, with too many, or with a depth below 0.
+pub(crate) fn check_frame(depth: f64, (columns, rows): (usize, usize)) -> Result<(), Error> {
+    let good = |pixels: usize| (1..=MOST_PIXELS).contains(&pixels);
+    if depth >= 0.0 && depth.is_finite() && good(columns) && good(rows) {
+        return Ok(());
+    }
+    Err(Error::EdgeFrame { depth, columns, rows, most: MOST_PIXELS })
 }
 
 /// Columns of pixels with 2 × 2 fates.

@@ -132,7 +132,7 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     };
     question.check_modes()?;
     if let Some(folder) = &options.out {
-        let store = BasinStore::open(folder, &question.words(&options.model)?, question.pixels)?;
+        let store = BasinStore::open(folder, &question.words()?, question.pixels)?;
         question.store = Some(store);
     }
     let pixels = ("pixels", question.pixels.0 * question.pixels.1);
@@ -257,13 +257,12 @@ impl Question {
     }
 
     /// All that the labels depend on.
-    fn words(&self, options: &ModelOptions) -> Result<String, Error> {
+    fn words(&self) -> Result<String, Error> {
         let Question { mode, start, sides, step, plane, cells, starts, limits, .. } = self;
         let hash = self.model.equations.content_hash().map_err(failed)?;
-        let set = options.set_in_words();
         let places = &self.model.places;
         Ok(format!(
-            "model {hash} {set}; where {places:?}; mode {mode:?}; start {start:?}; window {sides:?}; step {step:?}; plane {plane:?}; \
+            "model {hash}; where {places:?}; mode {mode:?}; start {start:?}; window {sides:?}; step {step:?}; plane {plane:?}; \
              cells {cells}; starts {starts}; {limits:?}"
         ))
     }

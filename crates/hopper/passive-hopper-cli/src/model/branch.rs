@@ -68,8 +68,8 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         let (from, to) = window;
         return Err(Error::misuse("--at", at, &format!("give a value from {from} to {to}")));
     }
-    let returns = options.returns.returns(&model, &names, (std::slice::from_ref(&start), &[at]))?;
-    let (map, checks) = returns.into_parts();
+    let starts = std::slice::from_ref(&start);
+    let (map, checks) = options.returns.returns(&model, &names, (starts, &[at]))?;
     checks.check(&map, (&start, at), period)?;
     let branch = search::run(&options.output, &mut streams, move || {
         let go_on = |_: &_| ControlFlow::Continue(());

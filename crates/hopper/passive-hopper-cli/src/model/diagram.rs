@@ -75,8 +75,7 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     let part = (to - from) / f64::from(options.columns);
     let parameters: Vec<f64> =
         (0..options.columns).map(|column| from + part * (f64::from(column) + 0.5)).collect();
-    let returns = options.returns.returns(&model, &names, (&starts, &parameters))?;
-    let (map, checks) = returns.into_parts();
+    let (map, checks) = options.returns.returns(&model, &names, (&starts, &parameters))?;
     let seeds = if options.carried { Seeds::Carried } else { Seeds::Fresh };
     let length = OrbitLength { transient: options.skip as usize, keep: options.shown as usize };
     let columns = ("columns", parameters.len());

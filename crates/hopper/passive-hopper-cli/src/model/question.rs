@@ -54,12 +54,6 @@ pub(crate) fn failed(error: impl std::fmt::Display) -> Error {
 }
 
 impl ModelOptions {
-    /// The parameters that are given, in words.
-    pub(crate) fn set_in_words(&self) -> String {
-        let pairs = self.set.iter().flatten();
-        pairs.map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(",")
-    }
-
     /// The same for a question that does not follow motions along surfaces.
     ///
     /// # Errors

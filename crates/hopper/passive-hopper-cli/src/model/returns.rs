@@ -33,12 +33,6 @@ pub(crate) struct ReturnsOptions {
 /// How far a state that is not named may be from its start behind the surface: a section has it to rounding.
 const NAMED: f64 = 1e-6;
 
-/// A return map along a parameter, with what its orbits must fulfil.
-pub(crate) struct Returns {
-    pub(crate) map: EquationReturns,
-    checks: Checks,
-}
-
 /// What a return must fulfil so that the map is what the flow does.
 #[derive(Debug, Clone)]
 pub(crate) struct Checks {
@@ -71,7 +65,7 @@ impl ReturnsOptions {
         }
     }
 
-    /// The map of a section with these coordinates, which begins in the mode of these points of it, each at the parameters.
+    /// The map of a section with these coordinates, which begins in the mode of these points of it, each at the parameters; and what its returns must fulfil.
     ///
     /// # Errors
     /// [`Error::Misuse`] for names that the model does not have, for starts in several modes, and for a forced model whose surface is no clock.
@@ -80,7 +74,7 @@ impl ReturnsOptions {
         model: &Model,
         names: &[String],
         (starts, parameters): (&[Vec<f64>], &[f64]),
-    ) -> Result<Returns, Error> {
+    ) -> Result<(EquationReturns, Checks), Error> {
         for name in names {
             place_of(&model.equations.names().states, name, "--near")?;
         }
@@ -119,13 +113,7 @@ impl ReturnsOptions {
             mode,
             names: names.to_vec(),
         };
-        Ok(Returns { map, checks })
-    }
-}
-
-impl Returns {
-    pub(crate) fn into_parts(self) -> (EquationReturns, Checks) {
-        (self.map, self.checks)
+        Ok((map, checks))
     }
 }
 
@@ -156,11 +144,11 @@ impl Checks {
         (point, parameter): (&[f64], f64),
         returns: usize,
     ) -> Result<(), Error> {
+        let model = with_parameter(&self.model, &self.parameter, parameter);
         let mut point = point.to_vec();
         for _ in 0..returns {
             let Ok(ends) = map.return_ends(&point, parameter) else { return Ok(()) };
             self.check_end(parameter, &ends)?;
-            let model = with_parameter(&self.model, &self.parameter, parameter);
             check_period(&model, ends.time, &ends.start, Some(&self.surface), "--surface")?;
             point = ends.image;
         }
